@@ -1,0 +1,730 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPatchScene.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkMath.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <unordered_map>
+
+namespace
+{
+// A polygon whose corners leave its plane by more than this part of its radius (plus what single
+// precision coordinates of the whole scene lose) is refused: view factors of a warped polygon are
+// not defined.
+constexpr double PlanarityTolerance = 1e-4;
+constexpr double CoordinateTolerance = 1e-6;
+// Below this part of the longest edge squared an area is rounding noise.
+constexpr double AreaTolerance = 1e-13;
+
+//------------------------------------------------------------------------------
+// The polygonal leaves of a data object in a fixed order. Leaves of other types come as nullptr.
+std::vector<vtkPolyData*> GetLeaves(vtkDataObject* object)
+{
+  std::vector<vtkPolyData*> leaves;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(object))
+  {
+    vtkSmartPointer<vtkCompositeDataIterator> leaf;
+    leaf.TakeReference(composite->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+    {
+      leaves.push_back(vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()));
+    }
+  }
+  else if (object)
+  {
+    leaves.push_back(vtkPolyData::SafeDownCast(object));
+  }
+  return leaves;
+}
+
+//------------------------------------------------------------------------------
+bool IsGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
+{
+  constexpr unsigned char skipped =
+    vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+  return ghosts && (ghosts->GetValue(cell) & skipped);
+}
+
+//------------------------------------------------------------------------------
+vtkIdType FirstPolygonCell(vtkPolyData* data)
+{
+  return data->GetNumberOfVerts() + data->GetNumberOfLines();
+}
+
+//------------------------------------------------------------------------------
+template <typename T>
+std::vector<T> AllGather(vtkMultiProcessController* controller, const std::vector<T>& mine)
+{
+  if (!controller || controller->GetNumberOfProcesses() == 1)
+  {
+    return mine;
+  }
+  const int ranks = controller->GetNumberOfProcesses();
+  const vtkIdType length = static_cast<vtkIdType>(mine.size());
+  std::vector<vtkIdType> lengths(ranks), offsets(ranks);
+  controller->AllGather(&length, lengths.data(), 1);
+  std::partial_sum(lengths.begin(), lengths.end() - 1, offsets.begin() + 1);
+  std::vector<T> all(offsets.back() + lengths.back());
+  controller->AllGatherV(mine.data(), all.data(), length, lengths.data(), offsets.data());
+  return all;
+}
+
+//------------------------------------------------------------------------------
+struct CoordinateHash
+{
+  std::size_t operator()(const std::array<double, 3>& point) const
+  {
+    std::uint64_t bits[3];
+    std::memcpy(bits, point.data(), sizeof(bits));
+    std::uint64_t hash = 0;
+    for (const std::uint64_t part : bits)
+    {
+      hash = (hash ^ part) * 0x9E3779B97F4A7C15ull;
+      hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+//------------------------------------------------------------------------------
+// The root of a set in a forest of parents, shortening the way there.
+int FindRoot(std::vector<int>& parents, int item)
+{
+  while (parents[item] != item)
+  {
+    item = parents[item] = parents[parents[item]];
+  }
+  return item;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::Agree(vtkMultiProcessController* controller, bool ok, std::string& error)
+{
+  if (!controller || controller->GetNumberOfProcesses() == 1)
+  {
+    return ok;
+  }
+  std::vector<char> text(ok ? 0 : error.size() + 1);
+  std::copy(error.begin(), ok ? error.begin() : error.end(), text.begin());
+  const std::vector<char> all = AllGather(controller, text);
+  if (all.empty())
+  {
+    return true;
+  }
+  // Texts end with a zero each; the first one is that of the lowest rank.
+  error = all.data();
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* controller,
+  std::string& error)
+{
+  *this = vtkPatchScene();
+  this->Controller = controller;
+  Raw raw;
+  const bool ok = this->CollectLocal(input, raw, error);
+  if (!vtkPatchScene::Agree(controller, ok, error))
+  {
+    return false;
+  }
+  this->GatherRanks(raw);
+  if (raw.Counts.empty())
+  {
+    error = "The input has no polygons: give a surface with at least one polygon.";
+    return false;
+  }
+  this->ComputeFingerprint(raw);
+  this->Offsets.resize(raw.Counts.size() + 1, 0);
+  std::partial_sum(raw.Counts.begin(), raw.Counts.end(), this->Offsets.begin() + 1);
+  if (!this->Normalize(raw, error))
+  {
+    return false;
+  }
+  this->MergePoints(raw);
+  return this->ComputePatchGeometry(error);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::CollectLocal(vtkDataObject* input, Raw& raw, std::string& error)
+{
+  const std::vector<vtkPolyData*> leaves = GetLeaves(input);
+  for (std::size_t block = 0; block < leaves.size(); ++block)
+  {
+    vtkPolyData* data = leaves[block];
+    if (!data)
+    {
+      error = "A block of the input is no polygonal data: extract its surface first.";
+      return false;
+    }
+    if (data->GetNumberOfStrips() > 0)
+    {
+      error = "The input has triangle strips: pass it through vtkTriangleFilter first.";
+      return false;
+    }
+    this->CollectBlock(data, static_cast<int>(block), raw);
+  }
+  if (!std::all_of(raw.Coordinates.begin(), raw.Coordinates.end(),
+        [](double value) { return std::isfinite(value); }))
+  {
+    error = "The input has point coordinates that are not finite (NaN or infinite): remove those "
+            "points, for example with a threshold and vtkCleanPolyData.";
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
+{
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    data->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  const vtkIdType first = FirstPolygonCell(data);
+  vtkCellArray* polygons = data->GetPolys();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType polygon = 0; polygon < polygons->GetNumberOfCells(); ++polygon)
+  {
+    if (IsGhost(ghosts, first + polygon))
+    {
+      continue;
+    }
+    polygons->GetCellAtId(polygon, corners);
+    this->LocalCells.push_back({ block, first + polygon });
+    raw.Counts.push_back(corners->GetNumberOfIds());
+    for (vtkIdType corner = 0; corner < corners->GetNumberOfIds(); ++corner)
+    {
+      double point[3];
+      data->GetPoint(corners->GetId(corner), point);
+      for (const double coordinate : point)
+      {
+        // Adding zero turns -0 into 0: equal coordinates then have equal bits.
+        raw.Coordinates.push_back(coordinate + 0.0);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::GatherRanks(Raw& raw)
+{
+  const std::vector<vtkIdType> mine{ static_cast<vtkIdType>(raw.Counts.size()) };
+  const std::vector<vtkIdType> patches = AllGather(this->Controller, mine);
+  const int rank = patches.size() > 1 ? this->Controller->GetLocalProcessId() : 0;
+  this->FirstLocalPatch =
+    std::accumulate(patches.begin(), patches.begin() + rank, static_cast<vtkIdType>(0));
+  raw.Counts = AllGather(this->Controller, raw.Counts);
+  raw.Coordinates = AllGather(this->Controller, raw.Coordinates);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::Normalize(const Raw& raw, std::string& error)
+{
+  Vector low = Vector::Constant(std::numeric_limits<double>::max());
+  Vector high = -low;
+  for (std::size_t corner = 0; corner < raw.Coordinates.size(); corner += 3)
+  {
+    const Vector point(&raw.Coordinates[corner]);
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  this->Center = 0.5 * low + 0.5 * high;
+  this->Scale = (high - low).stableNorm();
+  if (!std::isfinite(this->Scale) || this->Scale < std::numeric_limits<double>::min())
+  {
+    std::ostringstream text;
+    text << "The input's bounding box has diagonal " << this->Scale
+         << ": scale it to a size that double precision can hold.";
+    error = text.str();
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::MergePoints(const Raw& raw)
+{
+  std::unordered_map<std::array<double, 3>, vtkIdType, CoordinateHash> known;
+  known.reserve(raw.Coordinates.size() / 6);
+  for (std::size_t corner = 0; corner < raw.Coordinates.size(); corner += 3)
+  {
+    const std::array<double, 3> key{ raw.Coordinates[corner], raw.Coordinates[corner + 1],
+      raw.Coordinates[corner + 2] };
+    const auto inserted = known.emplace(key, static_cast<vtkIdType>(this->Points.size()));
+    if (inserted.second)
+    {
+      this->Points.push_back((Vector(key.data()) - this->Center) / this->Scale);
+    }
+    this->Corners.push_back(inserted.first->second);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::ComputePatchGeometry(std::string& error)
+{
+  const vtkIdType patches = static_cast<vtkIdType>(this->Offsets.size()) - 1;
+  this->Areas.resize(patches);
+  this->Normals.resize(patches);
+  this->Centroids.resize(patches);
+  this->Radii.resize(patches);
+  for (vtkIdType patch = 0; patch < patches; ++patch)
+  {
+    const char* problem = this->ComputeOnePatch(patch);
+    if (problem)
+    {
+      error = "Polygon " + std::to_string(patch) + " " + problem;
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkPatchScene::ComputeOnePatch(vtkIdType patch)
+{
+  const int corners = this->GetNumberOfCorners(patch);
+  if (corners < 3)
+  {
+    return "has fewer than 3 corners: remove degenerate cells (vtkCleanPolyData, or vtkPatchMesher "
+           "with Repair on).";
+  }
+  const Vector& origin = this->GetCorner(patch, 0);
+  Vector twiceArea = Vector::Zero();
+  double longest = 0.0;
+  for (int corner = 0; corner < corners; ++corner)
+  {
+    const Vector a = this->GetCorner(patch, corner) - origin;
+    const Vector b = this->GetCorner(patch, (corner + 1) % corners) - origin;
+    twiceArea += a.cross(b);
+    longest = std::max(longest, (b - a).squaredNorm());
+  }
+  const double area = 0.5 * twiceArea.norm();
+  if (area <= AreaTolerance * longest)
+  {
+    return "has no area: remove degenerate cells (vtkCleanPolyData, or vtkPatchMesher with Repair "
+           "on).";
+  }
+  const Vector normal = twiceArea.normalized();
+  Vector moment = Vector::Zero();
+  for (int corner = 1; corner + 1 < corners; ++corner)
+  {
+    const Vector a = this->GetCorner(patch, corner) - origin;
+    const Vector b = this->GetCorner(patch, corner + 1) - origin;
+    moment += 0.5 * a.cross(b).dot(normal) * (a + b) / 3.0;
+  }
+  const Vector centroid = origin + moment / area;
+  double radius = 0.0;
+  for (int corner = 0; corner < corners; ++corner)
+  {
+    radius = std::max(radius, (this->GetCorner(patch, corner) - centroid).norm());
+  }
+  this->Areas[patch] = area;
+  this->Normals[patch] = normal;
+  this->Centroids[patch] = centroid;
+  this->Radii[patch] = radius;
+  return this->CheckShape(patch);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkPatchScene::CheckShape(vtkIdType patch) const
+{
+  const int corners = this->GetNumberOfCorners(patch);
+  if (corners == 3)
+  {
+    return nullptr;
+  }
+  const Vector& normal = this->Normals[patch];
+  const double tolerance = PlanarityTolerance * this->Radii[patch] + CoordinateTolerance;
+  for (int corner = 0; corner < corners; ++corner)
+  {
+    const Vector& a = this->GetCorner(patch, corner);
+    const Vector& b = this->GetCorner(patch, (corner + 1) % corners);
+    const Vector& c = this->GetCorner(patch, (corner + 2) % corners);
+    if (std::abs((a - this->Centroids[patch]).dot(normal)) > tolerance)
+    {
+      return "is not planar: pass the input through vtkTriangleFilter first.";
+    }
+    const double turn = (b - a).cross(c - b).dot(normal);
+    if (turn < -tolerance * ((b - a).norm() + (c - b).norm()))
+    {
+      return "is not convex: pass the input through vtkTriangleFilter first.";
+    }
+  }
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::ComputeFingerprint(const Raw& raw)
+{
+  std::uint64_t hash = 0xCBF29CE484222325ull;
+  const auto add = [&hash](std::uint64_t bits)
+  {
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
+    hash ^= hash >> 29;
+  };
+  for (const vtkIdType count : raw.Counts)
+  {
+    add(static_cast<std::uint64_t>(count));
+  }
+  for (const double coordinate : raw.Coordinates)
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, &coordinate, sizeof(bits));
+    add(bits);
+  }
+  this->Fingerprint = hash;
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::GatherCellArray(vtkDataObject* input, const std::string& name, bool required,
+  std::vector<double>& values, int& components, std::string& error) const
+{
+  std::vector<double> mine;
+  int found = 0; // 0: no local patches, -1: missing, otherwise the number of components
+  bool ok = this->ReadLocalArray(input, name, mine, found, error);
+  if (!vtkPatchScene::Agree(this->Controller, ok, error))
+  {
+    return false;
+  }
+  const std::vector<int> all = AllGather(this->Controller, std::vector<int>{ found });
+  components = 0;
+  bool missing = false;
+  for (const int rank : all)
+  {
+    missing = missing || rank < 0;
+    ok = ok && (rank <= 0 || components == 0 || rank == components);
+    components = std::max(components, rank);
+  }
+  if (missing && components == 0)
+  {
+    values.clear();
+    error = "The input has no cell array \"" + name + "\".";
+    return !required;
+  }
+  if (missing || !ok)
+  {
+    error = "The cell array \"" + name +
+      "\" is missing or has another number of components in some blocks: give it to all of them.";
+    return false;
+  }
+  values = AllGather(this->Controller, mine);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::ReadLocalArray(vtkDataObject* input, const std::string& name,
+  std::vector<double>& values, int& components, std::string& error) const
+{
+  const std::vector<vtkPolyData*> leaves = GetLeaves(input);
+  int block = -1;
+  vtkDataArray* array = nullptr;
+  for (const LocalCell& local : this->LocalCells)
+  {
+    if (local.Block != block)
+    {
+      block = local.Block;
+      array = this->FindArray(leaves[block], name, error);
+      if (!error.empty())
+      {
+        return false;
+      }
+      const int here = array ? array->GetNumberOfComponents() : -1;
+      if (components != 0 && here != components)
+      {
+        error = "The cell array \"" + name +
+          "\" is missing or has another number of components in some blocks: give it to all of "
+          "them.";
+        return false;
+      }
+      components = here;
+    }
+    for (int component = 0; component < components; ++component)
+    {
+      const double value = array->GetComponent(local.Cell, component);
+      if (!std::isfinite(value))
+      {
+        error = "The cell array \"" + name + "\" has a value that is not finite at cell " +
+          std::to_string(local.Cell) + ": replace it, for example with vtkArrayCalculator.";
+        return false;
+      }
+      values.push_back(value);
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArray* vtkPatchScene::FindArray(vtkPolyData* data, const std::string& name,
+  std::string& error) const
+{
+  vtkAbstractArray* array = data->GetCellData()->GetAbstractArray(name.c_str());
+  vtkDataArray* numbers = vtkDataArray::SafeDownCast(array);
+  if (array && !numbers)
+  {
+    error = "The cell array \"" + name + "\" is not numeric.";
+  }
+  else if (!array && data->GetPointData()->HasArray(name.c_str()))
+  {
+    error = "\"" + name +
+      "\" is a point array and a cell array is needed: pass the input through "
+      "vtkPointDataToCellData.";
+  }
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::BuildSmoothPoints(double featureAngle, const std::vector<double>& materials,
+  int materialComponents)
+{
+  const vtkIdType points = static_cast<vtkIdType>(this->Points.size());
+  std::vector<vtkIdType> starts(points + 1, 0);
+  for (const vtkIdType point : this->Corners)
+  {
+    ++starts[point + 1];
+  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::pair<vtkIdType, vtkIdType>> uses(this->Corners.size()); // patch, corner
+  std::vector<vtkIdType> next(starts.begin(), starts.end() - 1);
+  for (vtkIdType patch = 0; patch < this->GetNumberOfPatches(); ++patch)
+  {
+    for (vtkIdType corner = this->Offsets[patch]; corner < this->Offsets[patch + 1]; ++corner)
+    {
+      uses[next[this->Corners[corner]]++] = { patch, corner };
+    }
+  }
+
+  const double cosine = std::cos(vtkMath::RadiansFromDegrees(featureAngle));
+  const auto joined = [&](vtkIdType a, vtkIdType b)
+  {
+    return this->Normals[a].dot(this->Normals[b]) >= cosine &&
+      std::equal(materials.begin() + a * materialComponents,
+        materials.begin() + (a + 1) * materialComponents,
+        materials.begin() + b * materialComponents);
+  };
+  this->CornerGroups.assign(this->Corners.size(), 0);
+  this->NumberOfGroups = 0;
+  for (vtkIdType point = 0; point < points; ++point)
+  {
+    const int count = static_cast<int>(starts[point + 1] - starts[point]);
+    const auto* use = &uses[starts[point]];
+    std::vector<int> parents(count);
+    std::iota(parents.begin(), parents.end(), 0);
+    for (int a = 0; a < count; ++a)
+    {
+      for (int b = 0; b < a; ++b)
+      {
+        if (joined(use[a].first, use[b].first))
+        {
+          parents[FindRoot(parents, a)] = FindRoot(parents, b);
+        }
+      }
+    }
+    std::vector<vtkIdType> groups(count, -1);
+    for (int a = 0; a < count; ++a)
+    {
+      vtkIdType& group = groups[FindRoot(parents, a)];
+      group = group < 0 ? this->NumberOfGroups++ : group;
+      this->CornerGroups[use[a].second] = group;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::CopyStructure(vtkDataObject* input, vtkDataObject* output)
+{
+  const std::vector<vtkPolyData*> leaves = GetLeaves(input);
+  this->BlockPointGroups.assign(leaves.size(), {});
+  std::vector<vtkIdType> firstLocal(leaves.size() + 1, 0);
+  for (const LocalCell& local : this->LocalCells)
+  {
+    ++firstLocal[local.Block + 1];
+  }
+  std::partial_sum(firstLocal.begin(), firstLocal.end(), firstLocal.begin());
+
+  auto* compositeIn = vtkCompositeDataSet::SafeDownCast(input);
+  if (!compositeIn)
+  {
+    this->CopyBlock(leaves[0], 0, 0, vtkPolyData::SafeDownCast(output));
+    return;
+  }
+  auto* compositeOut = vtkCompositeDataSet::SafeDownCast(output);
+  compositeOut->CopyStructure(compositeIn);
+  compositeOut->GetFieldData()->ShallowCopy(compositeIn->GetFieldData());
+  vtkSmartPointer<vtkCompositeDataIterator> leaf;
+  leaf.TakeReference(compositeIn->NewIterator());
+  int block = 0;
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem(), ++block)
+  {
+    vtkNew<vtkPolyData> copy;
+    this->CopyBlock(leaves[block], block, firstLocal[block], copy);
+    compositeOut->SetDataSet(leaf, copy);
+  }
+}
+
+//------------------------------------------------------------------------------
+// The first smooth group that meets a point keeps it; every further one gets a copy of its own at
+// the end.
+void vtkPatchScene::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
+  vtkPolyData* output)
+{
+  output->ShallowCopy(input);
+  std::vector<vtkIdType>& groups = this->BlockPointGroups[block];
+  groups.assign(input->GetNumberOfPoints(), -1);
+  std::vector<vtkIdType> sources; // of the points added
+  std::unordered_map<vtkIdType, vtkIdType> added;
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkIdList> corners;
+  auto local = static_cast<std::size_t>(firstLocal);
+  const vtkIdType first = FirstPolygonCell(input);
+  for (vtkIdType polygon = 0; polygon < input->GetPolys()->GetNumberOfCells(); ++polygon)
+  {
+    input->GetPolys()->GetCellAtId(polygon, corners);
+    const bool isPatch = local < this->LocalCells.size() &&
+      this->LocalCells[local].Block == block && this->LocalCells[local].Cell == first + polygon;
+    for (vtkIdType corner = 0; isPatch && corner < corners->GetNumberOfIds(); ++corner)
+    {
+      const vtkIdType patch = this->FirstLocalPatch + static_cast<vtkIdType>(local);
+      const vtkIdType group = this->CornerGroups[this->Offsets[patch] + corner];
+      const vtkIdType point = corners->GetId(corner);
+      if (groups[point] < 0)
+      {
+        groups[point] = group;
+      }
+      if (groups[point] == group)
+      {
+        continue;
+      }
+      const auto inserted = added.emplace(group, static_cast<vtkIdType>(groups.size()));
+      if (inserted.second)
+      {
+        groups.push_back(group);
+        sources.push_back(point);
+      }
+      corners->SetId(corner, inserted.first->second);
+    }
+    local += isPatch ? 1 : 0;
+    polygons->InsertNextCell(corners);
+  }
+  if (!sources.empty())
+  {
+    AppendPoints(input, sources, output);
+    output->SetPolys(polygons);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::AppendPoints(vtkPolyData* input, const std::vector<vtkIdType>& sources,
+  vtkPolyData* output)
+{
+  const vtkIdType old = input->GetNumberOfPoints();
+  const vtkIdType total = old + static_cast<vtkIdType>(sources.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(input->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(total);
+  vtkPointData* from = input->GetPointData();
+  vtkPointData* to = output->GetPointData();
+  to->Initialize();
+  to->CopyAllOn();
+  to->CopyAllocate(from, total);
+  for (vtkIdType point = 0; point < total; ++point)
+  {
+    const vtkIdType source = point < old ? point : sources[point - old];
+    points->SetPoint(point, input->GetPoint(source));
+    to->CopyData(from, source, point);
+  }
+  output->SetPoints(points);
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::AddCellArray(vtkDataObject* output, const std::string& name,
+  const std::vector<double>& values, int components) const
+{
+  std::vector<vtkDoubleArray*> arrays;
+  for (vtkPolyData* data : GetLeaves(output))
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(data->GetNumberOfCells());
+    array->Fill(0.0);
+    data->GetCellData()->AddArray(array);
+    arrays.push_back(array);
+  }
+  const double* source = values.data() + this->FirstLocalPatch * components;
+  for (const LocalCell& local : this->LocalCells)
+  {
+    arrays[local.Block]->SetTypedTuple(local.Cell, source);
+    source += components;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::AddPointArray(vtkDataObject* output, const std::string& name,
+  const std::vector<double>& values, int components) const
+{
+  std::vector<double> means(this->NumberOfGroups * components, 0.0);
+  std::vector<double> weights(this->NumberOfGroups, 0.0);
+  for (vtkIdType patch = 0; patch < this->GetNumberOfPatches(); ++patch)
+  {
+    for (vtkIdType corner = this->Offsets[patch]; corner < this->Offsets[patch + 1]; ++corner)
+    {
+      const vtkIdType group = this->CornerGroups[corner];
+      weights[group] += this->Areas[patch];
+      for (int component = 0; component < components; ++component)
+      {
+        means[group * components + component] +=
+          this->Areas[patch] * values[patch * components + component];
+      }
+    }
+  }
+  const std::vector<vtkPolyData*> leaves = GetLeaves(output);
+  for (std::size_t block = 0; block < leaves.size(); ++block)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(leaves[block]->GetNumberOfPoints());
+    array->Fill(0.0);
+    const std::vector<vtkIdType>& groups = this->BlockPointGroups[block];
+    for (std::size_t point = 0; point < groups.size(); ++point)
+    {
+      for (int component = 0; groups[point] >= 0 && component < components; ++component)
+      {
+        array->SetTypedComponent(static_cast<vtkIdType>(point), component,
+          means[groups[point] * components + component] / weights[groups[point]]);
+      }
+    }
+    leaves[block]->GetPointData()->AddArray(array);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchScene::AddArray(vtkDataObject* output, const std::string& name,
+  const std::vector<double>& values, int components) const
+{
+  this->AddCellArray(output, name, values, components);
+  this->AddPointArray(output, name, values, components);
+}

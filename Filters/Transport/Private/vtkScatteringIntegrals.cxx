@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkScatteringIntegrals.h"
+
+#include "vtkGaussLegendre.h"
+#include "vtkMath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+using Vector = vtkScatteringIntegrals::Vector;
+using Triangle = vtkScatteringIntegrals::Triangle;
+
+/// The table has 2^6 pieces per octave of squared distance: the top bits of a float are the piece, the rest is the place in it.
+constexpr int MantissaBits = 23;
+constexpr int PieceBits = 6;
+constexpr int PlaceBits = MantissaBits - PieceBits;
+
+/// Cuts after which the rules have the last word: sides are 2^-15 of what they were.
+constexpr int MaximumDepth = 30;
+
+constexpr float WeightsOfOne[] = { 1.0f };
+constexpr float WeightsOfThree[] = { 1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f };
+/// D. A. Dunavant, 1985: degree 4.
+constexpr double PlacesOfSix[] = { 0.445948490915965, 0.091576213509771 };
+constexpr float WeightsOfSix[] = { 0.223381589678011f, 0.223381589678011f, 0.223381589678011f,
+  0.109951743655322f, 0.109951743655322f, 0.109951743655322f };
+
+//------------------------------------------------------------------------------
+std::uint32_t BitsOf(float value)
+{
+  std::uint32_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+//------------------------------------------------------------------------------
+float FloatOf(std::uint32_t bits)
+{
+  float value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+//------------------------------------------------------------------------------
+void PlaceSix(const Triangle& triangle, Vector* points)
+{
+  for (int k = 0; k < 6; ++k)
+  {
+    const double place = PlacesOfSix[k / 3];
+    // Corner with weight 1 - 2 place, the two others with place.
+    points[k] =
+      3.0 * place * triangle.Centroid + (1.0 - 3.0 * place) * triangle.Corners[k % 3];
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+vtkScatteringIntegrals::Triangle::Triangle(const Vector& a, const Vector& b, const Vector& c)
+  : Corners{ a, b, c }
+  , Centroid((a + b + c) / 3.0)
+  , Area(0.5 * (b - a).cross(c - a).norm())
+{
+  double largest = 0.0;
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double squared = (this->Corners[k] - this->Centroid).squaredNorm();
+    largest = std::max(largest, squared);
+    sum += squared;
+    this->Points[k] = 0.5 * (this->Centroid + this->Corners[k]);
+  }
+  this->Radius = std::sqrt(largest);
+  this->Moment = sum / 12.0;
+}
+
+//------------------------------------------------------------------------------
+vtkScatteringIntegrals::vtkScatteringIntegrals(const std::vector<vtkDiffusionProfile>& profiles,
+  double maximumDistance, double relativeTolerance)
+  : Profiles(profiles)
+  , RelativeTolerance(relativeTolerance)
+{
+  double depth = profiles[0].GetRealDepth();
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    const double total = profiles[band].GetTotal();
+    this->Scales[band] = total > 0.0 ? 1.0 / total : 0.0;
+    depth = std::min(depth, profiles[band].GetRealDepth());
+    this->TransportCoefficient =
+      std::max(this->TransportCoefficient, profiles[band].GetTransportCoefficient());
+  }
+  this->SquaredDepth = depth * depth;
+  this->Tabulate(maximumDistance);
+}
+
+//------------------------------------------------------------------------------
+void vtkScatteringIntegrals::Tabulate(double maximumDistance)
+{
+  const auto pieceOf = [](double value)
+  { return BitsOf(static_cast<float>(value)) >> PlaceBits; };
+  this->FirstPiece = pieceOf(this->SquaredDepth);
+  const std::uint32_t lastPiece =
+    pieceOf(1.01 * (maximumDistance * maximumDistance + this->SquaredDepth)) + 1;
+  this->Table.resize(lastPiece - this->FirstPiece + 1);
+  for (std::size_t i = 0; i < this->Table.size(); ++i)
+  {
+    const std::uint32_t bits = static_cast<std::uint32_t>(i + this->FirstPiece) << PlaceBits;
+    const double begin = FloatOf(bits);
+    const double length = FloatOf(bits + (1u << PlaceBits)) - begin;
+    for (Lane& coefficients : this->Table[i].Coefficients)
+    {
+      coefficients.setZero();
+    }
+    for (int band = 0; band < NumberOfBands; ++band)
+    {
+      double values[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        const double squared = begin + 0.5 * k * length - this->SquaredDepth;
+        // Denormal numbers would be slow, and are nothing.
+        const double value = this->Scales[band] *
+          this->Profiles[band].Evaluate(std::sqrt(std::max(0.0, squared)));
+        values[k] = value > 1e-30 ? value : 0.0;
+      }
+      this->Table[i].Coefficients[0][band] = static_cast<float>(values[0]);
+      this->Table[i].Coefficients[1][band] =
+        static_cast<float>(4.0 * values[1] - 3.0 * values[0] - values[2]);
+      this->Table[i].Coefficients[2][band] =
+        static_cast<float>(2.0 * (values[0] + values[2] - 2.0 * values[1]));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+inline vtkScatteringIntegrals::Lane vtkScatteringIntegrals::Evaluate(
+  const Vector& difference) const
+{
+  const std::uint32_t bits =
+    BitsOf(static_cast<float>(difference.squaredNorm() + this->SquaredDepth));
+  const Piece& piece = this->Table[(bits >> PlaceBits) - this->FirstPiece];
+  constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
+  const float place = static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits));
+  return piece.Coefficients[0] +
+    place * (piece.Coefficients[1] + place * piece.Coefficients[2]);
+}
+
+//------------------------------------------------------------------------------
+double vtkScatteringIntegrals::GetBound(double distance) const
+{
+  double bound = 0.0;
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    bound = std::max(
+      bound, this->Scales[band] * this->Profiles[band].Evaluate(std::max(0.0, distance)));
+  }
+  return bound;
+}
+
+//------------------------------------------------------------------------------
+vtkScatteringIntegrals::Bands vtkScatteringIntegrals::IntegrateProduct(const Vector* a,
+  const float* weightsA, int countA, const Vector* b, const float* weightsB, int countB) const
+{
+  Lane sum = Lane::Zero();
+  for (int i = 0; i < countA; ++i)
+  {
+    Lane row = Lane::Zero();
+    for (int j = 0; j < countB; ++j)
+    {
+      row += weightsB[j] * this->Evaluate(a[i] - b[j]);
+    }
+    sum += weightsA[i] * row;
+  }
+  return sum.cast<double>();
+}
+
+//------------------------------------------------------------------------------
+bool vtkScatteringIntegrals::TryRules(
+  const Triangle& a, const Triangle& b, double tolerance, bool last, Result& result) const
+{
+  // Derivatives of the profile, over its value, are bounded by powers of 4 / D + sigma, with D the distance to the source; `spread` is
+  // the displacement of a point from the centroids on that scale.
+  const double areas = a.Area * b.Area;
+  const double squared = (a.Centroid - b.Centroid).squaredNorm() + this->SquaredDepth;
+  const double slope = 3.5 / std::sqrt(squared) + this->TransportCoefficient;
+  const double spread2 = slope * slope * (a.Moment + b.Moment);
+  const double limit = tolerance / areas;
+  const auto accept = [&](const Bands& value, const Bands& error) {
+    const bool good =
+      last || (error <= this->RelativeTolerance * value + limit).all();
+    if (good)
+    {
+      result.Value += areas * value;
+      result.Error += areas * error.maxCoeff();
+    }
+    return good;
+  };
+  const Bands one = this->IntegrateProduct(&a.Centroid, WeightsOfOne, 1, &b.Centroid, WeightsOfOne, 1);
+  if (!last && accept(one, 0.25 * spread2 * one))
+  {
+    return true;
+  }
+  if (spread2 > 4.0 && !last)
+  {
+    return false;
+  }
+  const Bands three = this->IntegrateProduct(a.Points, WeightsOfThree, 3, b.Points, WeightsOfThree, 3);
+  const double spread = std::sqrt(spread2);
+  if (!last && accept(three, 0.5 * spread * (three - one).abs() + 0.02 * spread2 * spread2 * three))
+  {
+    return true;
+  }
+  Vector pointsA[6];
+  Vector pointsB[6];
+  PlaceSix(a, pointsA);
+  PlaceSix(b, pointsB);
+  const Bands six = this->IntegrateProduct(pointsA, WeightsOfSix, 6, pointsB, WeightsOfSix, 6);
+  return accept(six, 0.3 * spread * (six - three).abs() + 0.001 * spread2 * spread2 * spread2 * six);
+}
+
+//------------------------------------------------------------------------------
+void vtkScatteringIntegrals::AddPairRecursively(
+  const Triangle& a, const Triangle& b, double tolerance, int depth, Result& result) const
+{
+  if (this->TryRules(a, b, tolerance, depth == 0, result))
+  {
+    return;
+  }
+  const bool cutFirst = a.Radius >= b.Radius;
+  const Triangle& whole = cutFirst ? a : b;
+  const Triangle& other = cutFirst ? b : a;
+  const Vector& p = whole.Corners[0];
+  const Vector& q = whole.Corners[1];
+  const Vector& r = whole.Corners[2];
+  const Vector pq = 0.5 * (p + q);
+  const Vector qr = 0.5 * (q + r);
+  const Vector rp = 0.5 * (r + p);
+  // The error gathers in the parts next to the other triangle, about half of them.
+  const double part = 0.5 * tolerance;
+  this->AddPairRecursively(Triangle(p, pq, rp), other, part, depth - 1, result);
+  this->AddPairRecursively(Triangle(pq, q, qr), other, part, depth - 1, result);
+  this->AddPairRecursively(Triangle(rp, qr, r), other, part, depth - 1, result);
+  this->AddPairRecursively(Triangle(qr, rp, pq), other, part, depth - 1, result);
+}
+
+//------------------------------------------------------------------------------
+void vtkScatteringIntegrals::AddPair(
+  const Triangle& a, const Triangle& b, double tolerance, Result& result) const
+{
+  this->AddPairRecursively(a, b, tolerance, MaximumDepth, result);
+}
+
+//------------------------------------------------------------------------------
+void vtkScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) const
+{
+  // Barycentric coordinates change by Gradients . e along a direction e of the plane; their positive part is gamma.
+  const Vector edges[3] = { triangle.Corners[2] - triangle.Corners[1],
+    triangle.Corners[0] - triangle.Corners[2], triangle.Corners[1] - triangle.Corners[0] };
+  const Vector normal = edges[0].cross(edges[1]).normalized();
+  const Vector axisX = edges[0].normalized();
+  const Vector axisY = normal.cross(axisX);
+  double angles[4];
+  for (int k = 0; k < 3; ++k)
+  {
+    // gamma has a kink along each edge; directions and their opposites count alike.
+    const double angle = std::atan2(edges[k].dot(axisY), edges[k].dot(axisX));
+    angles[k] = angle < 0.0 ? angle + vtkMath::Pi() : angle;
+    angles[k] = angles[k] >= vtkMath::Pi() ? angles[k] - vtkMath::Pi() : angles[k];
+  }
+  std::sort(angles, angles + 3);
+  angles[3] = angles[0] + vtkMath::Pi();
+
+  static const vtkGaussLegendre rule(16);
+  for (int sector = 0; sector < 3; ++sector)
+  {
+    const double width = angles[sector + 1] - angles[sector];
+    for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+    {
+      const double angle = angles[sector] + width * rule.Nodes[k];
+      const Vector direction = std::cos(angle) * axisX + std::sin(angle) * axisY;
+      double gamma = 0.0;
+      for (const Vector& edge : edges)
+      {
+        gamma += std::max(0.0, normal.cross(edge).dot(direction));
+      }
+      gamma /= 2.0 * triangle.Area;
+      const double weight = 2.0 * triangle.Area * width * rule.Weights[k];
+      for (int band = 0; band < NumberOfBands; ++band)
+      {
+        double moments[3];
+        this->Profiles[band].GetMoments(1.0 / gamma, moments);
+        result.Value[band] += weight * this->Scales[band] *
+          (moments[0] - 2.0 * gamma * moments[1] + gamma * gamma * moments[2]);
+      }
+    }
+  }
+}

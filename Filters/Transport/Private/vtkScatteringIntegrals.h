@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Diffuse reflectance profiles of three bands, integrated over pairs of triangles. The profiles change over a fraction of a
+ * millimetre near by and over centimetres far away, and triangles may be much smaller or much larger than either, so:
+ *
+ * - a triangle with itself: exact, by the moments of the profile. A triangle and its copy displaced by r in direction theta overlap
+ *   in a similar triangle, of area A (1 - r gamma(theta))^2, which leaves one integral, over theta;
+ * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other; where the largest is not enough
+ *   the larger triangle is cut in four.
+ *
+ * All values are divided by the profiles' totals, so that one tolerance serves all bands.
+ */
+#ifndef vtkScatteringIntegrals_h
+#define vtkScatteringIntegrals_h
+
+#include "vtkDiffusionProfile.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+class vtkScatteringIntegrals
+{
+public:
+  static constexpr int NumberOfBands = 3;
+  using Vector = Eigen::Vector3d;
+  /// One value per band; the fourth is padding and stays 0.
+  using Bands = Eigen::Array4d;
+
+  struct Triangle
+  {
+    Triangle() = default;
+    Triangle(const Vector& a, const Vector& b, const Vector& c);
+
+    Vector Corners[3];
+    Vector Centroid;
+    double Area;
+    /// Of a sphere around the centroid that holds the triangle.
+    double Radius;
+    /// Mean squared distance from the centroid.
+    double Moment;
+    /// The points of the rule with three.
+    Vector Points[3];
+  };
+
+  struct Result
+  {
+    Bands Value = Bands::Zero();
+    /// Estimate of the error of the worst band.
+    double Error = 0.0;
+  };
+
+  /**
+   * `profiles` has one profile per band, `maximumDistance` is the longest distance that will be asked for. Of each integral an
+   * error of `relativeTolerance` times its value is allowed.
+   */
+  vtkScatteringIntegrals(const std::vector<vtkDiffusionProfile>& profiles, double maximumDistance,
+    double relativeTolerance);
+
+  /// Largest of all bands' R_d(distance) / total: an upper bound, as profiles fall with distance.
+  double GetBound(double distance) const;
+
+  /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
+  void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
+
+  /// Add the integral over twice the same triangle.
+  void AddSelf(const Triangle& triangle, Result& result) const;
+
+private:
+  using Lane = Eigen::Array4f;
+
+  /// A piece of the tabulated profiles: a parabola in its local coordinate, all bands at a time.
+  struct Piece
+  {
+    Lane Coefficients[3];
+  };
+
+  Lane Evaluate(const Vector& difference) const;
+  Bands IntegrateProduct(const Vector* a, const float* weightsA, int countA, const Vector* b,
+    const float* weightsB, int countB) const;
+  bool TryRules(
+    const Triangle& a, const Triangle& b, double tolerance, bool last, Result& result) const;
+  void AddPairRecursively(
+    const Triangle& a, const Triangle& b, double tolerance, int depth, Result& result) const;
+  void Tabulate(double maximumDistance);
+
+  std::vector<vtkDiffusionProfile> Profiles;
+  double Scales[NumberOfBands];
+  double RelativeTolerance;
+  /// Smallest depth of all sources, squared, and the largest transport coefficient.
+  double SquaredDepth = 0.0;
+  double TransportCoefficient = 0.0;
+  std::vector<Piece> Table;
+  std::uint32_t FirstPiece = 0;
+};
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Rays through a vtkPatchScene, by Embree. Patches named as a ray's own never stop it, so no ray
+ * needs an offset to leave the patch where it starts or to arrive where it ends. Thread-safe after
+ * Build.
+ */
+#ifndef vtkSceneRayCaster_h
+#define vtkSceneRayCaster_h
+
+#include "vtkPatchScene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkSceneRayCaster
+{
+public:
+  vtkSceneRayCaster();
+  ~vtkSceneRayCaster();
+  vtkSceneRayCaster(const vtkSceneRayCaster&) = delete;
+  void operator=(const vtkSceneRayCaster&) = delete;
+
+  /**
+   * Only the patches of `subset` (all where it is nullptr) stop rays. The scene must outlive the
+   * caster. Returns false with `error` when Embree cannot build (no memory, no device).
+   */
+  bool Build(const vtkPatchScene& scene, std::string& error,
+    const std::vector<bool>* subset = nullptr);
+
+  /// True when a patch other than `from` and `to` lies between the two points (scene coordinates).
+  /// Both sides of a patch block.
+  bool IsOccluded(const vtkPatchScene::Vector& origin, const vtkPatchScene::Vector& target,
+    vtkIdType from, vtkIdType to) const;
+
+  /**
+   * The first patch other than `from` along a ray, or -1; `front` tells whether its front side was
+   * hit. `direction` need not be normalised.
+   */
+  vtkIdType FindHit(const vtkPatchScene::Vector& origin, const vtkPatchScene::Vector& direction,
+    vtkIdType from, bool& front) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Self;
+};
+
+#endif

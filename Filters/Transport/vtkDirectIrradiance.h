@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkDirectIrradiance
+ * @brief irradiance on the patches of a surface straight from lights and from an environment
+ *
+ * Output arrays (cells and points, double, 3 components):
+ * - "DirectIrradiance": incident flux per unit area, the mean over the patch, with shadows;
+ * - "TransmittedIrradiance", only with a RefractiveIndex above 1: the part that enters the surface
+ *   by Fresnel's equations for unpolarised light, each direction by its own angle. The index is
+ *   recorded in the field data array "RefractiveIndex", for vtkSubsurfaceScattering.
+ *
+ * Lights are vtkLight objects of type scene light. Irradiance on a surface facing the light is
+ * Intensity x DiffuseColor / attenuation(d), with d the distance in the input's length unit
+ * (positional lights; attenuation values as vtkLight has them: constant, linear, quadratic), times
+ * cos^Exponent of the angle from the axis within a cone narrower than 90 degrees. Directional
+ * lights shine from Position to FocalPoint, both through the light's transform matrix. The angle of
+ * incidence weighs it; back faces get nothing. Lights that are switched off are left out.
+ *
+ * Output field data: "DirectIrradianceRays" (shadow rays cast), "DirectIrradianceSeconds",
+ * "DirectFlux" (3 components: irradiance times area, in the input's length unit squared).
+ *
+ * Errors: a headlight or camera light (they follow a camera, and a filter has none), a negative or
+ * non-finite attenuation or intensity, attenuation that is zero, a refractive index below 1, an
+ * environment that is not a two-dimensional image of 1 or 3 components.
+ *
+ * @sa vtkSubsurfaceScattering, vtkRadiosity
+ */
+#ifndef vtkDirectIrradiance_h
+#define vtkDirectIrradiance_h
+
+#include "vtkTransportAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkImageData;
+class vtkLight;
+
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkDirectIrradiance : public vtkTransportAlgorithm
+{
+public:
+  static vtkDirectIrradiance* New();
+  vtkTypeMacro(vtkDirectIrradiance, vtkTransportAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// The lights. A light is in the list at most once.
+  void AddLight(vtkLight* light);
+  void RemoveLight(vtkLight* light);
+  void RemoveAllLights();
+  int GetNumberOfLights();
+  vtkLight* GetLight(int index);
+  ///@}
+
+  ///@{
+  /**
+   * Radiance from afar in all directions, or nullptr (the default). A picture in longitude and
+   * latitude with +z up, 1 or 3 components in its point scalars: the columns start at longitude 0
+   * (+x) and go counter-clockwise seen from +z (through +y); the rows go from -z (first) to +z.
+   */
+  virtual void SetEnvironment(vtkImageData* environment);
+  vtkGetObjectMacro(Environment, vtkImageData);
+  ///@}
+
+  ///@{
+  /**
+   * Rays per patch for the environment, stratified over the cosine-weighted hemisphere and over the
+   * patch. Default 256, range 1 to 65536; rounded up to a square number.
+   */
+  vtkSetClampMacro(EnvironmentSamples, int, 1, 65536);
+  vtkGetMacro(EnvironmentSamples, int);
+  ///@}
+
+  ///@{
+  /**
+   * Points on a patch that look at each light, stratified; where not all of them see it, 16 times
+   * as many are taken. Default 16, range 1 to 4096; rounded up to a square number.
+   */
+  vtkSetClampMacro(ShadowSamples, int, 1, 4096);
+  vtkGetMacro(ShadowSamples, int);
+  ///@}
+
+  ///@{
+  /// Whether patches cast shadows on others. Default on.
+  vtkSetMacro(Shadows, bool);
+  vtkGetMacro(Shadows, bool);
+  vtkBooleanMacro(Shadows, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Refractive index of the surface relative to its surroundings. Default 1: opaque, and no
+   * "TransmittedIrradiance". Range 1 and up.
+   */
+  vtkSetMacro(RefractiveIndex, double);
+  vtkGetMacro(RefractiveIndex, double);
+  ///@}
+
+  /// Includes the lights and the environment.
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkDirectIrradiance();
+  ~vtkDirectIrradiance() override;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+
+private:
+  vtkDirectIrradiance(const vtkDirectIrradiance&) = delete;
+  void operator=(const vtkDirectIrradiance&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Self;
+
+  vtkImageData* Environment = nullptr;
+  int EnvironmentSamples = 256;
+  int ShadowSamples = 16;
+  bool Shadows = true;
+  double RefractiveIndex = 1.0;
+};
+
+#endif

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportAlgorithm.h"
+
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDenseLinkOperator.h"
+#include "vtkDeviceLinkOperator.h"
+#include "vtkDoubleArray.h"
+#include "vtkExchangeMatrix.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPatchScene.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <vtksys/SystemInformation.hxx>
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace
+{
+//------------------------------------------------------------------------------
+// vtkAlgorithm::CheckAbort appeared after VTK 9.2; before it there is the flag alone.
+template <typename Algorithm>
+auto IsAborted(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
+{
+  return algorithm->CheckAbort();
+}
+
+template <typename Algorithm>
+bool IsAborted(Algorithm* algorithm, long)
+{
+  return algorithm->GetAbortExecute() != 0;
+}
+
+//------------------------------------------------------------------------------
+std::string Gigabytes(double bytes)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << bytes / 1e9 << " GB";
+  return text.str();
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkTransportAlgorithm::vtkTransportAlgorithm()
+{
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+//------------------------------------------------------------------------------
+vtkTransportAlgorithm::~vtkTransportAlgorithm()
+{
+  this->SetController(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkCxxSetObjectMacro(vtkTransportAlgorithm, Controller, vtkMultiProcessController);
+
+//------------------------------------------------------------------------------
+int vtkTransportAlgorithm::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkDataObject" : "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportAlgorithm::RequestDataObject(vtkInformation*, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
+{
+  const vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  if (!input)
+  {
+    return 0;
+  }
+  if (vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+      !output || !output->IsA(input->GetClassName()))
+  {
+    vtkSmartPointer<vtkDataObject> copy;
+    copy.TakeReference(input->NewInstance());
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), copy);
+  }
+  if (this->GetNumberOfOutputPorts() > 1 && !vtkTable::GetData(outputs, 1))
+  {
+    vtkNew<vtkTable> table;
+    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), table);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportAlgorithm::GetNumberOfRanks() const
+{
+  return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::SetProgressStage(double begin, double end)
+{
+  this->StageBegin = begin;
+  this->StageEnd = end;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTransportAlgorithm::ReportProgress(double fraction)
+{
+  const double within = std::min(std::max(fraction, 0.0), 1.0);
+  this->UpdateProgress(this->StageBegin + within * (this->StageEnd - this->StageBegin));
+  int aborted = IsAborted(this, 0) ? 1 : 0;
+  if (this->GetNumberOfRanks() > 1)
+  {
+    // One rank that leaves alone would let the others wait for it for ever.
+    const int mine = aborted;
+    this->Controller->AllReduce(&mine, &aborted, 1, vtkCommunicator::MAX_OP);
+  }
+  return aborted == 0;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeExchange(
+  const std::vector<double>& areas, int numberOfKernels)
+{
+  const int ranks = this->GetNumberOfRanks();
+  const int rank = ranks > 1 ? this->Controller->GetLocalProcessId() : 0;
+  const double bytes = vtkExchangeMatrix::GetEstimatedBytes(static_cast<vtkIdType>(areas.size()),
+    numberOfKernels, ranks);
+  vtksys::SystemInformation system;
+  system.RunMemoryCheck();
+  const double available =
+    1024.0 * 1024.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
+
+  vtkSmartPointer<vtkExchangeMatrix> exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
+  // Asked first: a system that overcommits grants any amount and ends the process later.
+  std::string error;
+  if (bytes > available || !exchange->Allocate(areas, numberOfKernels, rank, ranks))
+  {
+    error = "The links between " + std::to_string(areas.size()) + " patches need " +
+      Gigabytes(bytes) + " of memory and " + Gigabytes(available) +
+      " are free: use fewer patches (a larger TargetEdgeLength in vtkPatchMesher).";
+  }
+  if (!vtkPatchScene::Agree(this->Controller, error.empty(), error))
+  {
+    vtkErrorMacro(<< error);
+    return nullptr;
+  }
+  return exchange;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::MakeLinkOperator(int device,
+  vtkExchangeMatrix* exchange, int numberOfBands, std::string& explanation)
+{
+  if (device != DEVICE_CPU)
+  {
+    std::string reason;
+    auto found = this->OpenDevice(device, exchange, numberOfBands, reason);
+    if (found || device == DEVICE_OPENGL)
+    {
+      explanation =
+        "OpenGL: " + std::string(device == DEVICE_AUTO ? "a GPU is there" : "asked for");
+      if (!found)
+      {
+        vtkErrorMacro("Device is OpenGL, but " << reason << " Or set Device to Auto or CPU.");
+      }
+      return found;
+    }
+    explanation = "CPU: " + reason;
+  }
+  else
+  {
+    explanation = "CPU: asked for";
+  }
+  vtkNew<vtkDenseLinkOperator> dense;
+  dense->SetController(this->Controller);
+  return dense->Initialize(exchange, numberOfBands) ? dense.Get() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::OpenDevice(int device,
+  vtkExchangeMatrix* exchange, int numberOfBands, std::string& reason)
+{
+  if (this->GetNumberOfRanks() > 1)
+  {
+    reason = "the run has several ranks, which share the links on their CPUs.";
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDeviceLinkOperator> found =
+    vtkSmartPointer<vtkDeviceLinkOperator>::Take(vtkDeviceLinkOperator::New());
+  if (!found)
+  {
+    reason = "no loaded module computes on OpenGL: load vtkLightTransportRendering (in Python, "
+             "import vtklighttransport).";
+    return nullptr;
+  }
+  if (!found->Open(reason))
+  {
+    return nullptr;
+  }
+  if (device == DEVICE_AUTO && !found->IsHardware())
+  {
+    reason = std::string("OpenGL is a software renderer here (") + found->GetDeviceName() +
+      "), which is slower.";
+    return nullptr;
+  }
+  if (!found->Initialize(exchange, numberOfBands))
+  {
+    reason = "the links could not be put on it (see the message before this one).";
+    return nullptr;
+  }
+  return found;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::AddSummary(vtkFieldData* fields, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fields->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::AddSummary(vtkFieldData* fields, const char* name,
+  const std::string& value)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fields->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+}

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkTransportAlgorithm
+ * @brief what all light transport filters share: one scene from any input, progress, abort,
+ * devices, ranks
+ *
+ * The input is a vtkPolyData, or a composite data set of them, of planar convex polygons; whatever
+ * its structure it is *one* scene. Ghost cells do not count. In a parallel run (a controller with
+ * several processes) the scene is gathered to every rank first, because a rank that sees only its
+ * own piece gets wrong visibility; each rank then writes the results of its own patches. The output
+ * has the structure of the input, all its arrays, and the results. Points are duplicated where a
+ * crease (FeatureAngle) or a change of material meets them, so that no point value is an average
+ * across either.
+ *
+ * Errors are reported with vtkErrorMacro and leave the output empty; on several ranks all agree on
+ * an error before any of them enters a collective call.
+ */
+#ifndef vtkTransportAlgorithm_h
+#define vtkTransportAlgorithm_h
+
+#include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkPassInputTypeAlgorithm.h"
+#include "vtkSmartPointer.h" // for return value
+
+#include <string> // for std::string
+#include <vector> // for std::vector
+
+class vtkExchangeMatrix;
+class vtkFieldData;
+class vtkLinkOperator;
+class vtkMultiProcessController;
+
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkTransportAlgorithm : public vtkPassInputTypeAlgorithm
+{
+public:
+  vtkTypeMacro(vtkTransportAlgorithm, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Where the links are applied, for the filters that have a Device property.
+  enum DeviceType
+  {
+    DEVICE_AUTO = 0,
+    DEVICE_CPU = 1,
+    DEVICE_OPENGL = 2
+  };
+
+  ///@{
+  /**
+   * Point values are not averaged across edges whose two normals differ by more than this angle, in
+   * degrees. Default 60, range 0 to 180.
+   */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+
+  ///@{
+  /// The processes that share the scene. Default: the global controller.
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+protected:
+  vtkTransportAlgorithm();
+  ~vtkTransportAlgorithm() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  /// Port 0 has the input's type; a port 1, where a filter has one, is a vtkTable.
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+
+  /// Number of processes that share the scene; 1 without a controller.
+  int GetNumberOfRanks() const;
+
+  ///@{
+  /**
+   * Progress within the stage set last (fractions of the whole run). Returns false when the user
+   * has aborted. Call it from one thread; on several ranks call it on all of them alike: they agree
+   * on the answer.
+   */
+  void SetProgressStage(double begin, double end);
+  bool ReportProgress(double fraction);
+  ///@}
+
+  /**
+   * An empty exchange matrix for these patch areas, or this rank's part of it. Returns nullptr
+   * after an error, which has been reported on all ranks alike: the memory is not there.
+   */
+  vtkSmartPointer<vtkExchangeMatrix> MakeExchange(const std::vector<double>& areas,
+    int numberOfKernels);
+
+  /**
+   * The operator for a device (see DeviceType), initialised. DEVICE_AUTO takes OpenGL on a real GPU
+   * and the CPU otherwise; `explanation` says which one and why. Returns nullptr after an error,
+   * which has been reported.
+   */
+  vtkSmartPointer<vtkLinkOperator> MakeLinkOperator(int device, vtkExchangeMatrix* exchange,
+    int numberOfBands, std::string& explanation);
+
+  ///@{
+  /// One-tuple summaries of a run go into the output's field data.
+  static void AddSummary(vtkFieldData* fields, const char* name, double value);
+  static void AddSummary(vtkFieldData* fields, const char* name, const std::string& value);
+  ///@}
+
+  vtkMultiProcessController* Controller = nullptr;
+  double FeatureAngle = 60.0;
+
+private:
+  vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
+  void operator=(const vtkTransportAlgorithm&) = delete;
+
+  vtkSmartPointer<vtkLinkOperator> OpenDevice(int device, vtkExchangeMatrix* exchange,
+    int numberOfBands, std::string& reason);
+
+  double StageBegin = 0.0;
+  double StageEnd = 1.0;
+};
+
+#endif
