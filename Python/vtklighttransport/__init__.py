@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Radiosity and diffuse subsurface scattering on surface meshes.
+
+Every class of every module that was built is here:
+
+    import vtklighttransport as lt
+    radiosity = lt.vtkRadiosity()
+
+A module that was switched off when the package was built is left out; one that was built and cannot be loaded raises ImportError.
+``arrays`` (needs numpy) holds helpers for getting numbers in and out of data sets. ``python3 -m vtklighttransport --help`` runs the
+filters from the shell.
+"""
+
+import importlib
+
+# The modules these bring in must be there before ours: a wrapped class needs its base class.
+import vtkmodules.vtkCommonCore
+import vtkmodules.vtkCommonDataModel
+import vtkmodules.vtkCommonExecutionModel
+
+from ._build import MODULES as _MODULES
+from ._build import VERSION as __version__
+
+_REQUIRED = {
+    "vtkLightTransportFilters": ("vtkCommonMath", "vtkRenderingCore"),
+    "vtkLightTransportRendering": ("vtkRenderingOpenGL2",),
+    "vtkLightTransportIO": ("vtkIOCore", "vtkIOImage"),
+}
+
+__all__ = ["__version__"]
+for _module in _MODULES:
+    for _name in _REQUIRED.get(_module, ()):
+        importlib.import_module("vtkmodules." + _name)
+    for _name, _value in vars(importlib.import_module("." + _module, __name__)).items():
+        if _name.startswith("vtk"):
+            globals()[_name] = _value
+            __all__.append(_name)
+del _module, _name, _value
