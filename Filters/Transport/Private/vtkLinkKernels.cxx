@@ -7,7 +7,7 @@
 // Several clones of one function, one per instruction set: GCC and Clang on x86-64 Linux resolve
 // them at load time.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__)
-#define LT_CLONES __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
+#define LT_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #define LT_X86_CLONES 1
 #else
 #define LT_CLONES
@@ -22,42 +22,122 @@ namespace
 {
 constexpr int N = vtkExchangeMatrix::TileSize;
 
+// Eight columns at once; the compiler splits them where its registers are narrower. Helpers take
+// vectors by reference: passed by value their calling convention would depend on the instruction
+// set.
+constexpr int Lanes = 8;
+typedef double Wide __attribute__((vector_size(Lanes * sizeof(double))));
+typedef double WideUnaligned
+  __attribute__((vector_size(Lanes * sizeof(double)), aligned(alignof(double)), may_alias));
+typedef float NarrowUnaligned
+  __attribute__((vector_size(Lanes * sizeof(float)), aligned(alignof(float)), may_alias));
+
 //------------------------------------------------------------------------------
-// Two rows at a time: the column vectors are loaded and stored once for both, and the sums stay in
-// registers.
+LT_INLINE void Load(const double* source, Wide& values)
+{
+  values = *reinterpret_cast<const WideUnaligned*>(source);
+}
+
+//------------------------------------------------------------------------------
+LT_INLINE void Load(const float* source, Wide& values)
+{
+  values = __builtin_convertvector(*reinterpret_cast<const NarrowUnaligned*>(source), Wide);
+}
+
+//------------------------------------------------------------------------------
+LT_INLINE void Store(double* target, const Wide& values)
+{
+  *reinterpret_cast<WideUnaligned*>(target) = values;
+}
+
+//------------------------------------------------------------------------------
+LT_INLINE double Sum(const Wide& values)
+{
+  double sum = 0.0;
+  for (int lane = 0; lane < Lanes; ++lane)
+  {
+    sum += values[lane];
+  }
+  return sum;
+}
+
+// Rows that are handled together: what is loaded and stored per column serves all of them, and
+// their sums stay in registers.
+constexpr int Rows = 4;
+
+//------------------------------------------------------------------------------
+// Ask for a part of the rows that come next, as large as what one step over the columns reads.
+// Processors follow long runs of addresses by themselves, but not four rows in turn.
+LT_INLINE void PrefetchNextRows(const float* tile, int first, int column)
+{
+  const int next = first + Rows < N ? first + Rows : 0;
+  const float* values = tile + next * N + column * Rows;
+  __builtin_prefetch(values);
+  __builtin_prefetch(values + 64 / sizeof(float));
+}
+
+//------------------------------------------------------------------------------
+template <int Bands>
+LT_INLINE void Spread(const double* x, long stride, Wide (&values)[Rows][Bands])
+{
+  for (int row = 0; row < Rows; ++row)
+  {
+    for (int band = 0; band < Bands; ++band)
+    {
+      values[row][band] = x[band * stride + row] - Wide{};
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+template <int Bands>
+LT_INLINE void AddSums(const Wide (&sums)[Rows][Bands], long stride, double* y)
+{
+  for (int row = 0; row < Rows; ++row)
+  {
+    for (int band = 0; band < Bands; ++band)
+    {
+      y[band * stride + row] += Sum(sums[row][band]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 template <int Bands>
 LT_INLINE void MultiplyTileBands(const float* tile, long stride, const double* xRow,
   const double* xColumn, double* yRow, double* yColumn)
 {
-  for (int row = 0; row < N; row += 2)
+  for (int first = 0; first < N; first += Rows)
   {
-    const float* g0 = tile + row * N;
-    const float* g1 = g0 + N;
-    double x0[Bands], x1[Bands], sum0[Bands], sum1[Bands];
-    for (int band = 0; band < Bands; ++band)
+    Wide factors[Rows][Bands];
+    Wide sums[Rows][Bands] = {};
+    Spread(xRow + first, stride, factors);
+    for (int column = 0; column < N; column += Lanes)
     {
-      x0[band] = xRow[band * stride + row];
-      x1[band] = xRow[band * stride + row + 1];
-      sum0[band] = sum1[band] = 0.0;
-    }
-#pragma omp simd reduction(+ : sum0[:Bands], sum1[:Bands])
-    for (int column = 0; column < N; ++column)
-    {
-      const double a = g0[column];
-      const double b = g1[column];
+      PrefetchNextRows(tile, first, column);
+      Wide values[Rows];
+#pragma GCC unroll 4
+      for (int row = 0; row < Rows; ++row)
+      {
+        Load(tile + (first + row) * N + column, values[row]);
+      }
+#pragma GCC unroll 4
       for (int band = 0; band < Bands; ++band)
       {
-        const double x = xColumn[band * stride + column];
-        sum0[band] += a * x;
-        sum1[band] += b * x;
-        yColumn[band * stride + column] += a * x0[band] + b * x1[band];
+        Wide x;
+        Wide y;
+        Load(xColumn + band * stride + column, x);
+        Load(yColumn + band * stride + column, y);
+#pragma GCC unroll 4
+        for (int row = 0; row < Rows; ++row)
+        {
+          sums[row][band] += values[row] * x;
+          y += values[row] * factors[row][band];
+        }
+        Store(yColumn + band * stride + column, y);
       }
     }
-    for (int band = 0; band < Bands; ++band)
-    {
-      yRow[band * stride + row] += sum0[band];
-      yRow[band * stride + row + 1] += sum1[band];
-    }
+    AddSums(sums, stride, yRow + first);
   }
 }
 
@@ -65,22 +145,31 @@ LT_INLINE void MultiplyTileBands(const float* tile, long stride, const double* x
 template <int Bands>
 LT_INLINE void MultiplyRowsBands(const float* tile, long stride, const double* x, double* y)
 {
-  for (int row = 0; row < N; ++row)
+  for (int first = 0; first < N; first += Rows)
   {
-    const float* g = tile + row * N;
-    double sum[Bands] = {};
-#pragma omp simd reduction(+ : sum[:Bands])
-    for (int column = 0; column < N; ++column)
+    Wide sums[Rows][Bands] = {};
+    for (int column = 0; column < N; column += Lanes)
     {
+      PrefetchNextRows(tile, first, column);
+      Wide factors[Bands];
+#pragma GCC unroll 4
       for (int band = 0; band < Bands; ++band)
       {
-        sum[band] += static_cast<double>(g[column]) * x[band * stride + column];
+        Load(x + band * stride + column, factors[band]);
+      }
+#pragma GCC unroll 4
+      for (int row = 0; row < Rows; ++row)
+      {
+        Wide values;
+        Load(tile + (first + row) * N + column, values);
+#pragma GCC unroll 4
+        for (int band = 0; band < Bands; ++band)
+        {
+          sums[row][band] += values * factors[band];
+        }
       }
     }
-    for (int band = 0; band < Bands; ++band)
-    {
-      y[band * stride + row] += sum[band];
-    }
+    AddSums(sums, stride, y + first);
   }
 }
 
@@ -88,20 +177,30 @@ LT_INLINE void MultiplyRowsBands(const float* tile, long stride, const double* x
 template <int Bands>
 LT_INLINE void MultiplyColumnsBands(const float* tile, long stride, const double* x, double* y)
 {
-  for (int row = 0; row < N; ++row)
+  for (int first = 0; first < N; first += Rows)
   {
-    const float* g = tile + row * N;
-    double factor[Bands];
-    for (int band = 0; band < Bands; ++band)
+    Wide factors[Rows][Bands];
+    Spread(x + first, stride, factors);
+    for (int column = 0; column < N; column += Lanes)
     {
-      factor[band] = x[band * stride + row];
-    }
-#pragma omp simd
-    for (int column = 0; column < N; ++column)
-    {
+      PrefetchNextRows(tile, first, column);
+      Wide values[Rows];
+#pragma GCC unroll 4
+      for (int row = 0; row < Rows; ++row)
+      {
+        Load(tile + (first + row) * N + column, values[row]);
+      }
+#pragma GCC unroll 4
       for (int band = 0; band < Bands; ++band)
       {
-        y[band * stride + column] += static_cast<double>(g[column]) * factor[band];
+        Wide sum;
+        Load(y + band * stride + column, sum);
+#pragma GCC unroll 4
+        for (int row = 0; row < Rows; ++row)
+        {
+          sum += values[row] * factors[row][band];
+        }
+        Store(y + band * stride + column, sum);
       }
     }
   }
@@ -179,12 +278,11 @@ const char* GetInstructionSet()
 {
 #ifdef LT_X86_CLONES
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
+  if (__builtin_cpu_supports("x86-64-v4"))
   {
     return "AVX-512";
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  if (__builtin_cpu_supports("x86-64-v3"))
   {
     return "AVX2";
   }
