@@ -46,6 +46,10 @@
 #include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
+
+class vtkDataObject;
+class vtkTable;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkSubsurfaceScattering : public vtkTransportAlgorithm
 {
@@ -190,9 +194,6 @@ protected:
   vtkSubsurfaceScattering();
   ~vtkSubsurfaceScattering() override;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputs,
     vtkInformationVector* outputs) override;
 
@@ -201,6 +202,16 @@ private:
   void operator=(const vtkSubsurfaceScattering&) = delete;
 
   struct Internals;
+  struct Optics;
+
+  bool FindOptics(Optics& optics);
+  bool ReadIrradiance(vtkDataObject* input, std::vector<double>& irradiance);
+  void CompareIndices(vtkDataObject* input, double refractiveIndex);
+  bool MakeLinks(const Optics& optics);
+  bool ApplyLinks(const Optics& optics, const std::vector<double>& irradiance);
+  void WriteResults(const std::vector<double>& irradiance, double entering, vtkDataObject* input,
+    vtkDataObject* output, vtkTable* table);
+
   std::unique_ptr<Internals> Self;
 
   int Material = MATERIAL_CUSTOM;

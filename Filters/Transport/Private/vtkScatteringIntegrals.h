@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Diffuse reflectance profiles of three bands, integrated over pairs of triangles. The profiles change over a fraction of a
- * millimetre near by and over centimetres far away, and triangles may be much smaller or much larger than either, so:
+ * Diffuse reflectance profiles of three bands, integrated over pairs of triangles. The profiles
+ * change over a fraction of a millimetre near by and over centimetres far away, and triangles may
+ * be much smaller or much larger than either, so:
  *
- * - a triangle with itself: exact, by the moments of the profile. A triangle and its copy displaced by r in direction theta overlap
- *   in a similar triangle, of area A (1 - r gamma(theta))^2, which leaves one integral, over theta;
- * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other; where the largest is not enough
- *   the larger triangle is cut in four.
+ * - a triangle with itself: exact, by the moments of the profile. A triangle and its copy displaced
+ * by r in direction theta overlap in a similar triangle, of area A (1 - r gamma(theta))^2, which
+ * leaves one integral, over theta;
+ * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other;
+ * where the largest is not enough the larger triangle is cut in four.
  *
  * All values are divided by the profiles' totals, so that one tolerance serves all bands.
  */
@@ -54,8 +56,8 @@ public:
   };
 
   /**
-   * `profiles` has one profile per band, `maximumDistance` is the longest distance that will be asked for. Of each integral an
-   * error of `relativeTolerance` times its value is allowed.
+   * `profiles` has one profile per band, `maximumDistance` is the longest distance that will be
+   * asked for. Of each integral an error of `relativeTolerance` times its value is allowed.
    */
   vtkScatteringIntegrals(const std::vector<vtkDiffusionProfile>& profiles, double maximumDistance,
     double relativeTolerance);
@@ -81,10 +83,10 @@ private:
   Lane Evaluate(const Vector& difference) const;
   Bands IntegrateProduct(const Vector* a, const float* weightsA, int countA, const Vector* b,
     const float* weightsB, int countB) const;
-  bool TryRules(
-    const Triangle& a, const Triangle& b, double tolerance, bool last, Result& result) const;
-  void AddPairRecursively(
-    const Triangle& a, const Triangle& b, double tolerance, int depth, Result& result) const;
+  bool TryRules(const Triangle& a, const Triangle& b, double tolerance, bool last,
+    Result& result) const;
+  void AddPairRecursively(const Triangle& a, const Triangle& b, double tolerance, int depth,
+    Result& result) const;
   void Tabulate(double maximumDistance);
 
   std::vector<vtkDiffusionProfile> Profiles;
