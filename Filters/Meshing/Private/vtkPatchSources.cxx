@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPatchSources.h"
+
+#include "vtkCellArray.h"
+#include "vtkMath.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStaticCellLocator.h"
+
+#include <cmath>
+
+namespace
+{
+//------------------------------------------------------------------------------
+// Weights of the corners for a point in (or, by rounding, next to) a triangle.
+vtkTriangleSoup::Point GetWeights(const vtkTriangleSoup& soup,
+  const vtkTriangleSoup::Triangle& triangle, const vtkTriangleSoup::Point& point)
+{
+  const vtkTriangleSoup::Point normal = soup.GetNormal(triangle);
+  const double scale = vtkMath::Dot(normal.data(), normal.data());
+  vtkTriangleSoup::Point weights;
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    vtkTriangleSoup::Point u;
+    vtkTriangleSoup::Point v;
+    vtkTriangleSoup::Point cross;
+    vtkMath::Subtract(soup.Points[triangle[(i + 1) % 3]].data(), point.data(), u.data());
+    vtkMath::Subtract(soup.Points[triangle[(i + 2) % 3]].data(), point.data(), v.data());
+    vtkMath::Cross(u.data(), v.data(), cross.data());
+    weights[i] = std::max(vtkMath::Dot(cross.data(), normal.data()) / scale, 0.0);
+    sum += weights[i];
+  }
+  if (!(sum > 0.0) || !std::isfinite(sum))
+  {
+    return { 1.0, 0.0, 0.0 };
+  }
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkPatchSources::vtkPatchSources(const vtkTriangleSoup& soup, const std::vector<std::size_t>& parts,
+  std::size_t numberOfParts)
+  : Soup(soup), TrianglesOfParts(numberOfParts)
+{
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    this->TrianglesOfParts[parts[i]].push_back(i);
+  }
+  for (const std::vector<std::size_t>& triangles : this->TrianglesOfParts)
+  {
+    // Points of its own for each part: the locator's bins cover all points that its data set has.
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> cells;
+    for (const std::size_t triangle : triangles)
+    {
+      vtkIdType ids[3];
+      for (int i = 0; i < 3; ++i)
+      {
+        ids[i] = points->InsertNextPoint(soup.Points[soup.Triangles[triangle][i]].data());
+      }
+      cells->InsertNextCell(3, ids);
+    }
+    vtkNew<vtkPolyData> surface;
+    surface->SetPoints(points);
+    surface->SetPolys(cells);
+    auto locator = vtkSmartPointer<vtkStaticCellLocator>::New();
+    locator->SetDataSet(surface);
+    locator->BuildLocator();
+    this->Locators.push_back(locator);
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkPatchSources::Place vtkPatchSources::Find(std::size_t part,
+  const vtkTriangleSoup::Point& position)
+{
+  vtkTriangleSoup::Point closest = position;
+  vtkIdType cell = 0;
+  int subId;
+  double distance2;
+  this->Locators[part]->FindClosestPoint(position.data(), closest.data(), this->Cell, cell, subId,
+    distance2);
+  const std::size_t triangle = this->TrianglesOfParts[part][cell];
+  return { triangle, GetWeights(this->Soup, this->Soup.Triangles[triangle], closest) };
+}

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Each bad input gets one error that names the problem, and no output.
+#include "MeshTestTools.h"
+
+#include "vtkExecutive.h"
+#include "vtkTestErrorObserver.h"
+
+#include <limits>
+
+namespace
+{
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeSquare()
+{
+  return meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } },
+    { { 0, 1, 2 }, { 0, 2, 3 } });
+}
+
+//------------------------------------------------------------------------------
+void ExpectError(vtkPatchMesher* mesher, vtkPolyData* input, const std::string& expected,
+  meshTest::Checker& check)
+{
+  vtkNew<vtkTest::ErrorObserver> executive;
+  vtkNew<vtkTest::ErrorObserver> observer;
+  mesher->SetInputData(input);
+  mesher->AddObserver(vtkCommand::ErrorEvent, observer);
+  mesher->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
+  mesher->Update();
+  check.True(observer->GetError(), "an error: " + expected);
+  check.True(observer->GetErrorMessage().find(expected) != std::string::npos,
+    "the error \"" + observer->GetErrorMessage() + "\" says \"" + expected + "\"");
+  check.Equal(mesher->GetOutput()->GetNumberOfCells(), 0, 0, "cells after \"" + expected + "\"");
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestPatchMesherErrors(int, char*[])
+{
+  meshTest::Checker check;
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    vtkNew<vtkPolyData> empty;
+    ExpectError(mesher, empty, "no cells", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    vtkSmartPointer<vtkPolyData> lines = meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 } }, {});
+    vtkNew<vtkCellArray> cells;
+    cells->InsertNextCell({ 0, 1 });
+    lines->SetLines(cells);
+    ExpectError(mesher, lines, "no polygons", check);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : { nan, infinity })
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    vtkSmartPointer<vtkPolyData> square = MakeSquare();
+    square->GetPoints()->SetPoint(2, 1.0, value, 0.0);
+    ExpectError(mesher, square, "coordinates of point 2 are not finite", check);
+  }
+  for (const double length : { -1.0, nan, infinity })
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetTargetEdgeLength(length);
+    ExpectError(mesher, MakeSquare(), "give a positive length", check);
+  }
+  // 1 / (sqrt(3) / 4 * 1e-8) triangles, and those at the border.
+  for (const double length : { 1e-4, 1e-200 })
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetTargetEdgeLength(length);
+    ExpectError(mesher, MakeSquare(), length == 1e-4 ? "2.3098e+08" : "give a larger length",
+      check);
+  }
+  for (const int association :
+    { vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataObject::FIELD_ASSOCIATION_POINTS })
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetInputArrayToProcess(0, 0, 0, association, "Material");
+    ExpectError(mesher, MakeSquare(), "no cell array \"Material\"", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    vtkSmartPointer<vtkPolyData> flat =
+      meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } }, { { 0, 1, 2 } });
+    ExpectError(mesher, flat, "no area", check);
+    vtkNew<vtkPatchMesher> strict;
+    strict->SetRepair(false);
+    ExpectError(strict, flat, "1 degenerate triangles: switch Repair on", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetRepair(false);
+    vtkSmartPointer<vtkPolyData> fin =
+      meshTest::MakeSurface({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { -1, 1, 0 }, { -1, -1, 0 } },
+        { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 1, 4 } });
+    ExpectError(mesher, fin, "1 edges with more than two triangles: switch Repair on", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetRepair(false);
+    vtkSmartPointer<vtkPolyData> twisted = meshTest::MakeSurface(
+      { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 3, 2 } });
+    ExpectError(mesher, twisted, "1 edges between triangles of opposite orientation", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetRepair(false);
+    vtkSmartPointer<vtkPolyData> twice = meshTest::MakeSurface(
+      { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }, { { 0, 1, 2 }, { 1, 2, 0 } });
+    ExpectError(mesher, twice, "1 duplicate triangles", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetRepair(false);
+    vtkSmartPointer<vtkPolyData> bowTie =
+      meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { -1, 0, 0 }, { -1, -1, 0 } },
+        { { 0, 1, 2 }, { 0, 3, 4 } });
+    ExpectError(mesher, bowTie, "only touch", check);
+  }
+  return check.GetExitCode();
+}
