@@ -34,8 +34,8 @@
 #include "vtkSmartPointer.h"                // for vtkSmartPointer
 #include "vtkTransportAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
-#include <vector> // for std::vector
+#include <functional> // for std::function
+#include <vector>     // for std::vector
 
 class vtkExchangeMatrix;
 class vtkPatchScene;
@@ -82,12 +82,11 @@ public:
 
   ///@{
   /**
-   * For filters that work on view factors: bring them up to date for a scene, computing only when
-   * the geometry or a property has changed. `progress` is called with fractions and returns false
-   * to abort. Returns false after an error or an abort.
+   * For filters that work on view factors: bring them up to date for a scene, computing only when the geometry or a property has
+   * changed. `progress` is called with fractions and returns false to abort. Returns false after an error or an abort.
    */
-  using ProgressFunction = bool (*)(void* client, double fraction);
-  bool UpdateExchange(const vtkPatchScene& scene, ProgressFunction progress, void* client);
+  using ProgressFunction = std::function<bool(double)>;
+  bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress);
   vtkExchangeMatrix* GetExchange() { return this->Exchange; }
   const std::vector<double>& GetRowSums() const { return this->RowSums; }
   /// Field data arrays that summarise the last computation.
@@ -106,10 +105,10 @@ private:
   void operator=(const vtkViewFactors&) = delete;
 
   struct Assembly;
-  bool Assemble(const vtkPatchScene& scene, ProgressFunction progress, void* client);
-  void SumRows();
+  bool Assemble(const vtkPatchScene& scene, const ProgressFunction& progress);
+  bool SumRows();
   bool CloseRows();
-  void FindOpenings(const vtkPatchScene& scene, const Assembly& assembly);
+  bool FindOpenings(const vtkPatchScene& scene);
 
   double Tolerance = 1e-4;
   int MaximumNumberOfRays = 256;

@@ -311,6 +311,10 @@ const char* vtkPatchScene::ComputeOnePatch(vtkIdType patch)
     return "has fewer than 3 corners: remove degenerate cells (vtkCleanPolyData, or vtkPatchMesher "
            "with Repair on).";
   }
+  if (corners > MaximumCorners)
+  {
+    return "has more than 30 corners: pass the input through vtkTriangleFilter first.";
+  }
   const Vector& origin = this->GetCorner(patch, 0);
   Vector twiceArea = Vector::Zero();
   double longest = 0.0;

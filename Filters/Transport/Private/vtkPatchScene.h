@@ -32,6 +32,9 @@ class vtkPatchScene
 public:
   using Vector = Eigen::Vector3d;
 
+  /// Corners that a patch may have (vtkPolygonExchange clips them in arrays of fixed size).
+  static constexpr int MaximumCorners = 30;
+
   /**
    * Gather the patches of `input`. Returns false, on every rank alike, with `error` naming the
    * problem and the remedy: nothing to work on, coordinates that are not finite, a patch without
