@@ -1,0 +1,406 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The filters from the shell: python3 -m vtklighttransport radiosity|scatter in.vtp out.vtp
+
+Exit codes: 0 done, 1 reading, computing or writing failed (nothing was written), 2 wrong usage, 130 interrupted.
+"""
+
+import argparse
+import importlib
+import os
+import re
+import signal
+import sys
+import time
+
+import vtklighttransport as lt
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+
+READERS = {
+    ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
+    ".vtk": ("vtkIOLegacy", "vtkPolyDataReader"),
+    ".ply": ("vtkIOPLY", "vtkPLYReader"),
+    ".stl": ("vtkIOGeometry", "vtkSTLReader"),
+    ".obj": ("vtkIOGeometry", "vtkOBJReader"),
+}
+
+# Options that set a property: flag, property, kind, help. The kind is a type, a number of values of that type, True or False for
+# a switch that sets it so, or the prefix of the class constants that are its choices. Defaults come from the class.
+MESHER = (
+    ("--mesh", "TargetEdgeLength", float,
+     "remesh to patches of this edge length first, in the mesh's unit; 0 = diagonal / 50"),
+)
+IRRADIANCE = (
+    ("--no-shadows", "Shadows", False, "let lights shine through patches"),
+)
+RADIOSITY = (
+    ("--solver", "Solver", "SOLVER_", "how the equation is solved; auto is conjugate gradients"),
+    ("--device", "Device", "DEVICE_", "where the links are applied; auto takes OpenGL on a real GPU"),
+    ("--tolerance", "Tolerance", float, "error bound to stop at, as a fraction of the largest radiosity"),
+    ("--iterations", "MaximumNumberOfIterations", int, "iterations at most"),
+    ("--view-factor-tolerance", "ViewFactorTolerance", float,
+     "bound on the absolute error of each row of view factors"),
+    ("--closure", "EnforceClosure", True, "make the view factors of closed scenes sum to 1"),
+    ("--feature-angle", "FeatureAngle", float,
+     "edges sharper than this keep their own point values, in degrees"),
+)
+SCATTERING = (
+    ("--material", "Material", "MATERIAL_",
+     "measured material; it wins over the three options below"),
+    ("--scattering", "ScatteringCoefficient", (3, float),
+     "reduced scattering coefficient of red, green and blue, per mm"),
+    ("--absorption", "AbsorptionCoefficient", (3, float),
+     "absorption coefficient of red, green and blue, per mm"),
+    ("--refractive-index", "RefractiveIndex", float, "refractive index of the object"),
+    ("--mm-per-unit", "MillimetersPerUnit", float,
+     "length of the mesh's unit in millimetres; 10 for centimetres"),
+    ("--incidence", "Incidence", "INCIDENCE_",
+     "without a light: whether the mesh's array is diffuse irradiance or has entered the surface"),
+    ("--link-tolerance", "LinkTolerance", float,
+     "bound on the relative error of the links of a patch"),
+    ("--device", "Device", "DEVICE_", "where the links are applied; auto takes OpenGL on a real GPU"),
+    ("--feature-angle", "FeatureAngle", float,
+     "edges sharper than this keep their own point values, in degrees"),
+)
+# Arrays of the input: flag, index, help.
+RADIOSITY_ARRAYS = (
+    ("--emission", 0, "cell array of emitted flux per area [Emission]"),
+    ("--reflectance", 1, "cell array of diffuse reflectance, 0 to 1 [Reflectance]"),
+    ("--temperature", 2, "cell array of temperatures in kelvin [Temperature]"),
+    ("--emissivity", 3, "cell array of emissivity, 0 to 1 [Emissivity]"),
+)
+SCATTERING_ARRAYS = (
+    ("--irradiance", 0,
+     "without a light: cell array of what falls in [Irradiance, or TransmittedIrradiance]"),
+)
+
+
+class Failure(Exception):
+    """What ends the run with exit code 1, after a line for each error."""
+
+
+class Messages:
+    """Takes what VTK reports, from whichever object, and keeps errors as plain lines."""
+
+    def __init__(self):
+        self.errors = []
+        self.window = vtkStringOutputWindow()
+        vtkOutputWindow.SetInstance(self.window)
+        self.window.AddObserver("ErrorEvent", self.on_error)
+        self.window.AddObserver("WarningEvent", self.on_warning)
+
+    @calldata_type(VTK_STRING)
+    def on_error(self, _window, _event, text):
+        # The pipeline repeats each failure in its own words.
+        if "returned failure for request" not in text:
+            self.errors.append(plain(text))
+
+    @calldata_type(VTK_STRING)
+    def on_warning(self, _window, _event, text):
+        print("warning: " + plain(text), file=sys.stderr)
+
+    def check(self):
+        if self.errors:
+            raise Failure
+
+
+class Stage:
+    """One filter of the run, with its line of progress on stderr."""
+
+    WIDTH = 40
+
+    def __init__(self, name, algorithm, quiet):
+        self.name = name
+        self.algorithm = algorithm
+        self.bar = not quiet and sys.stderr.isatty()
+        self.line = not quiet and not self.bar
+        self.aborted = False
+        algorithm.AddObserver("ProgressEvent", self.on_progress)
+
+    def on_progress(self, _algorithm, _event):
+        if self.bar:
+            fraction = min(max(self.algorithm.GetProgress(), 0.0), 1.0)
+            done = int(fraction * self.WIDTH)
+            print(f"\r{self.name:<20} [{'#' * done}{'.' * (self.WIDTH - done)}] {fraction:4.0%}",
+                  end="", file=sys.stderr, flush=True)
+
+    def on_interrupt(self, _signal, _frame):
+        self.aborted = True
+        self.algorithm.SetAbortExecute(1)
+
+    def run(self, messages, data=None):
+        if data is not None:
+            self.algorithm.SetInputDataObject(0, data)
+        before = signal.signal(signal.SIGINT, self.on_interrupt)
+        begin = time.monotonic()
+        self.algorithm.Update()
+        signal.signal(signal.SIGINT, before)
+        if self.bar:
+            print(file=sys.stderr)
+        if self.aborted:
+            raise KeyboardInterrupt
+        messages.check()
+        if self.line:
+            print(f"{self.name}: {time.monotonic() - begin:.1f} s", file=sys.stderr)
+        return self.algorithm.GetOutputDataObject(0)
+
+
+def plain(text):
+    """A VTK message without the place in the source and without line breaks."""
+    match = re.search(r"\((?:0x)?[0-9a-fA-F]+\): (.*)", text, re.DOTALL)
+    return " ".join((match.group(1) if match else text).split())
+
+
+def find_class(name):
+    if not hasattr(lt, name):
+        raise Failure(f"this build has no {name}: its module was switched off in CMake")
+    return getattr(lt, name)
+
+
+def find_choices(kind, prefix):
+    return {key[len(prefix):].lower().replace("_", "-"): getattr(kind, key)
+            for key in dir(kind) if key.startswith(prefix)}
+
+
+def add_properties(parser, class_name, table):
+    """The options of a table; none where the class was not built."""
+    kind = getattr(lt, class_name, None)
+    if kind is None:
+        return
+    model = kind()
+    for flag, name, form, text in table:
+        default = getattr(model, "Get" + name)()
+        arguments = {"dest": name, "default": None}
+        if isinstance(form, bool):
+            arguments.update(action="store_const", const=form)
+        elif isinstance(form, str):
+            choices = find_choices(kind, form)
+            default = next(key for key, value in choices.items() if value == default)
+            arguments["choices"] = sorted(choices, key=choices.get)
+        elif isinstance(form, tuple):
+            arguments.update(nargs=form[0], type=form[1], metavar=("R", "G", "B"))
+            default = " ".join(f"{value:g}" for value in default)
+        else:
+            arguments.update(type=form, metavar=name.upper() if flag == "--mesh" else "VALUE")
+            default = f"{default:g}"
+        if flag == "--mesh":
+            arguments["metavar"] = "LENGTH"
+        elif not isinstance(form, bool):
+            text += f" [{default}]"
+        parser.add_argument(flag, help=text, **arguments)
+
+
+def apply_properties(parser, options, algorithm, table):
+    for flag, name, form, _text in table:
+        value = getattr(options, name)
+        if value is None:
+            continue
+        if isinstance(form, str):
+            value = find_choices(type(algorithm), form)[value]
+        getattr(algorithm, "Set" + name)(*value if isinstance(form, tuple) else (value,))
+        # Setters move a value into its range without a word.
+        if not isinstance(form, tuple) and getattr(algorithm, "Get" + name)() != value:
+            parser.error(f"argument {flag}: {value:g} is out of range")
+
+
+def parse_light(text):
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) not in (3, 4) or not any(numbers[:3]):
+        raise argparse.ArgumentTypeError(f"'{text}' is not X,Y,Z or X,Y,Z,INTENSITY")
+    return numbers
+
+
+def make_light(numbers, positional):
+    from vtkmodules.vtkRenderingCore import vtkLight
+    light = vtkLight()
+    light.SetLightTypeToSceneLight()
+    light.SetPosition(numbers[:3])
+    light.SetFocalPoint(0.0, 0.0, 0.0)
+    light.SetIntensity(numbers[3] if len(numbers) > 3 else 1.0)
+    if positional:
+        light.PositionalOn()
+        # Beyond 90 degrees the light has no cone.
+        light.SetConeAngle(180.0)
+        light.SetAttenuationValues(0.0, 0.0, 1.0)
+    return light
+
+
+def make_parser():
+    parser = argparse.ArgumentParser(
+        prog="python3 -m vtklighttransport",
+        description="Light transport on the patches of a surface mesh.",
+        epilog="Exit codes: 0 done, 1 failed (nothing was written), 2 wrong usage, 130 interrupted.")
+    parser.add_argument("--version", action="version", version=lt.__version__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    radiosity = add_command(
+        commands, "radiosity", "diffuse interreflection: B = E + rho F B",
+        "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the cell arrays Emission and "
+        "Reflectance, or Temperature and Emissivity; with a light Emission may be missing.")
+    add_properties(radiosity, "vtkRadiosity", RADIOSITY)
+    scatter = add_command(
+        commands, "scatter", "diffuse subsurface scattering",
+        "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a light, or a mesh with the cell "
+        "array Irradiance.")
+    add_properties(scatter, "vtkSubsurfaceScattering", SCATTERING)
+    for command, arrays in ((radiosity, RADIOSITY_ARRAYS), (scatter, SCATTERING_ARRAYS)):
+        for flag, index, text in arrays:
+            command.add_argument(flag, metavar="NAME", dest=f"array{index}", help=text)
+    return parser
+
+
+def add_command(commands, name, text, description):
+    command = commands.add_parser(name, help=text, description=description)
+    command.add_argument("input", help="surface mesh: " + ", ".join(READERS))
+    command.add_argument("output", help="result: .vtp")
+    command.add_argument("--quiet", action="store_true", help="no progress on stderr, no summary")
+    command.add_argument(
+        "--light", metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append", default=[],
+        help="light from the direction (X, Y, Z), infinitely far; INTENSITY is the irradiance facing it [1]; repeat for more")
+    command.add_argument(
+        "--point-light", metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append", default=[],
+        help="light at a point, in the mesh's unit; irradiance facing it is INTENSITY / distance^2 [1]; repeat for more")
+    add_properties(command, "vtkPatchMesher", MESHER)
+    add_properties(command, "vtkDirectIrradiance", IRRADIANCE)
+    return command
+
+
+def join_negative_values(arguments):
+    """`--light -1,0,0` as `--light=-1,0,0`: argparse takes what begins with a minus for an option."""
+    joined = []
+    for argument in arguments:
+        if joined and joined[-1] in ("--light", "--point-light") and re.match(r"-[\d.]", argument):
+            joined[-1] += "=" + argument
+        else:
+            joined.append(argument)
+    return joined
+
+
+def read(options, messages):
+    module, name = READERS[os.path.splitext(options.input)[1].lower()]
+    if not os.path.isfile(options.input):
+        raise Failure(f"cannot read {options.input}: no such file")
+    reader = getattr(importlib.import_module("vtkmodules." + module), name)()
+    reader.SetFileName(options.input)
+    data = Stage("read", reader, options.quiet).run(messages)
+    if data is None or data.GetNumberOfPoints() == 0:
+        raise Failure(f"cannot read {options.input}: no surface in it")
+    return data
+
+
+def write(data, options, messages):
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+    unfinished = options.output + ".part"
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
+    writer.SetFileName(unfinished)
+    try:
+        if not writer.Write() or messages.errors:
+            raise Failure(f"cannot write {options.output}")
+        os.replace(unfinished, options.output)
+    except OSError as error:
+        raise Failure(f"cannot write {options.output}: {error.strerror}") from error
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+
+
+def prepare(parser, options, messages, refractive_index):
+    """The mesh, remeshed and lit as asked for."""
+    data = read(options, messages)
+    if options.mesh:
+        data = options.mesh.run(messages, data)
+    lights = [make_light(numbers, False) for numbers in options.light]
+    lights += [make_light(numbers, True) for numbers in options.point_light]
+    if lights:
+        irradiance = find_class("vtkDirectIrradiance")()
+        apply_properties(parser, options, irradiance, IRRADIANCE)
+        irradiance.SetRefractiveIndex(refractive_index)
+        for light in lights:
+            irradiance.AddLight(light)
+        data = Stage("direct irradiance", irradiance, options.quiet).run(messages, data)
+    return data
+
+
+def choose_arrays(options, algorithm, table):
+    for _flag, index, _text in table:
+        name = getattr(options, f"array{index}")
+        if name:
+            algorithm.SetInputArrayToProcess(
+                index, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, name)
+
+
+def get_summary(data, name):
+    array = data.GetFieldData().GetAbstractArray(name)
+    return array.GetValue(0) if array else None
+
+
+def run_radiosity(parser, options, messages):
+    radiosity = find_class("vtkRadiosity")()
+    apply_properties(parser, options, radiosity, RADIOSITY)
+    choose_arrays(options, radiosity, RADIOSITY_ARRAYS)
+    data = prepare(parser, options, messages, 1.0)
+    result = Stage("radiosity", radiosity, options.quiet).run(messages, data)
+    return result, (f"{get_summary(result, 'NumberOfIterations'):.0f} iterations, "
+                    f"error bound {get_summary(result, 'ErrorBound'):.2g}")
+
+
+def run_scatter(parser, options, messages):
+    scattering = find_class("vtkSubsurfaceScattering")()
+    apply_properties(parser, options, scattering, SCATTERING)
+    index = reference(scattering.GetRefractiveIndex())
+    scattering.GetMaterialProperties(scattering.GetMaterial(), [0.0] * 3, [0.0] * 3, index)
+    data = prepare(parser, options, messages, float(index))
+    if options.light or options.point_light:
+        if index > 1.0:
+            scattering.SetIncidenceToTransmitted()
+        else:
+            options.array0 = "DirectIrradiance"
+    choose_arrays(options, scattering, SCATTERING_ARRAYS)
+    result = Stage("scattering", scattering, options.quiet).run(messages, data)
+    return result, f"{get_summary(result, 'NumberOfLinks'):.0f} links"
+
+
+def check_usage(parser, options):
+    if os.path.splitext(options.input)[1].lower() not in READERS:
+        parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
+    if os.path.splitext(options.output)[1].lower() != ".vtp":
+        parser.error(f"argument output: '{options.output}' is not a .vtp file")
+    length = getattr(options, "TargetEdgeLength", None)
+    options.mesh = None
+    if length is not None:
+        if not 0.0 <= length < float("inf"):
+            parser.error(f"argument --mesh: {length:g} is out of range")
+        mesher = find_class("vtkPatchMesher")()
+        apply_properties(parser, options, mesher, MESHER)
+        options.mesh = Stage("mesh", mesher, options.quiet)
+
+
+def main(arguments):
+    parser = make_parser()
+    options = parser.parse_args(join_negative_values(arguments))
+    messages = Messages()
+    run = run_radiosity if options.command == "radiosity" else run_scatter
+    try:
+        check_usage(parser, options)
+        result, summary = run(parser, options, messages)
+        write(result, options, messages)
+    except Failure as failure:
+        for line in messages.errors + [str(failure)] if str(failure) else messages.errors:
+            print("error: " + line, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+    if not options.quiet:
+        print(f"{options.output}: {result.GetNumberOfCells()} patches, {summary}, "
+              f"{get_summary(result, 'DeviceUsed')}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

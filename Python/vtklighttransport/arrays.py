@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers into data sets and out of them, with numpy (which the rest of the package does without)."""
+
+import numpy
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+
+def make_surface(points, polygons):
+    """A vtkPolyData from points (n x 3) and polygons (rows of point ids, all of the same length)."""
+    coordinates = numpy.ascontiguousarray(points, dtype=numpy.float64)
+    corners = numpy.ascontiguousarray(polygons, dtype=numpy.int64)
+    if coordinates.ndim != 2 or coordinates.shape[1] != 3 or corners.ndim != 2:
+        raise ValueError("points must be n x 3 and polygons m x corners")
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_support.numpy_to_vtk(coordinates, deep=True))
+    cells = vtkCellArray()
+    offsets = numpy.arange(0, corners.size + 1, corners.shape[1], dtype=numpy.int64)
+    cells.SetData(
+        numpy_support.numpy_to_vtkIdTypeArray(offsets, deep=True),
+        numpy_support.numpy_to_vtkIdTypeArray(corners.ravel(), deep=True),
+    )
+    surface = vtkPolyData()
+    surface.SetPoints(vtk_points)
+    surface.SetPolys(cells)
+    return surface
+
+
+def set_cell_array(surface, name, values):
+    """Add a cell array: one value or row per cell, or one for all cells."""
+    count = surface.GetNumberOfCells()
+    rows = numpy.asarray(values, dtype=numpy.float64)
+    if rows.ndim == 0 or rows.shape[0] != count:
+        rows = numpy.broadcast_to(rows, (count,) + rows.shape)
+    array = numpy_support.numpy_to_vtk(numpy.ascontiguousarray(rows), deep=True)
+    array.SetName(name)
+    surface.GetCellData().AddArray(array)
+
+
+def get_cell_array(surface, name):
+    """A cell array as numpy array; KeyError where there is none of that name."""
+    return _get(surface.GetCellData(), name)
+
+
+def get_point_array(surface, name):
+    """A point array as numpy array; KeyError where there is none of that name."""
+    return _get(surface.GetPointData(), name)
+
+
+def get_summary(data, name):
+    """A one-value field data array, as float or str; KeyError where there is none of that name."""
+    array = data.GetFieldData().GetAbstractArray(name)
+    if array is None:
+        raise KeyError(name)
+    return array.GetValue(0)
+
+
+def _get(attributes, name):
+    array = attributes.GetArray(name)
+    if array is None:
+        raise KeyError(name)
+    return numpy_support.vtk_to_numpy(array)
