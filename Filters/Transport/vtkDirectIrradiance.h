@@ -33,6 +33,7 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkDataObject;
 class vtkImageData;
 class vtkLight;
 
@@ -73,8 +74,9 @@ public:
 
   ///@{
   /**
-   * Points on a patch that look at each light, stratified; where not all of them see it, 16 times
-   * as many are taken. Default 16, range 1 to 4096; rounded up to a square number.
+   * Points on a patch that look at each light, stratified. Where not all of them see it, or some
+   * get less than three quarters of others, 16 times as many are taken. Default 16, range 1 to
+   * 4096; rounded up to a square number.
    */
   vtkSetClampMacro(ShadowSamples, int, 1, 4096);
   vtkGetMacro(ShadowSamples, int);
@@ -111,6 +113,12 @@ private:
   void operator=(const vtkDirectIrradiance&) = delete;
 
   struct Internals;
+
+  bool ReadLights();
+  bool ReadEnvironment();
+  bool ComputeIrradiance();
+  void WriteResults(vtkDataObject* input, vtkDataObject* output, double seconds);
+
   std::unique_ptr<Internals> Self;
 
   vtkImageData* Environment = nullptr;
