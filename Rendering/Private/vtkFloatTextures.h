@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Computing with fragment shaders over RGBA32F textures in the context of one window: textures,
+ * programs, and quads drawn with the former by the latter. All work happens while a
+ * vtkFloatTextures::Session lives.
+ */
+#ifndef vtkFloatTextures_h
+#define vtkFloatTextures_h
+
+#include "vtkOpenGLContextGuard.h"
+#include "vtkOpenGLState.h"
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+#include "vtkWeakPointer.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+class vtkFloatTextures
+{
+public:
+  /// Textures of one size that are read and written together.
+  using Group = std::vector<vtkSmartPointer<vtkTextureObject>>;
+
+  /// Makes the context current and sets the state that computing needs; the destructor puts
+  /// everything back.
+  class Session
+  {
+  public:
+    explicit Session(vtkOpenGLRenderWindow* window);
+    ~Session();
+    Session(const Session&) = delete;
+    void operator=(const Session&) = delete;
+
+  private:
+    vtkOpenGLContextGuard Context;
+    vtkOpenGLState* State;
+    vtkOpenGLState::ScopedglViewport Viewport;
+    vtkOpenGLState::ScopedglColorMask ColorMask;
+    vtkOpenGLState::ScopedglEnableDisable Blend;
+    vtkOpenGLState::ScopedglEnableDisable CullFace;
+    vtkOpenGLState::ScopedglEnableDisable DepthTest;
+    vtkOpenGLState::ScopedglEnableDisable ScissorTest;
+    vtkOpenGLState::ScopedglEnableDisable StencilTest;
+  };
+
+  explicit vtkFloatTextures(vtkOpenGLRenderWindow* window);
+  /// Within the life of the context, or after it; not within a session.
+  ~vtkFloatTextures();
+  vtkFloatTextures(const vtkFloatTextures&) = delete;
+  void operator=(const vtkFloatTextures&) = delete;
+
+  /// False after the window has gone or has released its resources: nothing is left then.
+  bool IsAlive() const;
+
+  vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
+
+  /// Width and height that the context offers.
+  int GetMaximumTextureSize() const;
+
+  /// Most textures in a group.
+  int GetMaximumGroupSize() const;
+
+  /// Empty when the memory is not there.
+  Group Allocate(std::size_t count, int width, int height);
+
+  /// Write a region (x, y, width, height) of a texture; `rowLength` texels lie between the starts
+  /// of two rows of `rgba`.
+  void Upload(vtkTextureObject* texture, const int region[4], int rowLength, const float* rgba);
+
+  /// Read the left lower width x height texels of one texture of a group.
+  void Download(const Group& group, std::size_t index, int width, int height, float* rgba);
+
+  ///@{
+  /**
+   * Draw: Use a program (compiled at the first use of a name; the common part is put before
+   * `body`), set its textures and uniforms, then Draw into a region (x, y, width, height) of a
+   * group. Use returns nullptr when the program does not compile.
+   */
+  vtkShaderProgram* Use(const std::string& name, const char* body, const std::string& defines);
+  void SetTextures(vtkShaderProgram* program, const char* name, const Group& group);
+  void Draw(const Group& target, const int region[4]);
+  ///@}
+
+  /// True when OpenGL has reported no error since the last call; `text` otherwise names it.
+  static bool CheckErrors(std::string& text);
+
+private:
+  void Attach(const Group& group);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkSmartPointer<vtkTextureObject> Witness;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> Framebuffer;
+  std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> Quads;
+  vtkOpenGLQuadHelper* CurrentQuad = nullptr;
+  std::vector<vtkTextureObject*> ActiveTextures;
+};
+
+#endif

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOpenGLPlatform.h"
+
+#include <dlfcn.h>
+
+#include <mutex>
+
+namespace
+{
+constexpr unsigned int UnsignedByte = 0x1401; // GL_UNSIGNED_BYTE
+
+/// Look a function up; false when the library lacks it.
+template <typename Function>
+bool Find(void* library, const char* name, Function& function)
+{
+  function = reinterpret_cast<Function>(dlsym(library, name));
+  return function != nullptr;
+}
+
+/// GLX as this process has it already: nothing is loaded for it.
+struct GLXLibrary
+{
+  void* (*GetCurrentContext)() = nullptr;
+  void* (*GetCurrentDisplay)() = nullptr;
+  unsigned long (*GetCurrentDrawable)() = nullptr;
+  int (*MakeCurrent)(void* display, unsigned long drawable, void* context) = nullptr;
+
+  static GLXLibrary Get()
+  {
+    GLXLibrary glx;
+    if (!Find(RTLD_DEFAULT, "glXGetCurrentContext", glx.GetCurrentContext) ||
+      !Find(RTLD_DEFAULT, "glXGetCurrentDisplay", glx.GetCurrentDisplay) ||
+      !Find(RTLD_DEFAULT, "glXGetCurrentDrawable", glx.GetCurrentDrawable) ||
+      !Find(RTLD_DEFAULT, "glXMakeCurrent", glx.MakeCurrent))
+    {
+      return GLXLibrary();
+    }
+    return glx;
+  }
+};
+
+//------------------------------------------------------------------------------
+bool LoadEGL(vtkEGLLibrary& egl)
+{
+  void* library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
+  return library && Find(library, "eglBindAPI", egl.BindAPI) &&
+    Find(library, "eglChooseConfig", egl.ChooseConfig) &&
+    Find(library, "eglCreateContext", egl.CreateContext) &&
+    Find(library, "eglCreatePbufferSurface", egl.CreatePbufferSurface) &&
+    Find(library, "eglDestroyContext", egl.DestroyContext) &&
+    Find(library, "eglDestroySurface", egl.DestroySurface) &&
+    Find(library, "eglGetCurrentContext", egl.GetCurrentContext) &&
+    Find(library, "eglGetCurrentDisplay", egl.GetCurrentDisplay) &&
+    Find(library, "eglGetCurrentSurface", egl.GetCurrentSurface) &&
+    Find(library, "eglGetProcAddress", egl.GetProcAddress) &&
+    Find(library, "eglInitialize", egl.Initialize) &&
+    Find(library, "eglMakeCurrent", egl.MakeCurrent) &&
+    Find(library, "eglQueryAPI", egl.QueryAPI) && Find(library, "eglQueryString", egl.QueryString);
+}
+
+//------------------------------------------------------------------------------
+bool LoadOSMesa(vtkOSMesaLibrary& mesa, int mode)
+{
+  void* library = nullptr;
+  for (const char* name : { "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so" })
+  {
+    library = library ? library : dlopen(name, RTLD_LAZY | RTLD_LOCAL | mode);
+  }
+  return library && Find(library, "OSMesaCreateContextAttribs", mesa.CreateContextAttribs) &&
+    Find(library, "OSMesaDestroyContext", mesa.DestroyContext) &&
+    Find(library, "OSMesaMakeCurrent", mesa.MakeCurrent) &&
+    Find(library, "OSMesaGetCurrentContext", mesa.GetCurrentContext) &&
+    Find(library, "OSMesaGetColorBuffer", mesa.GetColorBuffer) &&
+    Find(library, "OSMesaGetProcAddress", mesa.GetProcAddress);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+const vtkEGLLibrary* vtkEGLLibrary::Get()
+{
+  static vtkEGLLibrary library;
+  static const bool loaded = LoadEGL(library);
+  return loaded ? &library : nullptr;
+}
+
+//------------------------------------------------------------------------------
+const vtkOSMesaLibrary* vtkOSMesaLibrary::Get(bool load)
+{
+  static vtkOSMesaLibrary library;
+  static bool loaded = false;
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  loaded = loaded || LoadOSMesa(library, load ? 0 : RTLD_NOLOAD);
+  return loaded ? &library : nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool vtkOSMesaLibrary::IsPreloaded() const
+{
+  vtkOpenGLProcedure (*getString)() = nullptr;
+  vtkOpenGLProcedure (*getProcAddress)(const unsigned char* name) = nullptr;
+  if (!Find(RTLD_DEFAULT, "glGetString", getString) ||
+    !Find(RTLD_DEFAULT, "glXGetProcAddressARB", getProcAddress))
+  {
+    return false;
+  }
+  Dl_info ofCalls = {};
+  Dl_info ofLibrary = {};
+  dladdr(reinterpret_cast<void*>(getString), &ofCalls);
+  dladdr(reinterpret_cast<void*>(this->CreateContextAttribs), &ofLibrary);
+  const auto* name = reinterpret_cast<const unsigned char*>("glCreateShader");
+  return ofCalls.dli_fbase == ofLibrary.dli_fbase &&
+    getProcAddress(name) == this->GetProcAddress("glCreateShader");
+}
+
+//------------------------------------------------------------------------------
+bool vtkCurrentOpenGLContext::operator==(const vtkCurrentOpenGLContext& other) const
+{
+  return this->EGLOfContext == other.EGLOfContext && this->EGLDraw == other.EGLDraw &&
+    this->EGLRead == other.EGLRead && this->GLXContext == other.GLXContext &&
+    this->GLXDrawable == other.GLXDrawable && this->OSMesaContext == other.OSMesaContext &&
+    this->OSMesaBuffer == other.OSMesaBuffer;
+}
+
+//------------------------------------------------------------------------------
+vtkCurrentOpenGLContext vtkCurrentOpenGLContext::Get()
+{
+  vtkCurrentOpenGLContext current;
+  if (const vtkEGLLibrary* egl = vtkEGLLibrary::Get())
+  {
+    current.EGLApi = egl->QueryAPI();
+    current.EGLOfContext = egl->GetCurrentContext();
+    current.EGLOfDisplay = egl->GetCurrentDisplay();
+    current.EGLDraw = egl->GetCurrentSurface(EGL_DRAW);
+    current.EGLRead = egl->GetCurrentSurface(EGL_READ);
+  }
+  const GLXLibrary glx = GLXLibrary::Get();
+  if (glx.MakeCurrent)
+  {
+    current.GLXContext = glx.GetCurrentContext();
+    current.GLXDisplay = glx.GetCurrentDisplay();
+    current.GLXDrawable = glx.GetCurrentDrawable();
+  }
+  if (const vtkOSMesaLibrary* mesa = vtkOSMesaLibrary::Get(false))
+  {
+    current.OSMesaContext = mesa->GetCurrentContext();
+    int format;
+    if (current.OSMesaContext)
+    {
+      mesa->GetColorBuffer(current.OSMesaContext, &current.OSMesaSize[0], &current.OSMesaSize[1],
+        &format, &current.OSMesaBuffer);
+    }
+  }
+  return current;
+}
+
+//------------------------------------------------------------------------------
+void vtkCurrentOpenGLContext::Release()
+{
+  const vtkCurrentOpenGLContext current = vtkCurrentOpenGLContext::Get();
+  if (current.EGLOfContext != EGL_NO_CONTEXT)
+  {
+    vtkEGLLibrary::Get()->MakeCurrent(current.EGLOfDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE,
+      EGL_NO_CONTEXT);
+  }
+  if (current.GLXContext)
+  {
+    GLXLibrary::Get().MakeCurrent(current.GLXDisplay, 0, nullptr);
+  }
+  if (current.OSMesaContext)
+  {
+    vtkOSMesaLibrary::Get(false)->MakeCurrent(nullptr, nullptr, UnsignedByte, 0, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkCurrentOpenGLContext::Restore() const
+{
+  if (*this == vtkCurrentOpenGLContext::Get())
+  {
+    return;
+  }
+  // The vendor-neutral dispatcher refuses to switch from one window system to another while a
+  // context is current.
+  vtkCurrentOpenGLContext::Release();
+  if (this->EGLApi != EGL_NONE)
+  {
+    vtkEGLLibrary::Get()->BindAPI(this->EGLApi);
+  }
+  if (this->EGLOfContext != EGL_NO_CONTEXT)
+  {
+    vtkEGLLibrary::Get()->MakeCurrent(this->EGLOfDisplay, this->EGLDraw, this->EGLRead,
+      this->EGLOfContext);
+  }
+  if (this->GLXContext)
+  {
+    GLXLibrary::Get().MakeCurrent(this->GLXDisplay, this->GLXDrawable, this->GLXContext);
+  }
+  if (this->OSMesaContext)
+  {
+    vtkOSMesaLibrary::Get(false)->MakeCurrent(this->OSMesaContext, this->OSMesaBuffer, UnsignedByte,
+      this->OSMesaSize[0], this->OSMesaSize[1]);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkOpenGLDeviceIsHardware(const std::string& renderer)
+{
+  for (const char* software : { "llvmpipe", "softpipe", "swrast", "SWR", "Software Rasterizer",
+         "SwiftShader", "GDI Generic", "Microsoft Basic Render" })
+  {
+    if (renderer.find(software) != std::string::npos)
+    {
+      return false;
+    }
+  }
+  return !renderer.empty();
+}

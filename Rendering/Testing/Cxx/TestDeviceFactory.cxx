@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The filters' abstract device operator is made by this module once it is loaded, and opens.
+ */
+#include "vtkDeviceLinkOperator.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+//------------------------------------------------------------------------------
+int TestDeviceFactory(int, char*[])
+{
+  auto device = vtkSmartPointer<vtkDeviceLinkOperator>::Take(vtkDeviceLinkOperator::New());
+  if (!device || !device->IsA("vtkOpenGLLinkOperator"))
+  {
+    std::cerr << "ERROR: no factory gives a vtkOpenGLLinkOperator\n";
+    return EXIT_FAILURE;
+  }
+  std::string reason;
+  if (!device->Open(reason))
+  {
+    std::cerr << "ERROR: " << reason << "\n";
+    return EXIT_FAILURE;
+  }
+  std::cout << device->GetDeviceName() << "\n";
+  if (std::string(device->GetDeviceName()).find("OpenGL (") != 0 || !device->IsSinglePrecision())
+  {
+    std::cerr << "ERROR: " << device->GetDeviceName() << " is no OpenGL device\n";
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Where no OpenGL can be had (the test's environment hides EGL's drivers and does not preload
+ * OSMesa), everything that wants a context says why and what to install, and the process goes on.
+ */
+#include "vtkOffScreenOpenGLRenderWindow.h"
+
+#include "vtkNew.h"
+#include "vtkRenderer.h"
+#include "vtkTestErrorObserver.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace
+{
+bool ReasonSays(const char* backend, const char* remedy)
+{
+  setenv("VTK_DEFAULT_OPENGL_WINDOW", backend, 1);
+  std::string reason;
+  if (vtkOffScreenOpenGLRenderWindow::IsAvailable(reason))
+  {
+    std::cerr << "ERROR: a context can be had with " << backend << "\n";
+    return false;
+  }
+  if (reason.find(remedy) == std::string::npos)
+  {
+    std::cerr << "ERROR: the reason is \"" << reason << "\", without " << remedy << "\n";
+    return false;
+  }
+  return true;
+}
+
+/// A window without a context draws nothing, reads nothing, and reports one error.
+bool WindowComplainsOnce()
+{
+  vtkNew<vtkTest::ErrorObserver> observer;
+  vtkNew<vtkOffScreenOpenGLRenderWindow> window;
+  window->AddObserver(vtkCommand::ErrorEvent, observer);
+  window->AddObserver(vtkCommand::WarningEvent, observer);
+  vtkNew<vtkRenderer> renderer;
+  window->AddRenderer(renderer);
+  window->Render();
+  bool good = observer->CheckErrorMessage("libegl1") == 0;
+  vtkNew<vtkUnsignedCharArray> pixel;
+  window->GetPixelData(0, 0, 0, 0, 0, pixel, 0);
+  window->Render();
+  if (observer->GetError() || window->SupportsOpenGL() || window->IsHardware())
+  {
+    std::cerr << "ERROR: a second error, or OpenGL without a context\n";
+    good = false;
+  }
+  return good;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestNoContext(int, char*[])
+{
+  bool good = ReasonSays("", "libegl1");
+  good = ReasonSays("vtkEGLRenderWindow", "libegl1") && good;
+#ifdef TEST_OSMESA_NEEDS_PRELOAD
+  good = ReasonSays("vtkOSOpenGLRenderWindow", "LD_PRELOAD") && good;
+#endif
+  setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 1);
+  good = WindowComplainsOnce() && good;
+  if (vtkOffScreenOpenGLRenderWindow::RegisterAsDefault())
+  {
+    std::cerr << "ERROR: a window that cannot work became the default\n";
+    good = false;
+  }
+  return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,10 @@
+// x y, element by element
+uniform sampler2D x[GROUPS];
+uniform sampler2D y[GROUPS];
+
+void main()
+{
+  ivec2 place = ivec2(gl_FragCoord.xy);
+#define STORE(g) result[g] = texelFetch(x[g], place, 0) * texelFetch(y[g], place, 0);
+  FOR_ALL_GROUPS(STORE)
+}
