@@ -15,7 +15,8 @@ import time
 
 import vtklighttransport as lt
 from vtkmodules.util.misc import calldata_type
-from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import (
+    VTK_STRING, reference, vtkLogger, vtkOutputWindow, vtkStringOutputWindow)
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 READERS = {
@@ -86,6 +87,8 @@ class Messages:
 
     def __init__(self):
         self.errors = []
+        # Otherwise each message is on stderr a second time, with its place in the source.
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
         self.window = vtkStringOutputWindow()
         vtkOutputWindow.SetInstance(self.window)
         self.window.AddObserver("ErrorEvent", self.on_error)
@@ -192,7 +195,7 @@ def add_properties(parser, class_name, table):
         parser.add_argument(flag, help=text, **arguments)
 
 
-def apply_properties(parser, options, algorithm, table):
+def apply_properties(options, algorithm, table):
     for flag, name, form, _text in table:
         value = getattr(options, name)
         if value is None:
@@ -202,7 +205,7 @@ def apply_properties(parser, options, algorithm, table):
         getattr(algorithm, "Set" + name)(*value if isinstance(form, tuple) else (value,))
         # Setters move a value into its range without a word.
         if not isinstance(form, tuple) and getattr(algorithm, "Get" + name)() != value:
-            parser.error(f"argument {flag}: {value:g} is out of range")
+            options.parser.error(f"argument {flag}: {value:g} is out of range")
 
 
 def parse_light(text):
@@ -255,6 +258,7 @@ def make_parser():
 
 def add_command(commands, name, text, description):
     command = commands.add_parser(name, help=text, description=description)
+    command.set_defaults(parser=command)
     command.add_argument("input", help="surface mesh: " + ", ".join(READERS))
     command.add_argument("output", help="result: .vtp")
     command.add_argument("--quiet", action="store_true", help="no progress on stderr, no summary")
@@ -309,7 +313,7 @@ def write(data, options, messages):
             os.remove(unfinished)
 
 
-def prepare(parser, options, messages, refractive_index):
+def prepare(options, messages, refractive_index):
     """The mesh, remeshed and lit as asked for."""
     data = read(options, messages)
     if options.mesh:
@@ -318,7 +322,7 @@ def prepare(parser, options, messages, refractive_index):
     lights += [make_light(numbers, True) for numbers in options.point_light]
     if lights:
         irradiance = find_class("vtkDirectIrradiance")()
-        apply_properties(parser, options, irradiance, IRRADIANCE)
+        apply_properties(options, irradiance, IRRADIANCE)
         irradiance.SetRefractiveIndex(refractive_index)
         for light in lights:
             irradiance.AddLight(light)
@@ -339,22 +343,22 @@ def get_summary(data, name):
     return array.GetValue(0) if array else None
 
 
-def run_radiosity(parser, options, messages):
+def run_radiosity(options, messages):
     radiosity = find_class("vtkRadiosity")()
-    apply_properties(parser, options, radiosity, RADIOSITY)
+    apply_properties(options, radiosity, RADIOSITY)
     choose_arrays(options, radiosity, RADIOSITY_ARRAYS)
-    data = prepare(parser, options, messages, 1.0)
+    data = prepare(options, messages, 1.0)
     result = Stage("radiosity", radiosity, options.quiet).run(messages, data)
     return result, (f"{get_summary(result, 'NumberOfIterations'):.0f} iterations, "
                     f"error bound {get_summary(result, 'ErrorBound'):.2g}")
 
 
-def run_scatter(parser, options, messages):
+def run_scatter(options, messages):
     scattering = find_class("vtkSubsurfaceScattering")()
-    apply_properties(parser, options, scattering, SCATTERING)
+    apply_properties(options, scattering, SCATTERING)
     index = reference(scattering.GetRefractiveIndex())
     scattering.GetMaterialProperties(scattering.GetMaterial(), [0.0] * 3, [0.0] * 3, index)
-    data = prepare(parser, options, messages, float(index))
+    data = prepare(options, messages, float(index))
     if options.light or options.point_light:
         if index > 1.0:
             scattering.SetIncidenceToTransmitted()
@@ -365,29 +369,31 @@ def run_scatter(parser, options, messages):
     return result, f"{get_summary(result, 'NumberOfLinks'):.0f} links"
 
 
-def check_usage(parser, options):
+def check_usage(options):
     if os.path.splitext(options.input)[1].lower() not in READERS:
-        parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
+        options.parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
     if os.path.splitext(options.output)[1].lower() != ".vtp":
-        parser.error(f"argument output: '{options.output}' is not a .vtp file")
+        options.parser.error(f"argument output: '{options.output}' is not a .vtp file")
+    folder = os.path.dirname(options.output)
+    if folder and not os.path.isdir(folder):
+        raise Failure(f"cannot write {options.output}: no such directory")
     length = getattr(options, "TargetEdgeLength", None)
     options.mesh = None
     if length is not None:
         if not 0.0 <= length < float("inf"):
-            parser.error(f"argument --mesh: {length:g} is out of range")
+            options.parser.error(f"argument --mesh: {length:g} is out of range")
         mesher = find_class("vtkPatchMesher")()
-        apply_properties(parser, options, mesher, MESHER)
+        apply_properties(options, mesher, MESHER)
         options.mesh = Stage("mesh", mesher, options.quiet)
 
 
 def main(arguments):
-    parser = make_parser()
-    options = parser.parse_args(join_negative_values(arguments))
+    options = make_parser().parse_args(join_negative_values(arguments))
     messages = Messages()
     run = run_radiosity if options.command == "radiosity" else run_scatter
     try:
-        check_usage(parser, options)
-        result, summary = run(parser, options, messages)
+        check_usage(options)
+        result, summary = run(options, messages)
         write(result, options, messages)
     except Failure as failure:
         for line in messages.errors + [str(failure)] if str(failure) else messages.errors:

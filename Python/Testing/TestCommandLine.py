@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""python3 -m vtklighttransport from end to end: results, exit codes, messages."""
+
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import vtklighttransport as lt
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+
+
+def make_cube(outside=False, first=0.0):
+    """The unit cube, seen from inside or from outside."""
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for corner in range(8):
+        points.InsertNextPoint(corner & 1 or first, corner >> 1 & 1, corner >> 2)
+    cells = vtkCellArray()
+    for face in FACES:
+        cells.InsertNextCell(4, face[::-1] if outside else face)
+    cube = vtkPolyData()
+    cube.SetPoints(points)
+    cube.SetPolys(cells)
+    return cube
+
+
+def add_array(surface, name, values):
+    array = vtkDoubleArray()
+    array.SetName(name)
+    for value in values:
+        array.InsertNextValue(value)
+    surface.GetCellData().AddArray(array)
+    return surface
+
+
+def get_values(surface, name):
+    array = surface.GetCellData().GetArray(name)
+    return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+
+
+class TestCommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def save(self, name, surface):
+        writer = vtkXMLPolyDataWriter()
+        writer.SetInputData(surface)
+        writer.SetFileName(self.path(name))
+        self.assertEqual(writer.Write(), 1)
+        return self.path(name)
+
+    def load(self, name):
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        return reader.GetOutput()
+
+    def run_command(self, *arguments):
+        return subprocess.run(
+            [sys.executable, "-m", "vtklighttransport", *arguments],
+            capture_output=True, text=True, timeout=120, check=False)
+
+    def check_failure(self, result, code, message, output="out.vtp"):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertIn(message, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("out")],
+                         [output] if os.path.exists(self.path(output)) else [])
+        errors = [line for line in result.stderr.splitlines() if message in line]
+        self.assertTrue(errors[0].startswith("error: ") or code == 2, errors)
+
+    def make_lit_cube(self):
+        cube = add_array(make_cube(), "Emission", [1, 0, 0, 0, 0, 0])
+        return self.save("in.vtp", add_array(cube, "Reflectance", [0.5] * 6))
+
+    def test_help(self):
+        result = self.run_command("radiosity", "--help")
+        self.assertEqual(result.returncode, 0)
+        for text in ("--tolerance", "[0.0001]", "gauss-seidel", "degrees [60]", "kelvin"):
+            self.assertIn(text, result.stdout)
+        result = self.run_command("scatter", "--help")
+        for text in ("--material", "marble", "[custom]", "per mm [1 1 1]", "millimetres; 10 for"):
+            self.assertIn(text, " ".join(result.stdout.split()))
+        self.assertEqual(self.run_command("--version").stdout.strip(), lt.__version__)
+
+    def test_radiosity(self):
+        source = self.make_lit_cube()
+        result = self.run_command(
+            "radiosity", source, self.path("out.vtp"), "--solver", "jacobi", "--device", "cpu",
+            "--tolerance", "1e-9", "--view-factor-tolerance", "1e-7")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("6 patches", result.stdout)
+        self.assertIn("radiosity: ", result.stderr)
+        values = get_values(self.load("out.vtp"), "Radiosity")
+        # The opposite face and the four others, by elimination with the cube's two view factors.
+        opposite = 0.19982489569838746
+        beside = (1.0 - opposite) / 4.0
+        # Unknowns a (emitter), b (opposite), c (beside): a = 1 + (f b + 4 g c) / 2 and so on.
+        others = 1.0 - (opposite + 2.0 * beside) / 2.0
+        a_minus_b = 1.0 / (1.0 + opposite / 2.0)
+        a_plus_b_factor = 4.0 * beside / (1.0 - opposite / 2.0)
+        a_plus_b = (1.0 / (1.0 - opposite / 2.0)) / (1.0 - a_plus_b_factor * beside / 2.0 / others)
+        side = beside / 2.0 * a_plus_b / others
+        self.assertAlmostEqual(values[0][0], (a_plus_b + a_minus_b) / 2.0, delta=1e-6)
+        self.assertAlmostEqual(values[1][0], (a_plus_b - a_minus_b) / 2.0, delta=1e-6)
+        self.assertAlmostEqual(values[4][0], side, delta=1e-6)
+        # Nothing leaks, so the radiosities sum to the emission over 1 - rho.
+        self.assertAlmostEqual(sum(value[0] for value in values), 2.0, delta=1e-6)
+
+    def test_other_array_names(self):
+        cube = add_array(make_cube(), "Glow", [1, 0, 0, 0, 0, 0])
+        source = self.save("in.vtp", add_array(cube, "Albedo", [0.5] * 6))
+        result = self.run_command("radiosity", source, self.path("out.vtp"), "--quiet",
+                                  "--emission", "Glow", "--reflectance", "Albedo")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        self.assertAlmostEqual(get_values(self.load("out.vtp"), "Radiosity")[0][0], 1.0909, delta=1e-3)
+
+    @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
+    def test_mesh(self):
+        result = self.run_command(
+            "radiosity", self.make_lit_cube(), self.path("out.vtp"), "--mesh", "0.3", "--device", "cpu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        surface = self.load("out.vtp")
+        self.assertGreater(surface.GetNumberOfCells(), 100)
+        self.assertEqual(surface.GetCellData().GetArray("OriginalCellIds").GetRange(), (0.0, 5.0))
+
+    def test_scatter(self):
+        source = self.save("in.vtp", make_cube(outside=True))
+        # Ten millimetres to the unit: a face is 220 times as wide as marble's mean free path of green light.
+        result = self.run_command(
+            "scatter", source, self.path("out.vtp"), "--material", "marble", "--mm-per-unit", "10",
+            "--light", "-1,0,0,2", "--device", "cpu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        surface = self.load("out.vtp")
+        direct = get_values(surface, "DirectIrradiance")
+        for value in direct[4]:
+            self.assertAlmostEqual(value, 2.0, delta=1e-12)
+        self.assertEqual([max(direct[face]) for face in (0, 1, 2, 3, 5)], [0.0] * 5)
+        # Normal incidence at n = 1.5: four hundredths are reflected.
+        for value in get_values(surface, "TransmittedIrradiance")[4]:
+            self.assertAlmostEqual(value, 2.0 * 0.96, delta=1e-9)
+        scattered = get_values(surface, "ScatteredIrradiance")[4]
+        self.assertTrue(all(0.0 < value < 2.0 * 0.96 for value in scattered), scattered)
+
+    def test_scatter_without_light(self):
+        cube = add_array(make_cube(outside=True), "Light", [1.0] * 6)
+        source = self.save("in.vtp", cube)
+        result = self.run_command("scatter", source, self.path("out.vtp"), "--irradiance", "Light",
+                                  "--scattering", "2", "2", "2", "--absorption", "1e-2", "1e-2", "1e-2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        values = get_values(self.load("out.vtp"), "ScatteredIrradiance")
+        self.assertLess(max(map(max, values)) - min(map(min, values)), 1e-6)
+
+    def test_usage(self):
+        source = self.make_lit_cube()
+        out = self.path("out.vtp")
+        for arguments, message in (
+                ((), "COMMAND"),
+                (("radiosity", source), "output"),
+                (("radiosity", source, out, "--solver", "magic"), "invalid choice"),
+                (("radiosity", source, out, "--tolerance", "5"), "--tolerance: 5 is out of range"),
+                (("radiosity", source, self.path("out.ply")), "is not a .vtp file"),
+                (("radiosity", self.path("in.xyz"), out), "is none of"),
+                (("scatter", source, out, "--light", "1,2"), "is not X,Y,Z"),
+                (("scatter", source, out, "--light", "0,0,0"), "is not X,Y,Z")):
+            self.check_failure(self.run_command(*arguments), 2, message)
+
+    def test_failures(self):
+        out = self.path("out.vtp")
+        self.check_failure(self.run_command("radiosity", self.path("none.vtp"), out), 1, "no such file")
+        bare = self.save("bare.vtp", make_cube())
+        self.check_failure(self.run_command("radiosity", bare, out), 1, "Reflectance")
+        self.check_failure(self.run_command("scatter", bare, out), 1, "Irradiance")
+        broken = add_array(make_cube(first=math.nan), "Emission", [1.0] * 6)
+        broken = self.save("nan.vtp", add_array(broken, "Reflectance", [0.5] * 6))
+        self.check_failure(self.run_command("radiosity", broken, out), 1, "finite")
+        with open(self.path("garbage.vtp"), "w", encoding="utf-8") as stream:
+            stream.write("<VTKFile type='PolyData'><broken")
+        self.check_failure(self.run_command("radiosity", self.path("garbage.vtp"), out), 1, "garbage.vtp")
+        lit = self.make_lit_cube()
+        self.check_failure(
+            self.run_command("radiosity", lit, self.path("no/such/out.vtp")), 1, "no such directory")
+
+    def test_failure_keeps_the_older_file(self):
+        with open(self.path("out.vtp"), "w", encoding="utf-8") as stream:
+            stream.write("older")
+        bare = self.save("bare.vtp", make_cube())
+        self.check_failure(self.run_command("radiosity", bare, self.path("out.vtp")), 1, "Reflectance")
+        with open(self.path("out.vtp"), encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "older")
+
+
+if __name__ == "__main__":
+    unittest.main()
