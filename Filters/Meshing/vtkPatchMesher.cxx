@@ -210,7 +210,7 @@ void WriteGeometry(const vtkSurfaceRemesher::Result& patches, bool flip, vtkPoly
 
 //------------------------------------------------------------------------------
 void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleSoup& soup,
-  vtkPatchSources& sources, vtkCellData* from, vtkCellData* to)
+  vtkPatchSources& sources, double reach, vtkCellData* from, vtkCellData* to)
 {
   const vtkIdType size = static_cast<vtkIdType>(patches.Triangles.size());
   vtkNew<vtkIdTypeArray> ids;
@@ -228,7 +228,7 @@ void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleS
         center[j] += patches.Points[corner][j] / 3.0;
       }
     }
-    const vtkIdType cell = soup.CellIds[sources.Find(patches.Parts[i], center).Triangle];
+    const vtkIdType cell = soup.CellIds[sources.Find(patches.Parts[i], center, reach).Triangle];
     to->CopyData(from, cell, i);
     ids->SetValue(i, cell);
   }
@@ -240,8 +240,12 @@ void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleS
 
 //------------------------------------------------------------------------------
 void WritePointData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleSoup& soup,
-  vtkPatchSources& sources, vtkPointData* from, vtkPointData* to)
+  vtkPatchSources& sources, double reach, vtkPointData* from, vtkPointData* to)
 {
+  if (from->GetNumberOfArrays() == 0)
+  {
+    return;
+  }
   const std::size_t unknown = patches.Triangles.size();
   std::vector<std::size_t> triangleOfPoint(patches.Points.size(), unknown);
   for (std::size_t i = 0; i < patches.Triangles.size(); ++i)
@@ -261,7 +265,7 @@ void WritePointData(const vtkSurfaceRemesher::Result& patches, const vtkTriangle
   for (std::size_t i = 0; i < patches.Points.size(); ++i)
   {
     vtkPatchSources::Place place =
-      sources.Find(patches.Parts[triangleOfPoint[i]], patches.Points[i]);
+      sources.Find(patches.Parts[triangleOfPoint[i]], patches.Points[i], reach);
     for (int j = 0; j < 3; ++j)
     {
       ids->SetId(j, soup.PointIds[soup.Triangles[place.Triangle][j]]);
@@ -429,10 +433,12 @@ void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCe
 
   const vtkSurfaceRemesher::Result patches = remesher.GetResult();
   vtkPatchSources sources(soup, remesher.GetPartsOfSoup(), remesher.GetNumberOfParts());
+  // New points lie on the old surface, centroids nearly so.
+  const double reach = 0.1 * length;
   WriteGeometry(patches, this->FlipNormals, output);
-  WriteCellData(patches, soup, sources, input->GetCellData(), output->GetCellData());
+  WriteCellData(patches, soup, sources, reach, input->GetCellData(), output->GetCellData());
   Report(this, 0.9);
-  WritePointData(patches, soup, sources, input->GetPointData(), output->GetPointData());
+  WritePointData(patches, soup, sources, reach, input->GetPointData(), output->GetPointData());
   WriteSummary(soup, output->GetNumberOfCells(), length, output->GetFieldData());
   this->UpdateProgress(1.0);
 }

@@ -80,14 +80,21 @@ vtkPatchSources::vtkPatchSources(const vtkTriangleSoup& soup, const std::vector<
 
 //------------------------------------------------------------------------------
 vtkPatchSources::Place vtkPatchSources::Find(std::size_t part,
-  const vtkTriangleSoup::Point& position)
+  const vtkTriangleSoup::Point& position, double reach)
 {
+  vtkTriangleSoup::Point from = position;
   vtkTriangleSoup::Point closest = position;
   vtkIdType cell = 0;
   int subId;
   double distance2;
-  this->Locators[part]->FindClosestPoint(position.data(), closest.data(), this->Cell, cell, subId,
-    distance2);
+  // The locator's own search without a radius looks at the bins of the whole surface.
+  const double growth = 4.0;
+  while (!this->Locators[part]->FindClosestPointWithinRadius(from.data(), reach, closest.data(),
+           this->Cell, cell, subId, distance2) &&
+    std::isfinite(reach))
+  {
+    reach *= growth;
+  }
   const std::size_t triangle = this->TrianglesOfParts[part][cell];
   return { triangle, GetWeights(this->Soup, this->Soup.Triangles[triangle], closest) };
 }

@@ -27,8 +27,8 @@ public:
     /// Barycentric coordinates of the closest point in it.
     vtkTriangleSoup::Point Weights;
   };
-  /// The closest place on one part of the original surface.
-  Place Find(std::size_t part, const vtkTriangleSoup::Point& position);
+  /// The closest place on one part of the original surface, fastest when it is about `reach` away.
+  Place Find(std::size_t part, const vtkTriangleSoup::Point& position, double reach);
 
 private:
   const vtkTriangleSoup& Soup;

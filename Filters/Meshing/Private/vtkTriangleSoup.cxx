@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTriangleSoup.h"
 
+#include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -114,7 +115,9 @@ private:
     this->Polygon->Initialize(static_cast<int>(size), ids, this->Input->GetPoints());
     // Ids within the polygon: the points of a polygon need not differ.
     std::iota(this->Polygon->PointIds->begin(), this->Polygon->PointIds->end(), 0);
-    const bool done = this->Polygon->Triangulate(0, this->TriangleIds, this->TrianglePoints) != 0 &&
+    // All versions of VTK have this call of vtkCell, not all have that of vtkPolygon.
+    vtkCell& polygon = *this->Polygon;
+    const bool done = polygon.Triangulate(0, this->TriangleIds, this->TrianglePoints) != 0 &&
       this->TriangleIds->GetNumberOfIds() == 3 * (size - 2);
     for (vtkIdType i = 0; i < size - 2; ++i)
     {

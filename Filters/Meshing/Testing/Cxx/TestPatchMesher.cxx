@@ -263,6 +263,46 @@ void TestCellTypes(meshTest::Checker& check)
 }
 
 //------------------------------------------------------------------------------
+// Polygons with points on their sides and one with a notch, in planes that are not axis-aligned.
+void TestPolygons(meshTest::Checker& check)
+{
+  const std::vector<std::vector<std::array<double, 2>>> shapes = {
+    { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 2, 1 }, { 2, 2 }, { 1, 2 }, { 0, 2 }, { 0, 1 } },
+    { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 2, 0.001 }, { 0, 4 } }, { { 0, 0 }, { 3, 0 }, { 0, 3 } }
+  };
+  const std::vector<double> areas = { 4.0, 8.002, 4.5 };
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+  {
+    std::vector<meshTest::Vector> points;
+    for (const auto& p : shapes[i])
+    {
+      points.push_back({ 0.6 * p[0] + 7.0, 0.8 * p[0], p[1] - 9.0 });
+    }
+    vtkSmartPointer<vtkPolyData> shape = meshTest::MakeSurface(points, {});
+    shape->GetPolys()->InsertNextCell(static_cast<int>(points.size()));
+    for (std::size_t j = 0; j < points.size(); ++j)
+    {
+      shape->GetPolys()->InsertCellPoint(static_cast<vtkIdType>(j));
+    }
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetInputData(shape);
+    mesher->SetRepair(false);
+    mesher->SetTargetEdgeLength(0.3);
+    mesher->Update();
+    meshTest::Vector sum{ 0.0, 0.0, 0.0 };
+    for (vtkIdType cell = 0; cell < mesher->GetOutput()->GetNumberOfCells(); ++cell)
+    {
+      const meshTest::Vector area = meshTest::GetAreaVector(mesher->GetOutput(), cell);
+      vtkMath::Add(sum.data(), area.data(), sum.data());
+    }
+    const std::string name = "polygon " + std::to_string(i);
+    check.Equal(meshTest::GetArea(mesher->GetOutput()), areas[i], 1e-12, name + ": area");
+    check.Equal(sum[0], 0.8 * areas[i], 1e-12, name + ": x of the normal");
+    check.Equal(sum[1], -0.6 * areas[i], 1e-12, name + ": y of the normal");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestBunny(const std::string& file, meshTest::Checker& check)
 {
   vtkNew<vtkPLYReader> reader;
@@ -314,6 +354,7 @@ int TestPatchMesher(int argc, char* argv[])
   TestFeatureAngleAndDefaults(check);
   TestRegions(check);
   TestCellTypes(check);
+  TestPolygons(check);
   TestBunny(meshTest::GetDataFile(argc, argv, "bunny.ply"), check);
   TestAbort(check);
   return check.GetExitCode();
