@@ -40,14 +40,16 @@
 #define vtkRadiosity_h
 
 #include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkSmartPointer.h"                // for vtkSmartPointer
 #include "vtkTransportAlgorithm.h"
 
 #include <string> // for std::string
-#include <vector> // for std::vector
 
+class vtkDenseLinkOperator;
 class vtkPatchScene;
 class vtkTable;
 class vtkViewFactors;
+struct vtkRadiosityProblem;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkRadiosity : public vtkTransportAlgorithm
 {
@@ -144,9 +146,13 @@ private:
   void operator=(const vtkRadiosity&) = delete;
 
   struct Problem;
+  bool ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
+  static std::string CheckArrays(const Problem& problem);
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene);
   bool Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence);
+  void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
+  bool Finish(vtkDenseLinkOperator* links, Problem& problem);
   void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
     const vtkViewFactors* viewFactors, vtkDataObject* output);
 

@@ -35,8 +35,9 @@ namespace
 {
 using Vector = vtkPatchScene::Vector;
 
-// The shares of Tolerance, a bound on the error of a whole row: errors of the rules are relative to area / (pi distance^2), which
-// sums to a few over a row; contours are few per row (a patch has a few dozen near ones); partly visible pairs are a few per cent.
+// The shares of Tolerance, a bound on the error of a whole row: errors of the rules are relative to
+// area / (pi distance^2), which sums to a few over a row; contours are few per row (a patch has a
+// few dozen near ones); partly visible pairs are a few per cent.
 constexpr double RuleShare = 0.125;
 constexpr double ContourShare = 0.01;
 constexpr double VisibilityShare = 0.02;
@@ -46,7 +47,8 @@ constexpr int FirstRays = 16;
 constexpr double LargeViewFactor = 1e-3;
 // Rays per patch that tell sky from back faces.
 constexpr int OpeningRays = 128;
-// A plane has the scene in front of it when nothing is further behind than this (the scene's diagonal is 1).
+// A plane has the scene in front of it when nothing is further behind than this (the scene's
+// diagonal is 1).
 constexpr double PlaneTolerance = 1e-7;
 // Rows of a tile per unit of parallel work, and units between two looks at progress and abort.
 constexpr int RowsPerUnit = 16;
@@ -90,8 +92,8 @@ public:
     return { count, &this->Points[rule][first], &this->Weights[rule][first] };
   }
 
-  static void Copy(
-    const vtkPatchScene& scene, vtkIdType patch, vtkPolygonExchange::Polygon& polygon)
+  static void Copy(const vtkPatchScene& scene, vtkIdType patch,
+    vtkPolygonExchange::Polygon& polygon)
   {
     polygon.Count = scene.GetNumberOfCorners(patch);
     polygon.Normal = scene.GetNormal(patch);
@@ -108,8 +110,8 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// A patch that has the whole scene in front of its plane (or on it) cannot come between two points of the scene: only the others
-// are worth a ray. In a convex room none is.
+// A patch that has the whole scene in front of its plane (or on it) cannot come between two points
+// of the scene: only the others are worth a ray. In a convex room none is.
 std::vector<bool> FindOccluders(const vtkPatchScene& scene)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
@@ -142,11 +144,24 @@ struct Counters
   double PartlyVisible = 0.0;
   double Rays = 0.0;
   std::vector<double> RowErrors; // in units of exchange
+
+  void Add(const Counters& other)
+  {
+    this->Examined += other.Examined;
+    this->Facing += other.Facing;
+    this->PartlyVisible += other.PartlyVisible;
+    this->Rays += other.Rays;
+    for (std::size_t patch = 0; patch < other.RowErrors.size(); ++patch)
+    {
+      this->RowErrors[patch] += other.RowErrors[patch];
+    }
+  }
 };
-}
+} // namespace
 
 //------------------------------------------------------------------------------
-// Fills the tiles of an exchange matrix, pair by pair; a functor over units of RowsPerUnit rows of a tile.
+// Fills the tiles of an exchange matrix, pair by pair; a functor over units of RowsPerUnit rows of
+// a tile.
 struct vtkViewFactors::Assembly
 {
   const vtkPatchScene& Scene;
@@ -157,14 +172,13 @@ struct vtkViewFactors::Assembly
   int MaximumNumberOfRays;
   vtkExchangeMatrix* Exchange;
   vtkSMPThreadLocal<Counters> Local;
+  Counters Total;
 
   Assembly(const vtkPatchScene& scene, double tolerance, int rays, vtkExchangeMatrix* exchange)
-    : Scene(scene)
-    , Rules(scene)
-    , Tolerance(tolerance)
-    , MaximumNumberOfRays(rays)
-    , Exchange(exchange)
+    : Scene(scene), Rules(scene), Tolerance(tolerance), MaximumNumberOfRays(rays),
+      Exchange(exchange)
   {
+    this->Total.RowErrors.resize(scene.GetNumberOfPatches(), 0.0);
   }
 
   static vtkIdType GetNumberOfUnits(std::size_t tiles)
@@ -179,8 +193,17 @@ struct vtkViewFactors::Assembly
     return !this->HasOccluders || this->Caster.Build(this->Scene, error, &occluders);
   }
 
-  void Initialize() { this->Local.Local().RowErrors.resize(this->Scene.GetNumberOfPatches()); }
-  void Reduce() {}
+  void Initialize() { this->Local.Local().RowErrors.resize(this->Scene.GetNumberOfPatches(), 0.0); }
+
+  // Called at the end of each batch.
+  void Reduce()
+  {
+    for (Counters& counters : this->Local)
+    {
+      this->Total.Add(counters);
+      counters = Counters();
+    }
+  }
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
@@ -224,19 +247,18 @@ struct vtkViewFactors::Assembly
     double errorI = 0.0;
     double errorJ = 0.0;
     const double share = RuleShare * this->Tolerance;
-    const int ruleI =
-      vtkPolygonExchange::ChooseRule(radiusI, distance - radiusJ, share, errorI);
-    const int ruleJ =
-      vtkPolygonExchange::ChooseRule(radiusJ, distance - radiusI, share, errorJ);
+    const int ruleI = vtkPolygonExchange::ChooseRule(radiusI, distance - radiusJ, share, errorI);
+    const int ruleJ = vtkPolygonExchange::ChooseRule(radiusJ, distance - radiusI, share, errorJ);
     vtkPolygonExchange::Estimate pair;
     if (ruleI >= 0 && ruleJ >= 0)
     {
-      // The rules take the positive part of both cosines, so they need clipped patches only where a horizon crosses.
+      // The rules take the positive part of both cosines, so they need clipped patches only where a
+      // horizon crosses.
       const bool crossing = heightOfJ < radiusJ || heightOfI < radiusI;
-      pair.Value = crossing ? this->IntegrateClipped(i, ruleI, j, ruleJ)
-                            : vtkPolygonExchange::IntegrateRules(this->Rules.Get(i, ruleI),
-                                this->Scene.GetNormal(i), this->Rules.Get(j, ruleJ),
-                                this->Scene.GetNormal(j));
+      pair.Value = crossing
+        ? this->IntegrateClipped(i, ruleI, j, ruleJ)
+        : vtkPolygonExchange::IntegrateRules(this->Rules.Get(i, ruleI), this->Scene.GetNormal(i),
+            this->Rules.Get(j, ruleJ), this->Scene.GetNormal(j));
       pair.Error = (errorI + errorJ) * this->Scene.GetAreas()[i] * this->Scene.GetAreas()[j] /
         (vtkMath::Pi() * distance * distance);
     }
@@ -275,8 +297,8 @@ struct vtkViewFactors::Assembly
     vtkPolygonExchange::MakeRule(b, ruleJ, pointsB, weightsB);
     const int countA = vtkPolygonExchange::GetNumberOfRulePoints(ruleI) * (a.Count - 2);
     const int countB = vtkPolygonExchange::GetNumberOfRulePoints(ruleJ) * (b.Count - 2);
-    return vtkPolygonExchange::IntegrateRules(
-      { countA, pointsA, weightsA }, a.Normal, { countB, pointsB, weightsB }, b.Normal);
+    return vtkPolygonExchange::IntegrateRules({ countA, pointsA, weightsA }, a.Normal,
+      { countB, pointsB, weightsB }, b.Normal);
   }
 
   vtkPolygonExchange::Estimate IntegrateNear(vtkIdType i, vtkIdType j) const
@@ -290,12 +312,13 @@ struct vtkViewFactors::Assembly
     return vtkPolygonExchange::IntegrateContours(a, b, ContourShare * this->Tolerance * smaller);
   }
 
-  // The share of the exchange that nothing stands in the way of, by rays between points spread over both patches, each weighted
-  // with the exchange of its two points.
+  // The share of the exchange that nothing stands in the way of, by rays between points spread over
+  // both patches, each weighted with the exchange of its two points.
   vtkPolygonExchange::Estimate ApplyVisibility(vtkIdType i, vtkIdType j,
     const vtkPolygonExchange::Estimate& open, Counters& counters) const
   {
-    const vtkPatchSampler sampler(static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j));
+    const vtkPatchSampler sampler(
+      static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j));
     const double smaller = std::min(this->Scene.GetAreas()[i], this->Scene.GetAreas()[j]);
     const double factor = open.Value / smaller;
     int target = factor > LargeViewFactor ? FirstRays : FewRays;
@@ -346,8 +369,7 @@ vtkViewFactors::vtkViewFactors() = default;
 vtkViewFactors::~vtkViewFactors() = default;
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::UpdateExchange(
-  const vtkPatchScene& scene, const ProgressFunction& progress)
+bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress)
 {
   if (this->Exchange && this->Fingerprint == scene.GetFingerprint() &&
     this->BuildTime > this->GetMTime())
@@ -392,8 +414,7 @@ bool vtkViewFactors::Assemble(const vtkPatchScene& scene, const ProgressFunction
   // All ranks count the batches of the one with the most tiles: progress is a collective call.
   const vtkIdType rows = exchange->GetNumberOfTileRows();
   const int parts = exchange->GetNumberOfParts();
-  const vtkIdType most =
-    Assembly::GetNumberOfUnits((rows * (rows + 1) / 2 + parts - 1) / parts);
+  const vtkIdType most = Assembly::GetNumberOfUnits((rows * (rows + 1) / 2 + parts - 1) / parts);
   const vtkIdType mine = Assembly::GetNumberOfUnits(exchange->GetTiles().size());
   for (vtkIdType unit = 0; unit < most; unit += UnitsPerBatch)
   {
@@ -406,37 +427,32 @@ bool vtkViewFactors::Assemble(const vtkPatchScene& scene, const ProgressFunction
       vtkTransportThreads::For(unit, std::min(unit + UnitsPerBatch, mine), 1, assembly);
     }
   }
-  Counters sum;
-  sum.RowErrors.assign(scene.GetNumberOfPatches(), 0.0);
-  for (const Counters& counters : assembly.Local)
-  {
-    sum.Examined += counters.Examined;
-    sum.Facing += counters.Facing;
-    sum.PartlyVisible += counters.PartlyVisible;
-    sum.Rays += counters.Rays;
-    std::transform(counters.RowErrors.begin(), counters.RowErrors.end(), sum.RowErrors.begin(),
-      sum.RowErrors.begin(), std::plus<double>());
-  }
-  std::vector<double> totals = sum.RowErrors;
-  totals.insert(totals.end(), { sum.Examined, sum.Facing, sum.PartlyVisible, sum.Rays });
+  this->CollectCounters(assembly);
+  this->Exchange = exchange;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactors::CollectCounters(const Assembly& assembly)
+{
+  const Counters& counters = assembly.Total;
+  std::vector<double> totals = counters.RowErrors;
+  totals.insert(totals.end(),
+    { counters.Examined, counters.Facing, counters.PartlyVisible, counters.Rays });
   if (this->GetNumberOfRanks() > 1)
   {
     const std::vector<double> part = totals;
     this->Controller->AllReduce(part.data(), totals.data(), static_cast<vtkIdType>(part.size()),
       vtkCommunicator::SUM_OP);
   }
-  const double* counts = totals.data() + scene.GetNumberOfPatches();
-  this->PairsExamined = counts[0];
-  this->PairsFacing = counts[1];
-  this->PairsPartlyVisible = counts[2];
-  this->RaysCast = counts[3];
-  this->RowErrors.resize(scene.GetNumberOfPatches());
-  std::transform(this->RowErrors.begin(), this->RowErrors.end(), scene.GetAreas().begin(),
-    this->RowErrors.begin(), [](double, double area) { return 1.0 / area; });
-  std::transform(this->RowErrors.begin(), this->RowErrors.end(), totals.begin(),
-    this->RowErrors.begin(), std::multiplies<double>());
-  this->Exchange = exchange;
-  return true;
+  const std::vector<double>& areas = assembly.Scene.GetAreas();
+  this->PairsExamined = totals[areas.size()];
+  this->PairsFacing = totals[areas.size() + 1];
+  this->PairsPartlyVisible = totals[areas.size() + 2];
+  this->RaysCast = totals[areas.size() + 3];
+  this->RowErrors.resize(areas.size());
+  std::transform(areas.begin(), areas.end(), totals.begin(), this->RowErrors.begin(),
+    [](double area, double error) { return error / area; });
 }
 
 //------------------------------------------------------------------------------
@@ -482,11 +498,12 @@ struct Openings
       {
         const double radius = std::sqrt(sampler.Get(ray, 2));
         const double angle = 2.0 * vtkMath::Pi() * sampler.Get(ray, 3);
-        const Vector direction = radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) +
+        const Vector direction =
+          radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) +
           std::sqrt(1.0 - radius * radius) * normal;
         bool front = false;
-        const vtkIdType hit = this->Caster.FindHit(
-          sampler.GetPoint(this->Scene, patch, ray, 0), direction, patch, front);
+        const vtkIdType hit = this->Caster.FindHit(sampler.GetPoint(this->Scene, patch, ray, 0),
+          direction, patch, front);
         sky += hit < 0 ? 1 : 0;
         back += hit >= 0 && !front ? 1 : 0;
       }
@@ -495,7 +512,7 @@ struct Openings
     }
   }
 };
-}
+} // namespace
 
 //------------------------------------------------------------------------------
 bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene)
@@ -526,16 +543,18 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene)
 }
 
 //------------------------------------------------------------------------------
-// G_ij (1 + l_i + l_j) with the smallest sum of (change)^2 / G_ij that gives closed rows their sum: (D + G) l = A - row sums, where
-// D is the diagonal of row sums; D + G is positive semi-definite, so conjugate gradients solve it.
+// G_ij (1 + l_i + l_j) with the smallest sum of (change)^2 / G_ij that gives closed rows their sum:
+// (D + G) l = A - row sums, where D is the diagonal of row sums; D + G is positive semi-definite,
+// so conjugate gradients solve it.
 bool vtkViewFactors::CloseRows()
 {
   const std::vector<double>& areas = this->Exchange->GetAreas();
   const auto patches = static_cast<Eigen::Index>(areas.size());
   using Map = Eigen::Map<const Eigen::ArrayXd>;
   const Eigen::ArrayXd sums = Map(this->RowSums.data(), patches) * Map(areas.data(), patches);
-  const Eigen::ArrayXd closed = (Map(this->SkyFractions.data(), patches) +
-    Map(this->BackFaceFractions.data(), patches) == 0.0).cast<double>();
+  const Eigen::ArrayXd closed =
+    (Map(this->SkyFractions.data(), patches) + Map(this->BackFaceFractions.data(), patches) == 0.0)
+      .cast<double>();
   vtkNew<vtkDenseLinkOperator> links;
   links->SetController(this->Controller);
   links->Initialize(this->Exchange, 1);
@@ -588,6 +607,12 @@ bool vtkViewFactors::CloseRows()
 }
 
 //------------------------------------------------------------------------------
+vtkExchangeMatrix* vtkViewFactors::GetExchange()
+{
+  return this->Exchange;
+}
+
+//------------------------------------------------------------------------------
 double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
 {
   const vtkIdType patches = this->Exchange ? this->Exchange->GetNumberOfPatches() : 0;
@@ -611,8 +636,8 @@ void vtkViewFactors::AddSummaries(vtkFieldData* fields) const
 }
 
 //------------------------------------------------------------------------------
-int vtkViewFactors::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkViewFactors::RequestData(vtkInformation*, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);

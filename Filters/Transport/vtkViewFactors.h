@@ -82,13 +82,15 @@ public:
 
   ///@{
   /**
-   * For filters that work on view factors: bring them up to date for a scene, computing only when the geometry or a property has
-   * changed. `progress` is called with fractions and returns false to abort. Returns false after an error or an abort.
+   * For filters that work on view factors: bring them up to date for a scene, computing only when
+   * the geometry or a property has changed. `progress` is called with fractions and returns false
+   * to abort. Returns false after an error or an abort.
    */
   using ProgressFunction = std::function<bool(double)>;
   bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress);
-  vtkExchangeMatrix* GetExchange() { return this->Exchange; }
+  vtkExchangeMatrix* GetExchange();
   const std::vector<double>& GetRowSums() const { return this->RowSums; }
+  const std::vector<double>& GetRowErrors() const { return this->RowErrors; }
   /// Field data arrays that summarise the last computation.
   void AddSummaries(vtkFieldData* fields) const;
   ///@}
@@ -106,6 +108,7 @@ private:
 
   struct Assembly;
   bool Assemble(const vtkPatchScene& scene, const ProgressFunction& progress);
+  void CollectCounters(const Assembly& assembly);
   bool SumRows();
   bool CloseRows();
   bool FindOpenings(const vtkPatchScene& scene);

@@ -10,9 +10,11 @@
 #ifndef vtkDiffusionProfile_h
 #define vtkDiffusionProfile_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro, used by tests
+
 #include <vector>
 
-class vtkDiffusionProfile
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkDiffusionProfile
 {
 public:
   /// A preset: coefficients of red, green and blue.

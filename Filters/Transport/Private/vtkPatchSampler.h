@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Deterministic, well spread sample points: an additive recurrence in up to four dimensions (Roberts 2018, the generalised golden
- * ratio), shifted by a hash so that different pairs or patches do not repeat each other's errors. The same key and index give the
- * same point, on any thread.
+ * Deterministic, well spread sample points in up to four dimensions: Sobol' points (direction
+ * numbers of Joe and Kuo, 2008) with their digits flipped by a hash, so that different pairs or
+ * patches do not repeat each other's errors. The first 2^k points fill space evenly for every k.
+ * The same key and index give the same point, on any thread.
  */
 #ifndef vtkPatchSampler_h
 #define vtkPatchSampler_h
@@ -18,30 +19,33 @@ class vtkPatchSampler
 public:
   explicit vtkPatchSampler(std::uint64_t key)
   {
-    for (double& shift : this->Shifts)
+    for (std::uint32_t& flips : this->Flips)
     {
+      // splitmix64 (Steele, Lea and Flood 2014)
       key += 0x9E3779B97F4A7C15ull;
       std::uint64_t bits = key;
       bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ull;
       bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBull;
-      bits ^= bits >> 31;
-      shift = static_cast<double>(bits >> 11) * 0x1.0p-53;
+      flips = static_cast<std::uint32_t>(bits >> 32);
     }
   }
 
-  /// Coordinate `dimension` (0 to 3) of point `index`, in [0, 1).
+  /// Coordinate `dimension` (0 to 3) of point `index`, in (0, 1).
   double Get(int index, int dimension) const
   {
-    // Powers of 1/x, where x solves x^5 = x + 1.
-    constexpr double steps[4] = { 0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
-      0.5385972572236101 };
-    const double value = this->Shifts[dimension] + (index + 1) * steps[dimension];
-    return value - std::floor(value);
+    std::uint32_t digits = this->Flips[dimension];
+    const std::uint32_t* direction = GetDirections().Numbers[dimension];
+    for (auto bits = static_cast<std::uint32_t>(index); bits != 0; bits >>= 1, ++direction)
+    {
+      digits ^= bits & 1u ? *direction : 0u;
+    }
+    return (digits + 0.5) * 0x1.0p-32;
   }
 
-  /// A uniformly distributed point of a patch, from dimensions `first` and `first` + 1 of point `index`.
-  vtkPatchScene::Vector GetPoint(
-    const vtkPatchScene& scene, vtkIdType patch, int index, int first) const
+  /// A uniformly distributed point of a patch, from dimensions `first` and `first` + 1 of point
+  /// `index`.
+  vtkPatchScene::Vector GetPoint(const vtkPatchScene& scene, vtkIdType patch, int index,
+    int first) const
   {
     double u = this->Get(index, first);
     double v = this->Get(index, first + 1);
@@ -85,7 +89,49 @@ private:
     }
   }
 
-  double Shifts[4];
+  struct Directions
+  {
+    std::uint32_t Numbers[4][32];
+
+    Directions()
+    {
+      // Degree and inner coefficients of the primitive polynomials, and the first odd numbers.
+      constexpr int degrees[4] = { 0, 1, 2, 3 };
+      constexpr std::uint32_t coefficients[4] = { 0, 0, 1, 1 };
+      constexpr std::uint32_t first[4][3] = { {}, { 1 }, { 1, 3 }, { 1, 3, 1 } };
+      for (int bit = 0; bit < 32; ++bit)
+      {
+        this->Numbers[0][bit] = 1u << (31 - bit);
+      }
+      for (int dimension = 1; dimension < 4; ++dimension)
+      {
+        const int degree = degrees[dimension];
+        std::uint32_t* numbers = this->Numbers[dimension];
+        for (int bit = 0; bit < 32; ++bit)
+        {
+          if (bit < degree)
+          {
+            numbers[bit] = first[dimension][bit] << (31 - bit);
+            continue;
+          }
+          numbers[bit] = numbers[bit - degree] ^ (numbers[bit - degree] >> degree);
+          for (int k = 1; k < degree; ++k)
+          {
+            const bool used = (coefficients[dimension] >> (degree - 1 - k)) & 1u;
+            numbers[bit] ^= used ? numbers[bit - k] : 0u;
+          }
+        }
+      }
+    }
+  };
+
+  static const Directions& GetDirections()
+  {
+    static const Directions directions;
+    return directions;
+  }
+
+  std::uint32_t Flips[4];
 };
 
 #endif

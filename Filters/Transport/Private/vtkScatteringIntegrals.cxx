@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace
 {
@@ -23,7 +24,11 @@ constexpr int PlaceBits = MantissaBits - PieceBits;
 /// Cuts after which the rules have the last word: sides are 2^-15 of what they were.
 constexpr int MaximumDepth = 30;
 
-constexpr float WeightsOfOne[] = { 1.0f };
+/// Of the rough value of a pair of triangles that has to be cut.
+constexpr double RoughTolerance = 0.1;
+/// Parts of pairs are left alone when their sum is below this much of the tolerance.
+constexpr double NegligiblePart = 0.01;
+
 constexpr float WeightsOfThree[] = { 1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f };
 /// D. A. Dunavant, 1985: degree 4.
 constexpr double PlacesOfSix[] = { 0.445948490915965, 0.091576213509771 };
@@ -133,10 +138,9 @@ void vtkScatteringIntegrals::Tabulate(double maximumDistance)
 }
 
 //------------------------------------------------------------------------------
-inline vtkScatteringIntegrals::Lane vtkScatteringIntegrals::Evaluate(const Vector& difference) const
+inline vtkScatteringIntegrals::Lane vtkScatteringIntegrals::Evaluate(double squaredDistance) const
 {
-  const std::uint32_t bits =
-    BitsOf(static_cast<float>(difference.squaredNorm() + this->SquaredDepth));
+  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredDepth));
   const Piece& piece = this->Table[(bits >> PlaceBits) - this->FirstPiece];
   constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
   const float place = static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits));
@@ -165,7 +169,7 @@ vtkScatteringIntegrals::Bands vtkScatteringIntegrals::IntegrateProduct(const Vec
     Lane row = Lane::Zero();
     for (int j = 0; j < countB; ++j)
     {
-      row += weightsB[j] * this->Evaluate(a[i] - b[j]);
+      row += weightsB[j] * this->Evaluate((a[i] - b[j]).squaredNorm());
     }
     sum += weightsA[i] * row;
   }
@@ -173,43 +177,47 @@ vtkScatteringIntegrals::Bands vtkScatteringIntegrals::IntegrateProduct(const Vec
 }
 
 //------------------------------------------------------------------------------
-bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, double tolerance,
-  bool last, Result& result) const
+bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const Goal& goal,
+  bool last, Sum& sum) const
 {
   // The profile's logarithm changes by about 3.5 / D + sigma per length, D the distance to the
   // source; `spread` is the distance of the points from the centroids on that scale. The factors
-  // below bound 99 of 100 errors of random pairs; as neighbours' errors differ in sign, sums do far
-  // better.
+  // below bound 99 of 100 errors of random pairs.
   const double areas = a.Area * b.Area;
-  const double squared = (a.Centroid - b.Centroid).squaredNorm() + this->SquaredDepth;
-  const double slope = 3.5 / std::sqrt(squared) + this->TransportCoefficient;
+  const double distance2 = (a.Centroid - b.Centroid).squaredNorm();
+  const double slope = 3.5 / std::sqrt(distance2 + this->SquaredDepth) + this->TransportCoefficient;
   const double spread2 = slope * slope * (a.Moment + b.Moment);
-  const double limit = tolerance / areas;
   const auto accept = [&](const Bands& value, const Bands& error)
   {
-    const bool good = last || (error <= this->RelativeTolerance * value + limit).all();
+    const Bands integral = areas * value;
+    const Bands allowed =
+      goal.Absolute + goal.Relative * integral + (goal.Shared * integral).sqrt();
+    const bool good = last || (areas * error <= allowed).all();
     if (good)
     {
-      result.Value += areas * value;
-      result.Error += areas * error.maxCoeff();
+      sum.Value += integral;
+      const double worst = areas * error.maxCoeff();
+      sum.SquaredError += worst * worst;
     }
     return good;
   };
-  const Bands one =
-    this->IntegrateProduct(&a.Centroid, WeightsOfOne, 1, &b.Centroid, WeightsOfOne, 1);
+  const Bands one = this->Evaluate(distance2).cast<double>();
+  if (spread2 > 4.0 && !last)
+  {
+    // Too large for any rule, but it may be too far away to matter.
+    const double nearest = std::max(0.0, std::sqrt(distance2) - a.Radius - b.Radius);
+    const Bands peak = this->Evaluate(nearest * nearest).cast<double>();
+    const bool negligible = (areas * peak <= goal.Absolute).all();
+    return negligible && accept(one, peak);
+  }
   if (!last && accept(one, 0.15 * spread2 * one))
   {
     return true;
   }
-  if (spread2 > 4.0 && !last)
-  {
-    return false;
-  }
   const Bands three =
     this->IntegrateProduct(a.Points, WeightsOfThree, 3, b.Points, WeightsOfThree, 3);
   const double spread = std::sqrt(spread2);
-  if (!last &&
-    accept(three, 0.05 * spread * (three - one).abs() + 0.01 * spread2 * spread2 * three))
+  if (!last && accept(three, 0.1 * spread * (three - one).abs() + 0.01 * spread2 * spread2 * three))
   {
     return true;
   }
@@ -219,14 +227,14 @@ bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, doub
   PlaceSix(b, pointsB);
   const Bands six = this->IntegrateProduct(pointsA, WeightsOfSix, 6, pointsB, WeightsOfSix, 6);
   return accept(six,
-    0.015 * spread * (six - three).abs() + 0.0003 * spread2 * spread2 * spread2 * six);
+    0.05 * spread * (six - three).abs() + 0.0005 * spread2 * spread2 * spread2 * six);
 }
 
 //------------------------------------------------------------------------------
-void vtkScatteringIntegrals::AddPairRecursively(const Triangle& a, const Triangle& b,
-  double tolerance, int depth, Result& result) const
+void vtkScatteringIntegrals::AddParts(const Triangle& a, const Triangle& b, const Goal& goal,
+  int depth, Sum& sum) const
 {
-  if (this->TryRules(a, b, tolerance, depth == 0, result))
+  if (this->TryRules(a, b, goal, depth == 0, sum))
   {
     return;
   }
@@ -239,19 +247,37 @@ void vtkScatteringIntegrals::AddPairRecursively(const Triangle& a, const Triangl
   const Vector pq = 0.5 * (p + q);
   const Vector qr = 0.5 * (q + r);
   const Vector rp = 0.5 * (r + p);
-  // The error gathers in the parts next to the other triangle, about half of them.
-  const double part = 0.5 * tolerance;
-  this->AddPairRecursively(Triangle(p, pq, rp), other, part, depth - 1, result);
-  this->AddPairRecursively(Triangle(pq, q, qr), other, part, depth - 1, result);
-  this->AddPairRecursively(Triangle(rp, qr, r), other, part, depth - 1, result);
-  this->AddPairRecursively(Triangle(qr, rp, pq), other, part, depth - 1, result);
+  this->AddParts(Triangle(p, pq, rp), other, goal, depth - 1, sum);
+  this->AddParts(Triangle(pq, q, qr), other, goal, depth - 1, sum);
+  this->AddParts(Triangle(rp, qr, r), other, goal, depth - 1, sum);
+  this->AddParts(Triangle(qr, rp, pq), other, goal, depth - 1, sum);
 }
 
 //------------------------------------------------------------------------------
 void vtkScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double tolerance,
   Result& result) const
 {
-  this->AddPairRecursively(a, b, tolerance, MaximumDepth, result);
+  Goal goal;
+  goal.Relative = this->RelativeTolerance;
+  goal.Absolute = tolerance;
+  Sum sum;
+  if (!this->TryRules(a, b, goal, false, sum))
+  {
+    // A rough value first. The errors of the many parts that a fine one takes differ in sign and
+    // add up like random numbers: of a total error e, a part with the share s of the value may have
+    // e sqrt(s).
+    goal.Relative = RoughTolerance;
+    goal.Absolute = NegligiblePart * tolerance;
+    Sum rough;
+    this->AddParts(a, b, goal, MaximumDepth, rough);
+    const Bands allowed = this->RelativeTolerance * rough.Value + tolerance;
+    goal.Relative = 0.0;
+    goal.Shared =
+      allowed.square() / rough.Value.max(tolerance).max(std::numeric_limits<double>::min());
+    this->AddParts(a, b, goal, MaximumDepth, sum);
+  }
+  result.Value += sum.Value;
+  result.Error += std::sqrt(sum.SquaredError);
 }
 
 //------------------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #define vtkScatteringIntegrals_h
 
 #include "vtkDiffusionProfile.h"
+#include "vtkLightTransportFiltersModule.h" // for export macro, used by tests
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -24,7 +25,7 @@
 #include <cstdint>
 #include <vector>
 
-class vtkScatteringIntegrals
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkScatteringIntegrals
 {
 public:
   static constexpr int NumberOfBands = 3;
@@ -80,13 +81,26 @@ private:
     Lane Coefficients[3];
   };
 
-  Lane Evaluate(const Vector& difference) const;
+  /// What the error of a part of an integral may be: Absolute + Relative v + sqrt(Shared v), v its
+  /// value.
+  struct Goal
+  {
+    double Absolute = 0.0;
+    double Relative = 0.0;
+    Bands Shared = Bands::Zero();
+  };
+
+  struct Sum
+  {
+    Bands Value = Bands::Zero();
+    double SquaredError = 0.0;
+  };
+
+  Lane Evaluate(double squaredDistance) const;
   Bands IntegrateProduct(const Vector* a, const float* weightsA, int countA, const Vector* b,
     const float* weightsB, int countB) const;
-  bool TryRules(const Triangle& a, const Triangle& b, double tolerance, bool last,
-    Result& result) const;
-  void AddPairRecursively(const Triangle& a, const Triangle& b, double tolerance, int depth,
-    Result& result) const;
+  bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
+  void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
   void Tabulate(double maximumDistance);
 
   std::vector<vtkDiffusionProfile> Profiles;
