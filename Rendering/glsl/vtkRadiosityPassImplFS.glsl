@@ -1,0 +1,1 @@
+  gl_FragData[0] = vec4(LightTransportEncode(LightTransportRadiance()), gl_FragData[0].a);

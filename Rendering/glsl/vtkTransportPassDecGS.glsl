@@ -1,0 +1,4 @@
+in vec3 lightTransportVSOutput[];
+in vec3 lightTransportPositionVSOutput[];
+out vec3 lightTransportGSOutput;
+out vec3 lightTransportPositionGSOutput;

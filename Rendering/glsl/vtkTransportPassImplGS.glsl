@@ -1,0 +1,2 @@
+    lightTransportGSOutput = lightTransportVSOutput[i];
+    lightTransportPositionGSOutput = lightTransportPositionVSOutput[i];

@@ -1,0 +1,2 @@
+  lightTransportVSOutput = lightTransportMC;
+  lightTransportPositionVSOutput = (MCVCMatrix * vertexMC).xyz;

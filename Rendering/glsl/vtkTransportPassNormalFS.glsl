@@ -1,0 +1,2 @@
+  // VTK's shading has no normal here (it is switched off): that of the facet.
+  vec3 lightTransportNormal = normalize(cross(dFdx(lightTransportPositionVSOutput), dFdy(lightTransportPositionVSOutput)));
