@@ -30,6 +30,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>

@@ -59,7 +59,8 @@ public:
   ///@{
   /**
    * The edge length that the patches should have, in the input's unit. Default 0: the diagonal of
-   * the bounding box divided by 50. Edges come out between about 4/5 and 4/3 of it.
+   * the bounding box divided by 50. Edges come out between about 2/3 and 4/3 of it,
+   * on average a little shorter than it.
    */
   vtkSetMacro(TargetEdgeLength, double);
   vtkGetMacro(TargetEdgeLength, double);

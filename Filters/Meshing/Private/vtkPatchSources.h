@@ -11,7 +11,7 @@
 
 #include <vector>
 
-class vtkStaticCellLocator;
+class vtkAbstractCellLocator;
 
 class vtkPatchSources
 {
@@ -33,7 +33,7 @@ public:
 private:
   const vtkTriangleSoup& Soup;
   std::vector<std::vector<std::size_t>> TrianglesOfParts;
-  std::vector<vtkSmartPointer<vtkStaticCellLocator>> Locators;
+  std::vector<vtkSmartPointer<vtkAbstractCellLocator>> Locators;
   vtkNew<vtkGenericCell> Cell;
 };
 

@@ -44,6 +44,16 @@ int TestPatchMesherErrors(int, char*[])
     ExpectError(mesher, empty, "no cells", check);
   }
   {
+    // One of several processes may have nothing to do.
+    vtkNew<vtkPatchMesher> mesher;
+    vtkNew<vtkTest::ErrorObserver> observer;
+    vtkNew<vtkPolyData> empty;
+    mesher->SetInputData(empty);
+    mesher->AddObserver(vtkCommand::ErrorEvent, observer);
+    mesher->UpdatePiece(1, 2, 0);
+    check.True(!observer->GetError(), "an empty piece is no error");
+  }
+  {
     vtkNew<vtkPatchMesher> mesher;
     vtkSmartPointer<vtkPolyData> lines = meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 } }, {});
     vtkNew<vtkCellArray> cells;
