@@ -360,27 +360,26 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
 //------------------------------------------------------------------------------
 std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
 {
-  int association = -1;
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  int association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
   vtkAbstractArray* array = this->GetInputAbstractArrayToProcess(0, inputs, association);
-  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  if (!name || !*name)
+  const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
+  const std::string name = chosen && *chosen ? chosen : DEFAULT_REGION_ARRAY;
+  if (!array && name == DEFAULT_REGION_ARRAY)
   {
-    // An empty name, as user interfaces set it, stands for the default.
-    array = vtkPolyData::GetData(inputs[0])->GetCellData()->GetAbstractArray(DEFAULT_REGION_ARRAY);
-    association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    array = input->GetCellData()->GetAbstractArray(DEFAULT_REGION_ARRAY);
+    if (!array)
+    {
+      return std::vector<int>(input->GetNumberOfCells(), 0);
+    }
   }
-  if (array && association == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+  if (!array || association != vtkDataObject::FIELD_ASSOCIATION_CELLS)
   {
-    return NumberTuples(array);
-  }
-  const bool optional = !name || !*name || std::string(name) == DEFAULT_REGION_ARRAY;
-  if (array || !optional)
-  {
-    throw InputError("There is no cell array \"" + std::string(name ? name : "") +
+    throw InputError("There is no cell array \"" + name +
       "\" to take the regions from: name a cell array of the input, or \"" + DEFAULT_REGION_ARRAY +
       "\", which may be missing.");
   }
-  return std::vector<int>(vtkPolyData::GetData(inputs[0])->GetNumberOfCells(), 0);
+  return NumberTuples(array);
 }
 
 //------------------------------------------------------------------------------

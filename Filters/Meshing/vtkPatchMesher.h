@@ -19,8 +19,8 @@
  * *Regions*: a cell array, chosen with SetInputArrayToProcess(0, 0, 0,
  * vtkDataObject::FIELD_ASSOCIATION_CELLS, name), "Region" by default. Edges between cells of
  * different values are kept, so no patch ever lies in two regions. Any type, any number of
- * components. The default array is optional: without it the surface is one region. An array that
- * was named but is missing is an error.
+ * components. The default array is optional: without it the surface is one region. An array of
+ * another name that is missing is an error; an empty name stands for the default.
  *
  * The output holds triangles, points in double precision, and
  * - every array of the input's cells, each patch with the tuple of the input cell it lies on (the

@@ -207,6 +207,19 @@ void TestRegions(meshTest::Checker& check)
     check.Equal(areas[1], before[1], 1e-12, std::string("area of brass by ") + name);
     check.Equal(meshTest::GetEdges(mesher->GetOutput()).Bad, 0, 0, "bad edges");
   }
+  vtkNew<vtkPolyData> withDefault;
+  withDefault->ShallowCopy(input);
+  vtkNew<vtkIntArray> region;
+  region->DeepCopy(number);
+  region->SetName("Region");
+  withDefault->GetCellData()->AddArray(region);
+  mesher->SetInputData(withDefault);
+  mesher->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "");
+  mesher->Update();
+  check.Equal(meshTest::GetAreas(mesher->GetOutput(), "Number")[1], before[1], 1e-12,
+    "an empty name stands for Region");
+
+  mesher->SetInputData(input);
   mesher->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Region");
   mesher->Update();
   std::map<int, double> areas = meshTest::GetAreas(mesher->GetOutput(), "Number");
