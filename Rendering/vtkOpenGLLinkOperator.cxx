@@ -115,6 +115,7 @@ struct vtkOpenGLLinkOperator::Internals
   }
 
   bool ChooseSizes(vtkIdType patches, int bands, int kernels, int maximumSize);
+  double GetMatrixBytes() const;
   bool AllocateMatrix();
   bool AllocateVectors();
   void UploadMatrix(vtkExchangeMatrix* exchange);
@@ -175,6 +176,17 @@ bool vtkOpenGLLinkOperator::Internals::ChooseSizes(vtkIdType patches, int bands,
     }
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+double vtkOpenGLLinkOperator::Internals::GetMatrixBytes() const
+{
+  double texels = 0.0;
+  for (const MatrixTile& tile : this->Tiles)
+  {
+    texels += static_cast<double>(tile.Rows) * tile.Texels;
+  }
+  return texels * 4 * sizeof(float) * (this->SharedKernel ? 1 : this->Groups);
 }
 
 //------------------------------------------------------------------------------
@@ -606,7 +618,9 @@ bool vtkOpenGLLinkOperator::InitializeOnDevice(vtkExchangeMatrix* exchange)
                   << " texels a side: set Device to CPU.");
     return false;
   }
-  if (!self.AllocateMatrix() || !self.AllocateVectors())
+  const double available = self.Engine->GetAvailableBytes();
+  const bool fits = available < 0.0 || self.GetMatrixBytes() < available;
+  if (!fits || !self.AllocateMatrix() || !self.AllocateVectors())
   {
     vtkErrorMacro("The matrix of " << this->NumberOfPatches
                                    << " patches does not fit into the memory of " << self.DeviceName

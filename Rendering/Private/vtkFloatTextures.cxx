@@ -12,6 +12,8 @@
 #include "vtkOpenGLShaderCache.h"
 #include "vtkShaderProgram.h"
 
+#include <vtksys/SystemInformation.hxx>
+
 #include <algorithm>
 
 //------------------------------------------------------------------------------
@@ -80,6 +82,23 @@ int vtkFloatTextures::GetMaximumGroupSize() const
   glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &attachments);
   glGetIntegerv(GL_MAX_DRAW_BUFFERS, &buffers);
   return std::min(attachments, buffers);
+}
+
+//------------------------------------------------------------------------------
+double vtkFloatTextures::GetAvailableBytes() const
+{
+  if (!vtkOpenGLDeviceIsHardware(this->Window->GetState()->GetRenderer()))
+  {
+    vtksys::SystemInformation system;
+    system.RunMemoryCheck();
+    return 1048576.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
+  }
+  // GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, in KiB; an error where the extension is
+  // missing.
+  GLint kibibytes = -1;
+  glGetIntegerv(0x9049, &kibibytes);
+  std::string ignored;
+  return vtkFloatTextures::CheckErrors(ignored) ? 1024.0 * kibibytes : -1.0;
 }
 
 //------------------------------------------------------------------------------

@@ -69,6 +69,12 @@ public:
   /// Most textures in a group.
   int GetMaximumGroupSize() const;
 
+  /**
+   * Bytes that can still be allocated: the GPU's, where its driver tells, or the machine's for
+   * software renderers. Negative where nobody knows.
+   */
+  double GetAvailableBytes() const;
+
   /// Empty when the memory is not there.
   Group Allocate(std::size_t count, int width, int height);
 

@@ -4,14 +4,18 @@
 
 #include "vtkWeakPointer.h"
 
-#include <mutex>
+//------------------------------------------------------------------------------
+std::recursive_mutex& vtkOpenGLContextGuard::GetMutex()
+{
+  static std::recursive_mutex mutex;
+  return mutex;
+}
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> vtkGetSharedOffScreenWindow(std::string& reason)
 {
   static vtkWeakPointer<vtkOffScreenOpenGLRenderWindow> shared;
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock(mutex);
+  const std::lock_guard<std::recursive_mutex> lock(vtkOpenGLContextGuard::GetMutex());
   vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> window = shared.Get();
   if (!window)
   {

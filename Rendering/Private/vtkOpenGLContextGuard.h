@@ -12,13 +12,14 @@
 #include "vtkOpenGLPlatform.h"
 #include "vtkSmartPointer.h"
 
+#include <mutex>
 #include <string>
 
 class vtkOpenGLContextGuard
 {
 public:
   explicit vtkOpenGLContextGuard(vtkOpenGLRenderWindow* window)
-    : Before(vtkCurrentOpenGLContext::Get())
+    : Lock(vtkOpenGLContextGuard::GetMutex()), Before(vtkCurrentOpenGLContext::Get())
   {
     if (!window->IsCurrent())
     {
@@ -30,7 +31,11 @@ public:
   vtkOpenGLContextGuard(const vtkOpenGLContextGuard&) = delete;
   void operator=(const vtkOpenGLContextGuard&) = delete;
 
+  /// A context can be current in one thread only: users of the shared one wait for each other.
+  static std::recursive_mutex& GetMutex();
+
 private:
+  const std::lock_guard<std::recursive_mutex> Lock;
   const vtkCurrentOpenGLContext Before;
 };
 

@@ -6,7 +6,9 @@
  */
 #include "vtkOffScreenOpenGLRenderWindow.h"
 
+#include "vtkExchangeMatrix.h"
 #include "vtkNew.h"
+#include "vtkOpenGLLinkOperator.h"
 #include "vtkRenderer.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkUnsignedCharArray.h"
@@ -55,6 +57,29 @@ bool WindowComplainsOnce()
   }
   return good;
 }
+
+/// The link operator tells filters under Auto why not, and reports an error to those that insist.
+bool OperatorRefuses()
+{
+  vtkNew<vtkTest::ErrorObserver> observer;
+  vtkNew<vtkOpenGLLinkOperator> device;
+  device->AddObserver(vtkCommand::ErrorEvent, observer);
+  std::string reason;
+  if (device->Open(reason) || device->IsHardware() || observer->GetError() ||
+    reason.find("libegl1") == std::string::npos)
+  {
+    std::cerr << "ERROR: the operator opens, or complains, or gives no reason\n";
+    return false;
+  }
+  vtkNew<vtkExchangeMatrix> exchange;
+  exchange->Allocate({ 1.0, 1.0 }, 1);
+  if (device->Initialize(exchange, 1))
+  {
+    std::cerr << "ERROR: the operator works without a context\n";
+    return false;
+  }
+  return observer->CheckErrorMessage("libegl1") == 0;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -67,6 +92,7 @@ int TestNoContext(int, char*[])
 #endif
   setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 1);
   good = WindowComplainsOnce() && good;
+  good = OperatorRefuses() && good;
   if (vtkOffScreenOpenGLRenderWindow::RegisterAsDefault())
   {
     std::cerr << "ERROR: a window that cannot work became the default\n";
