@@ -36,7 +36,9 @@ constexpr vtkIdType MaximumMatrixTexels = vtkIdType(1) << 24;
 /// Rows times ranges of columns that keep a large GPU busy.
 constexpr vtkIdType WantedFragments = vtkIdType(1) << 18;
 /// Below this a range of columns is not worth a fragment.
-constexpr int MinimumTexelsPerSplit = 16;
+constexpr int MinimumTexelsPerSplit = 8;
+/// Textures that one draw can write everywhere.
+constexpr int MaximumOutputs = 8;
 
 constexpr int DivideUp(vtkIdType dividend, vtkIdType divisor)
 {
@@ -81,6 +83,8 @@ struct vtkOpenGLLinkOperator::Internals
   int Width = 0;
   int Height = 0;
   int Splits = 0;
+  /// Rows of the matrix that a fragment multiplies: 4, 2 or 1.
+  int RowsPerFragment = 1;
   int TexelsPerSplit = 0;
   int MaximumSize = 0;
   int ColumnsPerTexel = 4;
@@ -107,11 +111,12 @@ struct vtkOpenGLLinkOperator::Internals
     this->Engine.reset();
   }
 
-  std::string GetDefines(const char* extra = "") const
+  std::string GetDefines(int outputs, const std::string& extra = "") const
   {
     return "#define GROUPS " + std::to_string(this->Groups) + "\n#define MATRIX_GROUPS " +
-      std::to_string(this->SharedKernel ? 1 : this->Groups) + "\n#define SHARED_KERNEL " +
-      (this->SharedKernel ? "1\n" : "0\n") + extra;
+      std::to_string(this->SharedKernel ? 1 : this->Groups) + "\n#define ROWS " +
+      std::to_string(this->RowsPerFragment) + "\n#define OUTPUTS " + std::to_string(outputs) +
+      "\n#define SHARED_KERNEL " + (this->SharedKernel ? "1\n" : "0\n") + extra;
   }
 
   bool ChooseSizes(vtkIdType patches, int bands, int kernels, int maximumSize);
@@ -143,6 +148,7 @@ bool vtkOpenGLLinkOperator::Internals::ChooseSizes(vtkIdType patches, int bands,
   }
   this->Groups = DivideUp(bands, 4);
   this->SharedKernel = kernels == 1;
+  this->RowsPerFragment = std::min(FloorPowerOfTwo(std::max(MaximumOutputs / this->Groups, 1)), 4);
   this->ColumnsPerTexel = this->SharedKernel ? 4 : 1;
   this->Rows = static_cast<int>(patches);
   // A power of two: the rows of the vector's textures then hold whole matrix texels of four
@@ -159,7 +165,7 @@ bool vtkOpenGLLinkOperator::Internals::ChooseSizes(vtkIdType patches, int bands,
   this->TilesAcross = DivideUp(texels, tileTexels);
   const int most = std::max(
     std::min(DivideUp(tileTexels, MinimumTexelsPerSplit), this->MaximumSize / this->Height), 1);
-  this->Splits = std::min(DivideUp(WantedFragments, patches), most);
+  this->Splits = std::min(DivideUp(WantedFragments * this->RowsPerFragment, patches), most);
   this->TexelsPerSplit = DivideUp(tileTexels, this->Splits);
 
   // Whole rows of the vector's textures, so that the rows of a tile are a rectangle of them.
@@ -209,7 +215,8 @@ bool vtkOpenGLLinkOperator::Internals::AllocateVectors()
 {
   const auto count = static_cast<std::size_t>(this->Groups);
   this->Spare = this->Engine->Allocate(count, this->Width, this->Height);
-  this->Parts = this->Engine->Allocate(count, this->Width, this->Height * this->Splits);
+  this->Parts = this->Engine->Allocate(count * static_cast<std::size_t>(this->RowsPerFragment),
+    this->Width / this->RowsPerFragment, this->Height * this->Splits);
   bool good = !this->Spare.empty() && !this->Parts.empty();
   int width = this->Width;
   int height = this->Height;
@@ -301,8 +308,8 @@ bool vtkOpenGLLinkOperator::Internals::DrawPartialProducts(const Group& vector, 
        index += static_cast<std::size_t>(this->TilesAcross))
   {
     const MatrixTile& tile = this->Tiles[index];
-    vtkShaderProgram* program =
-      this->Engine->Use("PartialProduct", vtkFloatTexturesPartialProductFS, this->GetDefines());
+    vtkShaderProgram* program = this->Engine->Use("PartialProduct",
+      vtkFloatTexturesPartialProductFS, this->GetDefines(static_cast<int>(this->Parts.size())));
     if (!program)
     {
       return false;
@@ -318,7 +325,7 @@ bool vtkOpenGLLinkOperator::Internals::DrawPartialProducts(const Group& vector, 
     program->SetUniformi("texelsPerSplit", this->TexelsPerSplit);
     const int firstLine = tile.FirstRow / this->Width * this->Splits;
     const int lines = DivideUp(tile.Rows, this->Width) * this->Splits;
-    const int region[4] = { 0, firstLine, this->Width, lines };
+    const int region[4] = { 0, firstLine, this->Width / this->RowsPerFragment, lines };
     this->Engine->Draw(this->Parts, region);
     // A bunch of work at a time: a GPU that draws a screen as well is taken away from whoever keeps
     // it for seconds.
@@ -332,7 +339,7 @@ bool vtkOpenGLLinkOperator::Internals::DrawSumOfParts(const Group& target, const
   bool accumulate)
 {
   vtkShaderProgram* program =
-    this->Engine->Use("SumParts", vtkFloatTexturesSumPartsFS, this->GetDefines());
+    this->Engine->Use("SumParts", vtkFloatTexturesSumPartsFS, this->GetDefines(this->Groups));
   if (!program)
   {
     return false;
@@ -351,7 +358,7 @@ bool vtkOpenGLLinkOperator::Internals::DrawCombination(const Group& target, cons
   const Group& y, const std::vector<float>& a, const std::vector<float>& b)
 {
   vtkShaderProgram* program =
-    this->Engine->Use("Combine", vtkFloatTexturesCombineFS, this->GetDefines());
+    this->Engine->Use("Combine", vtkFloatTexturesCombineFS, this->GetDefines(this->Groups));
   if (!program)
   {
     return false;
@@ -370,7 +377,7 @@ bool vtkOpenGLLinkOperator::Internals::DrawProduct(const Group& target, const Gr
   const Group& y)
 {
   vtkShaderProgram* program =
-    this->Engine->Use("Scale", vtkFloatTexturesScaleFS, this->GetDefines());
+    this->Engine->Use("Scale", vtkFloatTexturesScaleFS, this->GetDefines(this->Groups));
   if (!program)
   {
     return false;
@@ -388,7 +395,7 @@ bool vtkOpenGLLinkOperator::Internals::DrawReductionStep(const Group& target, co
 {
   const std::string define = "#define " + std::string(name) + " 1\n";
   vtkShaderProgram* program =
-    this->Engine->Use(name, vtkFloatTexturesReduceFS, this->GetDefines(define.c_str()));
+    this->Engine->Use(name, vtkFloatTexturesReduceFS, this->GetDefines(this->Groups, define));
   if (!program)
   {
     return false;

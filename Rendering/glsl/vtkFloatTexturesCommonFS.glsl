@@ -4,7 +4,8 @@
 #extension GL_ARB_explicit_attrib_location : enable
 #extension GL_ARB_gpu_shader5 : enable
 
-// GROUPS: textures per vector, four bands each. MATRIX_GROUPS: 1 where all bands share one kernel, else GROUPS.
+// GROUPS: textures per vector, four bands each. MATRIX_GROUPS: 1 where all bands share one kernel, else GROUPS. ROWS: rows of the
+// matrix that one fragment multiplies. OUTPUTS: textures written.
 //VTK::LightTransport::Define
 
 // Keeps the compiler from simplifying compensated sums away, where the context knows how.
@@ -53,9 +54,9 @@
 #define FOR_ALL_GROUPS(STEP) STEP(0) GROUP_1(STEP) GROUP_2(STEP) GROUP_3(STEP) GROUP_4(STEP) GROUP_5(STEP) GROUP_6(STEP) GROUP_7(STEP)
 
 #ifdef GL_ARB_explicit_attrib_location
-layout(location = 0) out vec4 result[GROUPS];
+layout(location = 0) out vec4 result[OUTPUTS];
 #else
-out vec4 result[GROUPS];
+out vec4 result[OUTPUTS];
 #endif
 
 // sum += value, with what rounding takes away collected in lost (Knuth's exact sum of two).

@@ -1,5 +1,5 @@
-// One range of columns of the product of a matrix tile with a vector. Fragment (x, y) computes the row (y / splits) * width + x
-// over the (y % splits)-th range of columns.
+// One range of columns of the product of a matrix tile with a vector. Fragment (x, y) computes ROWS rows, which share what is fetched
+// of the vector, from row (y / splits) * width + x * ROWS on, over the (y % splits)-th range of columns.
 uniform sampler2D matrix[MATRIX_GROUPS];
 uniform sampler2D vector[GROUPS];
 uniform int width;
@@ -13,42 +13,85 @@ uniform int texelsPerSplit;
 // Texels summed plainly before their sum is added with compensation.
 const int BLOCK = 16;
 
+// The matrix texel of a row; rows beyond the last one repeat it and are dropped at the end.
+#define LINKS(g, r) texelFetch(matrix[g], ivec2(texel, min(row + r, numberOfRows - 1) - firstRow), 0)
+
+// Outputs, like samplers, may be indexed by constants alone.
+#define STORE_ROW(g, r) result[r * GROUPS + g] = row + r < numberOfRows ? sum[r * GROUPS + g] + lost[r * GROUPS + g] : vec4(0.0);
+#if ROWS > 1
+#define STORE_ROW_1(g) STORE_ROW(g, 1)
+#else
+#define STORE_ROW_1(g)
+#endif
+#if ROWS > 2
+#define STORE_ROWS_2_AND_3(g) STORE_ROW(g, 2) STORE_ROW(g, 3)
+#else
+#define STORE_ROWS_2_AND_3(g)
+#endif
+#define STORE(g) STORE_ROW(g, 0) STORE_ROW_1(g) STORE_ROWS_2_AND_3(g)
+
 void main()
 {
   ivec2 place = ivec2(gl_FragCoord.xy);
-  int row = (place.y / splits) * width + place.x;
+  int row = (place.y / splits) * width + place.x * ROWS;
   int begin = (place.y % splits) * texelsPerSplit;
   int end = row < numberOfRows ? min(begin + texelsPerSplit, numberOfTexels) : begin;
-  vec4 sum[GROUPS];
-  vec4 lost[GROUPS];
-  vec4 part[GROUPS];
-#define CLEAR(g) sum[g] = vec4(0.0); lost[g] = vec4(0.0);
-  FOR_ALL_GROUPS(CLEAR)
+  vec4 sum[ROWS * GROUPS];
+  vec4 lost[ROWS * GROUPS];
+  vec4 part[ROWS * GROUPS];
+  for (int index = 0; index < ROWS * GROUPS; ++index)
+  {
+    sum[index] = vec4(0.0);
+    lost[index] = vec4(0.0);
+  }
   for (int block = begin; block < end; block += BLOCK)
   {
-#define CLEAR_PART(g) part[g] = vec4(0.0);
-    FOR_ALL_GROUPS(CLEAR_PART)
+    for (int index = 0; index < ROWS * GROUPS; ++index)
+    {
+      part[index] = vec4(0.0);
+    }
     int last = min(block + BLOCK, end);
     for (int texel = block; texel < last; ++texel)
     {
-      ivec2 from = ivec2(texel, row - firstRow);
 #if SHARED_KERNEL
       // A texel holds four columns; the vector's rows hold a multiple of four patches.
       int column = firstColumn + 4 * texel;
       ivec2 at = ivec2(column % width, column / width);
-      vec4 links = texelFetch(matrix[0], from, 0);
-#define ADD(g) part[g] += (links.x * texelFetch(vector[g], at, 0) + links.y * texelFetch(vector[g], at + ivec2(1, 0), 0)) + (links.z * texelFetch(vector[g], at + ivec2(2, 0), 0) + links.w * texelFetch(vector[g], at + ivec2(3, 0), 0));
+      vec4 links[ROWS];
+      for (int r = 0; r < ROWS; ++r)
+      {
+        links[r] = LINKS(0, r);
+      }
+#define ADD(g) \
+      { \
+        vec4 x0 = texelFetch(vector[g], at, 0); \
+        vec4 x1 = texelFetch(vector[g], at + ivec2(1, 0), 0); \
+        vec4 x2 = texelFetch(vector[g], at + ivec2(2, 0), 0); \
+        vec4 x3 = texelFetch(vector[g], at + ivec2(3, 0), 0); \
+        for (int r = 0; r < ROWS; ++r) \
+        { \
+          part[r * GROUPS + g] += (links[r].x * x0 + links[r].y * x1) + (links[r].z * x2 + links[r].w * x3); \
+        } \
+      }
 #else
       // A texel holds one column of four bands.
       int column = firstColumn + texel;
       ivec2 at = ivec2(column % width, column / width);
-#define ADD(g) part[g] += texelFetch(matrix[g], from, 0) * texelFetch(vector[g], at, 0);
+#define ADD(g) \
+      { \
+        vec4 x = texelFetch(vector[g], at, 0); \
+        for (int r = 0; r < ROWS; ++r) \
+        { \
+          part[r * GROUPS + g] += LINKS(g, r) * x; \
+        } \
+      }
 #endif
       FOR_ALL_GROUPS(ADD)
     }
-#define ADD_PART(g) AddCompensated(sum[g], lost[g], part[g]);
-    FOR_ALL_GROUPS(ADD_PART)
+    for (int index = 0; index < ROWS * GROUPS; ++index)
+    {
+      AddCompensated(sum[index], lost[index], part[index]);
+    }
   }
-#define STORE(g) result[g] = sum[g] + lost[g];
   FOR_ALL_GROUPS(STORE)
 }
