@@ -367,6 +367,8 @@ std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
   const std::string name = chosen && *chosen ? chosen : DEFAULT_REGION_ARRAY;
   if (!array && name == DEFAULT_REGION_ARRAY)
   {
+    // ParaView's empty name comes with the association of points.
+    association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
     array = input->GetCellData()->GetAbstractArray(DEFAULT_REGION_ARRAY);
     if (!array)
     {
