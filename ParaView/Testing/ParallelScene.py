@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A room of which each rank has a piece.
+
+The room is a cube seen from inside with a bright ceiling and a block standing in it, so that what a rank does not have throws
+shadows on what it has.
+"""
+
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+GHOSTS_ON_EACH_SIDE = 7
+
+
+def make_box(low, high, outside, count):
+    """Patches of a box, as lists of corners: count x count on each side."""
+    for axis in range(3):
+        for end in (0, 1):
+            for i in range(count):
+                for j in range(count):
+                    square = []
+                    for steps in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        corner = [0.0, 0.0, 0.0]
+                        corner[axis] = high[axis] if end else low[axis]
+                        for place, step in zip(((axis + 1) % 3, (axis + 2) % 3), steps):
+                            corner[place] = low[place] + (high[place] - low[place]) * step / count
+                        square.append(tuple(corner))
+                    yield square if (end == 1) == outside else square[::-1]
+
+
+def make_patches():
+    return (list(make_box((0, 0, 0), (1, 1, 1), False, 5)) +
+            list(make_box((0.3, 0.3, 0.05), (0.6, 0.7, 0.5), True, 3)))
+
+
+def choose_patches(case, rank, ranks, count):
+    """(patch, whether it is a ghost) for each patch of a rank."""
+    if case == "empty":
+        return [(patch, False) for patch in range(count)] if rank == 0 else []
+    begin, end = count * rank // ranks, count * (rank + 1) // ranks
+    chosen = [(patch, False) for patch in range(begin, end)]
+    if case == "ghosts":
+        before = range(max(begin - GHOSTS_ON_EACH_SIDE, 0), begin)
+        after = range(end, min(end + GHOSTS_ON_EACH_SIDE, count))
+        chosen = ([(patch, True) for patch in before] + chosen + [(patch, True) for patch in after])
+    return chosen
+
+
+def make_piece(case, output):
+    """Fill a vtkPolyData with this rank's piece."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+    patches = make_patches()
+    points, cells = vtkPoints(), vtkCellArray()
+    points.SetDataTypeToDouble()
+    arrays = {"Emission": vtkDoubleArray(), "Reflectance": vtkDoubleArray(),
+              "PatchId": vtkIdTypeArray(), "Rank": vtkIdTypeArray()}
+    if case == "ghosts":
+        arrays[vtkDataSetAttributes.GhostArrayName()] = vtkUnsignedCharArray()
+    for patch, ghost in choose_patches(case, rank, ranks, len(patches)):
+        cells.InsertNextCell(4)
+        for corner in patches[patch]:
+            cells.InsertCellPoint(points.InsertNextPoint(corner))
+        ceiling = min(corner[2] for corner in patches[patch]) == 1.0
+        values = (1.0 if ceiling else 0.0, 0.2 + 0.6 * (7 * patch % 11) / 11, patch, rank,
+                  vtkDataSetAttributes.DUPLICATECELL if ghost else 0)
+        for array, value in zip(arrays.values(), values):
+            array.InsertNextValue(value)
+    if case == "error" and rank == ranks - 1:
+        points.SetPoint(0, float("nan"), 0.0, 0.0)
+    output.SetPoints(points)
+    output.SetPolys(cells)
+    for name, array in arrays.items():
+        array.SetName(name)
+        output.GetCellData().AddArray(array)

@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mesher, radiosity, direct irradiance and scattering through proxies: every array as from the classes themselves."""
+
+import PluginTools as tools
+
+import vtklighttransport as lt
+from paraview import simple
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from vtkmodules.vtkRenderingCore import vtkLight
+
+TOLERANCE = 1e-12
+# What a run is about, and times.
+MEASURED = ("Seconds",)
+
+
+def run(algorithm, data):
+    algorithm.SetInputDataObject(0, data)
+    algorithm.Update()
+    return algorithm.GetOutputDataObject(0)
+
+
+def read(reader, name):
+    reader.SetFileName(tools.get_data(name))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def run_classes():
+    mesher = lt.vtkPatchMesher()
+    mesher.SetTargetEdgeLength(80.0)
+    room = run(mesher, read(vtkXMLPolyDataReader(), "cornell_box.vtp"))
+    radiosity = lt.vtkRadiosity()
+    radiosity.SetDeviceToCPU()
+    results = {"Radiosity": run(radiosity, room), "Convergence": radiosity.GetConvergence()}
+
+    mesher = lt.vtkPatchMesher()
+    mesher.SetTargetEdgeLength(0.8)
+    bunny = run(mesher, read(vtkPLYReader(), "bunny.ply"))
+    irradiance = lt.vtkDirectIrradiance()
+    irradiance.SetRefractiveIndex(1.5)
+    light = vtkLight()
+    light.SetPosition(1.0, 2.0, 3.0)
+    light.SetIntensity(2.0)
+    point = vtkLight()
+    point.PositionalOn()
+    point.SetConeAngle(180.0)
+    point.SetAttenuationValues(0.0, 0.0, 1.0)
+    point.SetPosition(-20.0, 10.0, 5.0)
+    point.SetIntensity(300.0)
+    point.SetDiffuseColor(1.0, 0.5, 0.25)
+    irradiance.AddLight(light)
+    irradiance.AddLight(point)
+    scattering = lt.vtkSubsurfaceScattering()
+    scattering.SetMaterialToMarble()
+    scattering.SetMillimetersPerUnit(10.0)
+    scattering.SetIncidenceToTransmitted()
+    scattering.SetDeviceToCPU()
+    results["Subsurface Scattering"] = run(scattering, run(irradiance, bunny))
+    return results
+
+
+def run_proxies():
+    reader = simple.XMLPolyDataReader(FileName=[tools.get_data("cornell_box.vtp")])
+    mesher = simple.PatchMesher(Input=reader, TargetEdgeLength=80.0)
+    radiosity = simple.Radiosity(Input=mesher, Device="CPU")
+    results = {
+        "Radiosity": simple.servermanager.Fetch(radiosity, idx=0),
+        "Convergence": simple.servermanager.Fetch(radiosity, idx=1)}
+
+    reader = simple.PLYReader(FileNames=[tools.get_data("bunny.ply")])
+    mesher = simple.PatchMesher(Input=reader, TargetEdgeLength=0.8)
+    irradiance = simple.DirectIrradiance(Input=mesher, RefractiveIndex=1.5)
+    irradiance.Light1.Position = [1.0, 2.0, 3.0]
+    irradiance.Light1.Intensity = 2.0
+    irradiance.Light2 = "Point Light"
+    irradiance.Light2.Position = [-20.0, 10.0, 5.0]
+    irradiance.Light2.Intensity = 300.0
+    irradiance.Light2.DiffuseColor = [1.0, 0.5, 0.25]
+    scattering = simple.SubsurfaceScattering(
+        Input=irradiance, Material="Marble", MillimetersPerUnit=10.0, Incidence="Transmitted",
+        Device="CPU")
+    results["Subsurface Scattering"] = simple.servermanager.Fetch(scattering)
+    return results, irradiance, scattering
+
+
+def compare(name, expected, found):
+    if expected.IsA("vtkTable"):
+        groups = (("row", expected.GetRowData(), found.GetRowData()),)
+    else:
+        groups = (("cell", expected.GetCellData(), found.GetCellData()),
+                  ("point", expected.GetPointData(), found.GetPointData()),
+                  ("field", expected.GetFieldData(), found.GetFieldData()))
+    problems = []
+    for kind, first, second in groups:
+        wanted, got = tools.get_arrays(first), tools.get_arrays(second)
+        if not wanted and kind != "field":
+            problems.append(f"{name} has no {kind} array")
+        for array_name, array in wanted.items():
+            label = f"{name}: {kind} array {array_name}"
+            if array_name.endswith(MEASURED):
+                continue
+            if array.IsA("vtkStringArray"):
+                if array_name not in got or got[array_name].GetValue(0) != array.GetValue(0):
+                    problems.append(label + " differs")
+            else:
+                problems.append(tools.compare_arrays(label, array, got.get(array_name), TOLERANCE))
+    return [problem for problem in problems if problem]
+
+
+def test_lights(irradiance, scattering):
+    """A light that is changed or exchanged reaches the filter, and what follows runs again."""
+    problems = []
+    before = tools.get_summary(simple.servermanager.Fetch(scattering), "EnteringFlux")
+    irradiance.Light2.Intensity = 0.0
+    irradiance.Light1.Intensity = 4.0
+    irradiance.Light1.DiffuseColor = [0.5, 0.5, 0.5]
+    first = simple.servermanager.Fetch(scattering).GetFieldData().GetArray("EnteringFlux").GetTuple(0)
+    irradiance.Light2 = "No Light"
+    irradiance.Light1.Intensity = 2.0
+    irradiance.Light1.DiffuseColor = [1.0, 1.0, 1.0]
+    second = simple.servermanager.Fetch(scattering).GetFieldData().GetArray("EnteringFlux").GetTuple(0)
+    if before is None or not before > first[0] * 1.01:
+        problems.append(f"switching a light down did not lessen the flux: {before}, {first}")
+    if any(abs(a - b) > TOLERANCE * a for a, b in zip(first, second)):
+        problems.append(f"the same light by other numbers gives another flux: {first}, {second}")
+    light = simple.CreateLight()
+    light.Coords = "Scene"
+    light.Position = [1.0, 2.0, 3.0]
+    light.Intensity = 2.0
+    irradiance.Lights = [light]
+    third = simple.servermanager.Fetch(scattering).GetFieldData().GetArray("EnteringFlux").GetTuple(0)
+    if any(abs(2.0 * a - b) > 1e-9 * b for a, b in zip(second, third)):
+        problems.append(f"ParaView's own light did not add up: {second}, {third}")
+    return problems
+
+
+expected_results = run_classes()
+found_results, irradiance_proxy, scattering_proxy = run_proxies()
+all_problems = []
+for key, result in expected_results.items():
+    all_problems += compare(key, result, found_results[key])
+for key, array_name in (("Radiosity", "Radiosity"), ("Subsurface Scattering", "ScatteredIrradiance")):
+    if expected_results[key].GetCellData().GetArray(array_name).GetRange(0)[1] <= 0.0:
+        all_problems.append(f"{array_name} is zero everywhere: nothing was compared")
+all_problems += test_lights(irradiance_proxy, scattering_proxy)
+tools.finish(all_problems)
