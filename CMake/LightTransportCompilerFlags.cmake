@@ -1,4 +1,6 @@
-# Warnings, on for our own targets. VTK's headers come in as system headers.
-add_library(lighttransport_warnings INTERFACE)
-target_compile_options(lighttransport_warnings INTERFACE
-  $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Woverloaded-virtual>)
+# Warnings, on for the code of the modules (not for what is generated to wrap it). A larger build that takes the modules in has its
+# own choice.
+set(LIGHTTRANSPORT_WARNINGS)
+if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  set(LIGHTTRANSPORT_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
+endif ()

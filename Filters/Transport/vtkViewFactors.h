@@ -59,7 +59,7 @@ public:
   ///@}
 
   ///@{
-  /// Most rays for one partly visible pair. Default 256, range 16 to 65536.
+  /// Most rays for one partly visible pair. Default 64, range 16 to 65536.
   vtkSetClampMacro(MaximumNumberOfRays, int, 16, 65536);
   vtkGetMacro(MaximumNumberOfRays, int);
   ///@}
@@ -114,7 +114,7 @@ private:
   bool FindOpenings(const vtkPatchScene& scene);
 
   double Tolerance = 1e-4;
-  int MaximumNumberOfRays = 256;
+  int MaximumNumberOfRays = 64;
   bool EnforceClosure = false;
 
   vtkSmartPointer<vtkExchangeMatrix> Exchange;

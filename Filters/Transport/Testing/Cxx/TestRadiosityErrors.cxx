@@ -194,6 +194,8 @@ void TestAbort()
       }
     });
   radiosity->AddObserver(vtkCommand::ProgressEvent, stop);
+  vtkNew<vtkTest::ErrorObserver> pipelineErrors;
+  radiosity->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipelineErrors);
   radiosity->Update();
   Check(last > 0.1 && last < 0.5, "an abort stops at once");
   Check(!radiosity->GetPolyDataOutput()->GetCellData()->HasArray("Radiosity"),

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The exchange matrix and the link operator on the CPU, against plain loops in double precision.
+#include "LightTransportTesting.h"
+#include "vtkDenseLinkOperator.h"
+#include "vtkExchangeMatrix.h"
+#include "vtkTestErrorObserver.h"
+
+#include <algorithm>
+#include <random>
+
+using namespace LightTransportTesting;
+
+namespace
+{
+constexpr int N = vtkExchangeMatrix::TileSize;
+
+//------------------------------------------------------------------------------
+// A symmetric matrix whose values single precision holds exactly, so that the loops below see the
+// same ones.
+double GetEntry(vtkIdType i, vtkIdType j, int kernel)
+{
+  const vtkIdType low = std::min(i, j), high = std::max(i, j);
+  return static_cast<double>((low * 7 + high * 13 + low * high + kernel * 5 + 1) % 64) / 64.0;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkExchangeMatrix> MakeMatrix(vtkIdType n, int kernels, int part = 0, int parts = 1)
+{
+  auto matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
+  Check(matrix->Allocate(std::vector<double>(n, 1.0), kernels, part, parts), "allocation");
+  for (vtkExchangeMatrix::Tile& tile : matrix->GetTiles())
+  {
+    for (int row = 0; row < N && tile.Row * N + row < n; ++row)
+    {
+      for (int column = tile.Row == tile.Column ? row : 0;
+           column < N && tile.Column * N + column < n; ++column)
+      {
+        for (int kernel = 0; kernel < kernels; ++kernel)
+        {
+          vtkExchangeMatrix::SetValue(tile, row, column, kernel,
+            GetEntry(tile.Row * N + row, tile.Column * N + column, kernel));
+        }
+      }
+    }
+  }
+  return matrix;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> MakeVector(vtkIdType n, int bands, unsigned seed)
+{
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<double> values(n * bands);
+  std::generate(values.begin(), values.end(), [&]() { return uniform(generator); });
+  return values;
+}
+
+//------------------------------------------------------------------------------
+double Compare(const std::vector<double>& a, const std::vector<double>& b)
+{
+  double worst = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+  {
+    worst = std::max(worst, std::abs(a[k] - b[k]));
+    size = std::max(size, std::abs(b[k]));
+  }
+  return worst / size;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> Multiply(const std::vector<double>& x, vtkIdType n, int bands, int kernels)
+{
+  std::vector<double> y(x.size(), 0.0);
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    for (vtkIdType j = 0; j < n; ++j)
+    {
+      for (int band = 0; band < bands; ++band)
+      {
+        y[i * bands + band] += GetEntry(i, j, kernels == 1 ? 0 : band) * x[j * bands + band];
+      }
+    }
+  }
+  return y;
+}
+
+//------------------------------------------------------------------------------
+void TestProducts(vtkIdType n, int bands, int kernels)
+{
+  const std::string what = " (n " + std::to_string(n) + ", bands " + std::to_string(bands) +
+    ", kernels " + std::to_string(kernels) + ")";
+  auto matrix = MakeMatrix(n, kernels);
+  vtkNew<vtkDenseLinkOperator> links;
+  Check(links->Initialize(matrix, bands), "initialize" + what);
+  const std::vector<double> x = MakeVector(n, bands, 1), left = MakeVector(n, bands, 2),
+                            right = MakeVector(n, bands, 3);
+  links->SetVector(0, x.data());
+  links->SetVector(1, left.data());
+  links->SetVector(2, right.data());
+  std::vector<double> result(x.size());
+
+  Check(links->Multiply(3, 0) && links->GetVector(3, result.data()), "multiply" + what);
+  Check(Compare(result, Multiply(x, n, bands, kernels)) < 1e-13, "product" + what);
+
+  std::vector<double> scaled = x;
+  std::transform(x.begin(), x.end(), right.begin(), scaled.begin(), std::multiplies<double>());
+  scaled = Multiply(scaled, n, bands, kernels);
+  std::transform(scaled.begin(), scaled.end(), left.begin(), scaled.begin(),
+    std::multiplies<double>());
+  Check(links->Apply(3, 1, 2, 0, 4) && links->GetVector(3, result.data()), "apply" + what);
+  Check(Compare(result, scaled) < 1e-13, "y = L G R x" + what);
+
+  const std::vector<double> a = MakeVector(bands, 1, 4), b = MakeVector(bands, 1, 5);
+  links->Combine(1, a.data(), 0, b.data(), 1);
+  links->GetVector(1, result.data());
+  std::vector<double> dot(bands), norm(bands), expectedDot(bands, 0.0), expectedNorm(bands, 0.0);
+  links->Dot(0, 2, dot.data());
+  links->MaxNorm(0, norm.data());
+  for (std::size_t k = 0; k < x.size(); ++k)
+  {
+    CheckClose(result[k], a[k % bands] * x[k] + b[k % bands] * left[k], 1e-12,
+      "combination" + what);
+    expectedDot[k % bands] += x[k] * right[k];
+    expectedNorm[k % bands] = std::max(expectedNorm[k % bands], std::abs(x[k]));
+  }
+  for (int band = 0; band < bands; ++band)
+  {
+    Check(std::abs(dot[band] - expectedDot[band]) < 1e-12 * n, "dot product" + what);
+    Check(norm[band] == expectedNorm[band], "largest value" + what);
+  }
+}
+
+//------------------------------------------------------------------------------
+// One sweep against the textbook's loop.
+void TestSweep(vtkIdType n, int bands, int kernels)
+{
+  auto matrix = MakeMatrix(n, kernels);
+  vtkNew<vtkDenseLinkOperator> links;
+  links->Initialize(matrix, bands);
+  std::vector<double> x = MakeVector(n, bands, 1), e = MakeVector(n, bands, 2),
+                      left = MakeVector(n, bands, 3);
+  for (double& value : left)
+  {
+    value /= static_cast<double>(n);
+  }
+  links->SetVector(0, x.data());
+  links->SetVector(1, e.data());
+  links->SetVector(2, left.data());
+  links->Sweep(0, 1, 2);
+  std::vector<double> result(x.size()), row(n);
+  links->GetVector(0, result.data());
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    for (int band = 0; band < bands; ++band)
+    {
+      links->GetRow(i, band, row.data());
+      double sum = 0.0;
+      for (vtkIdType j = 0; j < n; ++j)
+      {
+        Check(row[j] == GetEntry(i, j, kernels == 1 ? 0 : band), "row of the matrix");
+        sum += row[j] * x[j * bands + band];
+      }
+      x[i * bands + band] = e[i * bands + band] + left[i * bands + band] * sum;
+    }
+  }
+  Check(Compare(result, x) < 1e-13, "Gauss-Seidel sweep");
+}
+
+//------------------------------------------------------------------------------
+// The parts of a matrix add up to it, and each holds its share of the tiles.
+void TestParts()
+{
+  constexpr vtkIdType n = 700;
+  auto whole = MakeMatrix(n, 1);
+  double bytes = 0.0;
+  std::vector<vtkSmartPointer<vtkExchangeMatrix>> parts;
+  for (int part = 0; part < 4; ++part)
+  {
+    parts.push_back(MakeMatrix(n, 1, part, 4));
+    bytes += parts.back()->GetNumberOfBytes();
+    Check(parts.back()->GetTiles().size() <= 2, "6 tiles over 4 parts");
+  }
+  CheckClose(bytes, whole->GetNumberOfBytes(), 1e-15, "bytes of the parts");
+  CheckClose(whole->GetNumberOfBytes(), vtkExchangeMatrix::GetEstimatedBytes(n, 1), 1e-15,
+    "bytes as estimated");
+  for (vtkIdType i = 0; i < n; i += 13)
+  {
+    for (vtkIdType j = 0; j < n; j += 17)
+    {
+      double sum = 0.0;
+      for (const auto& part : parts)
+      {
+        sum += part->GetValue(i, j);
+      }
+      Check(sum == GetEntry(i, j, 0) && whole->GetValue(j, i) == sum, "value of the parts");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestErrors()
+{
+  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<vtkDenseLinkOperator> links;
+  links->AddObserver(vtkCommand::ErrorEvent, errors);
+  const auto expect = [&](bool failed, const char* part)
+  {
+    Check(failed && errors->GetErrorMessage().find(part) != std::string::npos, part);
+    errors->Clear();
+  };
+  auto matrix = MakeMatrix(10, 2);
+  expect(!links->Initialize(nullptr, 1), "needs an exchange matrix");
+  expect(!links->Initialize(matrix, 3), "2 kernels for 3 bands");
+  expect(!links->Initialize(MakeMatrix(10, 1, 0, 2), 1), "2 parts");
+  links->Initialize(matrix, 2);
+  expect(!links->Multiply(1, 0), "before it was written");
+  const std::vector<double> x(20, 1.0);
+  links->SetVector(0, x.data());
+  expect(!links->Multiply(0, 0), "two different vectors");
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestLinkOperator(int, char*[])
+{
+  for (const vtkIdType n : { 1, 2, 255, 257, 700 })
+  {
+    for (const int bands : { 1, 2, 3, 4, 5, 9 })
+    {
+      TestProducts(n, bands, 1);
+    }
+    TestProducts(n, 3, 3);
+  }
+  TestSweep(300, 3, 1);
+  TestSweep(520, 2, 2);
+  TestParts();
+  TestErrors();
+  return Result();
+}
