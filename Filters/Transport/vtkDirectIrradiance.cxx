@@ -213,8 +213,7 @@ struct vtkDirectIrradiance::Internals
 
   /// Irradiance at normal incidence over Color, cosine and shadow included; 0 in the shadow or
   /// behind.
-  double LightPoint(const Light& light, const Vector& point, vtkIdType patch, double& cosine,
-    bool& shadowed) const;
+  double LightPoint(const Light& light, const Vector& point, vtkIdType patch, double& cosine) const;
   bool LightPatch(const Light& light, const PatchSquare& square, vtkIdType patch, bool refined,
     Sum& sum) const;
   void AddLight(const Light& light, const PatchSquare& square, vtkIdType patch, Sum& sum);
@@ -224,7 +223,7 @@ struct vtkDirectIrradiance::Internals
 
 //------------------------------------------------------------------------------
 double vtkDirectIrradiance::Internals::LightPoint(const Light& light, const Vector& point,
-  vtkIdType patch, double& cosine, bool& shadowed) const
+  vtkIdType patch, double& cosine) const
 {
   Vector towards = -light.Axis;
   double strength = 1.0;
@@ -249,8 +248,7 @@ double vtkDirectIrradiance::Internals::LightPoint(const Light& light, const Vect
   {
     return 0.0;
   }
-  shadowed = this->IsBlocked(point, point + reach * towards, patch);
-  return shadowed ? 0.0 : strength * cosine;
+  return this->IsBlocked(point, point + reach * towards, patch) ? 0.0 : strength * cosine;
 }
 
 //------------------------------------------------------------------------------
@@ -269,13 +267,23 @@ bool vtkDirectIrradiance::Internals::LightPatch(const Light& light, const PatchS
       : std::array<double, 2>{ (k % this->ShadowSide + 0.5) / this->ShadowSide,
           (k / this->ShadowSide + 0.5) / this->ShadowSide };
     double cosine = 0.0;
-    bool shadowed = false;
     const double strength =
-      this->LightPoint(light, square.GetPoint(place[0], place[1]), patch, cosine, shadowed);
+      this->LightPoint(light, square.GetPoint(place[0], place[1]), patch, cosine);
     smallest = std::min(smallest, strength);
     largest = std::max(largest, strength);
     sum.Add(light.Color, strength / count,
       vtkDiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
+  }
+  // A narrow shadow or light along an edge misses all points, but hardly all corners.
+  const int corners = refined ? 0 : this->Scene.GetNumberOfCorners(patch);
+  for (int k = 0; k < corners; ++k)
+  {
+    const Vector point =
+      0.98 * this->Scene.GetCorner(patch, k) + 0.02 * this->Scene.GetCentroid(patch);
+    double cosine = 0.0;
+    const double strength = this->LightPoint(light, point, patch, cosine);
+    smallest = std::min(smallest, strength);
+    largest = std::max(largest, strength);
   }
   return smallest >= 0.75 * largest;
 }
@@ -289,7 +297,7 @@ void vtkDirectIrradiance::Internals::AddLight(const Light& light, const PatchSqu
     return;
   }
   const double count = this->ShadowSide * this->ShadowSide;
-  this->Rays[patch] += count;
+  this->Rays[patch] += count + this->Scene.GetNumberOfCorners(patch);
   Sum part;
   if (!this->LightPatch(light, square, patch, false, part))
   {
@@ -317,12 +325,13 @@ void vtkDirectIrradiance::Internals::AddEnvironment(const PatchSquare& square, v
   for (int k = 0; k < side * side; ++k)
   {
     // Even over the projected disc, which is even in cosine-weighted solid angle.
-    const double squared = (k / side + shift[0]) / side;
-    const double angle = 2.0 * vtkMath::Pi() * (k % side + shift[1]) / side;
+    const std::array<double, 2> jitter = SpreadPoint(k, shift);
+    const double squared = (k / side + jitter[0]) / side;
+    const double angle = 2.0 * vtkMath::Pi() * (k % side + jitter[1]) / side;
     const double cosine = std::sqrt(1.0 - squared);
     const Vector direction =
       std::sqrt(squared) * (std::cos(angle) * axisX + std::sin(angle) * axisY) + cosine * normal;
-    const std::array<double, 2> place = SpreadPoint(k, shift);
+    const std::array<double, 2> place = SpreadPoint(side * side + k, shift);
     const Vector point = square.GetPoint(place[0], place[1]);
     if (!this->IsBlocked(point, point + OutOfScene * direction, patch))
     {

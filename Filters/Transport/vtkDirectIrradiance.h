@@ -74,9 +74,9 @@ public:
 
   ///@{
   /**
-   * Points on a patch that look at each light, stratified. Where not all of them see it, or some
-   * get less than three quarters of others, 16 times as many are taken. Default 16, range 1 to
-   * 4096; rounded up to a square number.
+   * Points on a patch that look at each light, stratified; its corners look, too. Where not all of
+   * them see it, or some get less than three quarters of others, 16 times as many are taken.
+   * Default 16, range 1 to 4096; rounded up to a square number.
    */
   vtkSetClampMacro(ShadowSamples, int, 1, 4096);
   vtkGetMacro(ShadowSamples, int);

@@ -189,7 +189,8 @@ bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, cons
   const double spread2 = slope * slope * (a.Moment + b.Moment);
   const auto accept = [&](const Bands& value, const Bands& error)
   {
-    const Bands integral = areas * value;
+    // Where a profile ends in underflow its parabolas may dip below 0.
+    const Bands integral = (areas * value).max(0.0);
     const Bands allowed =
       goal.Absolute + goal.Relative * integral + (goal.Shared * integral).sqrt();
     const bool good = last || (areas * error <= allowed).all();

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The profile integrated over pairs of triangles and over one triangle twice, against brute force,
+// for triangles from much smaller to much larger than the mean free path.
+#include "LightTransportTesting.h"
+#include "vtkScatteringIntegrals.h"
+
+using namespace LightTransportTesting;
+
+namespace
+{
+using Vector = vtkScatteringIntegrals::Vector;
+using Triangle = vtkScatteringIntegrals::Triangle;
+using Result3 = vtkScatteringIntegrals::Result;
+
+constexpr double Tolerance = 4e-5;
+
+//------------------------------------------------------------------------------
+std::vector<vtkDiffusionProfile> MakeProfiles()
+{
+  return { { 2.19, 0.0021, 1.5 }, { 2.62, 0.0041, 1.5 }, { 1.0, 1.0, 1.3 } };
+}
+
+//------------------------------------------------------------------------------
+std::vector<Vector> GetCentroids(const Triangle& triangle, int cuts)
+{
+  std::vector<Vector> centroids;
+  const Vector u = (triangle.Corners[1] - triangle.Corners[0]) / cuts;
+  const Vector v = (triangle.Corners[2] - triangle.Corners[0]) / cuts;
+  for (int i = 0; i < cuts; ++i)
+  {
+    for (int j = 0; j < cuts - i; ++j)
+    {
+      const Vector corner = triangle.Corners[0] + i * u + j * v;
+      centroids.push_back(corner + (u + v) / 3.0);
+      if (j < cuts - i - 1)
+      {
+        centroids.push_back(corner + 2.0 * (u + v) / 3.0);
+      }
+    }
+  }
+  return centroids;
+}
+
+//------------------------------------------------------------------------------
+/// All pairs of small triangles by their centroids.
+double SumCentroids(const vtkDiffusionProfile& profile, const Triangle& a, const Triangle& b,
+  int cuts)
+{
+  const std::vector<Vector> from = GetCentroids(a, cuts);
+  const std::vector<Vector> to = GetCentroids(b, cuts);
+  double sum = 0.0;
+  for (const Vector& x : from)
+  {
+    for (const Vector& y : to)
+    {
+      sum += profile.Evaluate((x - y).norm());
+    }
+  }
+  return sum / (from.size() * to.size());
+}
+
+//------------------------------------------------------------------------------
+/// Mean of the profile over both triangles, over its total; the error falls with the square of the
+/// number of cuts, which extrapolation removes.
+double BruteForce(const vtkDiffusionProfile& profile, const Triangle& a, const Triangle& b,
+  int cuts)
+{
+  const double coarse = SumCentroids(profile, a, b, cuts / 2);
+  const double fine = SumCentroids(profile, a, b, cuts);
+  return a.Area * b.Area * (4.0 * fine - coarse) / 3.0 / profile.GetTotal();
+}
+
+//------------------------------------------------------------------------------
+struct Case
+{
+  const char* Name;
+  Vector Corners[3];
+};
+
+const Vector Origin(0, 0, 0);
+const Vector Side(1, 0, 0);
+
+const Case Cases[] = { { "coplanar edge", { Side, Origin, { 0.6, -0.8, 0.0 } } },
+  { "tilted edge", { Side, Origin, { 0.6, -0.8, 0.3 } } },
+  { "folded edge", { Side, Origin, { 0.5, 0.1, 0.7 } } },
+  { "corner", { Side, { 1.8, 0.3, 0.2 }, { 0.9, 1.2, 0.6 } } },
+  { "near", { { 1.8, 0.3, 0.2 }, { 2.8, 0.3, 0.2 }, { 2.2, 1.2, 0.2 } } },
+  { "far", { { 8.0, 1.0, 3.0 }, { 9.0, 1.0, 3.0 }, { 8.4, 1.9, 3.5 } } } };
+
+//------------------------------------------------------------------------------
+void TestPairs()
+{
+  const std::vector<vtkDiffusionProfile> profiles = MakeProfiles();
+  for (const double size : { 0.003, 0.05, 0.5, 3.0 })
+  {
+    const vtkScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
+    const Triangle first(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
+    for (const Case& other : Cases)
+    {
+      const Triangle second(size * other.Corners[0], size * other.Corners[1],
+        size * other.Corners[2]);
+      const double tolerance = 1e-12 * first.Area;
+      Result3 result;
+      Result3 mirrored;
+      integrals.AddPair(first, second, tolerance, result);
+      integrals.AddPair(second, first, tolerance, mirrored);
+      for (int band = 0; band < 3; ++band)
+      {
+        const std::string what = std::string(other.Name) + ", size " + std::to_string(size) +
+          ", band " + std::to_string(band);
+        const double expected = BruteForce(profiles[band], first, second, size > 1.0 ? 48 : 16);
+        Check(std::abs(result.Value[band] - expected) <= 2e-4 * expected + 10.0 * tolerance, what);
+        Check(std::abs(mirrored.Value[band] - expected) <= 2e-4 * expected + 10.0 * tolerance,
+          what + " mirrored");
+      }
+      Check(result.Error <= 2.0 * Tolerance * result.Value.maxCoeff() + 10.0 * tolerance,
+        std::string(other.Name) + ": error estimate within the tolerance");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The four quarters of a triangle: with themselves and with each other they make the whole.
+void TestSelf()
+{
+  const std::vector<vtkDiffusionProfile> profiles = MakeProfiles();
+  for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0 })
+  {
+    const vtkScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
+    const Vector a = size * Origin, b = size * Side, c = size * Vector(0.8, 0.3, 0.4);
+    const Triangle whole(a, b, c);
+    const Vector ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    const Triangle quarters[4] = { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { bc, ca, ab } };
+    Result3 self;
+    Result3 parts;
+    Result3 pairs;
+    integrals.AddSelf(whole, self);
+    for (int i = 0; i < 4; ++i)
+    {
+      integrals.AddSelf(quarters[i], parts);
+      for (int j = 0; j < i; ++j)
+      {
+        integrals.AddPair(quarters[i], quarters[j], 1e-6 * self.Value[0], pairs);
+      }
+    }
+    for (int band = 0; band < 3; ++band)
+    {
+      const std::string what =
+        "self, size " + std::to_string(size) + ", band " + std::to_string(band);
+      CheckClose(parts.Value[band] + 2.0 * pairs.Value[band], self.Value[band], 1e-4, what);
+      Check(self.Value[band] < whole.Area, what + " is below all that enters");
+    }
+    if (size < 1.0)
+    {
+      CheckClose(self.Value[0], BruteForce(profiles[0], whole, whole, 16), 1e-3,
+        "self against brute force, size " + std::to_string(size));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// A patch far wider than the mean free path keeps all but what crosses its edges: per length of
+/// edge, 2 int R r^2 dr.
+void TestWidePatch()
+{
+  const std::vector<vtkDiffusionProfile> profiles = MakeProfiles();
+  const double size = 3000.0;
+  const vtkScatteringIntegrals integrals(profiles, size, Tolerance);
+  const Triangle patch(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
+  double perimeter = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    perimeter += (patch.Corners[k] - patch.Corners[(k + 1) % 3]).norm();
+  }
+  Result3 self;
+  integrals.AddSelf(patch, self);
+  for (int band = 0; band < 3; ++band)
+  {
+    double moments[3];
+    profiles[band].GetMoments(1e4, moments);
+    // A convex body and its copy displaced by r overlap in A - r P / pi on average over directions.
+    const double crossing = 2.0 * perimeter * moments[1] / profiles[band].GetTotal();
+    CheckClose(patch.Area - self.Value[band], crossing, 2e-2,
+      "crossing the edges, band " + std::to_string(band));
+  }
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestScatteringExchange(int, char*[])
+{
+  TestPairs();
+  TestSelf();
+  TestWidePatch();
+  return Result();
+}
