@@ -48,13 +48,15 @@ public:
    * From now on vtkRenderWindow::New() gives an off-screen window and
    * vtkRenderWindowInteractor::New() an interactor that waits for nobody, so that scripts written
    * for a screen run without one. Does nothing when called again, and nothing where no context can
-   * be had; returns whether the registration is there.
+   * be had; returns whether the registration is there. For scripts of one process: parallel
+   * rendering composites the windows of all ranks and has not been tried with these.
    */
   static bool RegisterAsDefault();
 
   /**
    * Make the context, unless it is there already, and load OpenGL's functions. Returns false,
    * without an error message, when that cannot be done; `reason` then says why and what to install.
+   * The context is current afterwards.
    */
   bool Open(std::string& reason);
 

@@ -23,6 +23,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 #include "vtkTestErrorObserver.h"
@@ -253,6 +254,41 @@ bool TestScattering()
   return Check(pass->GetRefractiveIndex() == 1.0, "an index below 1 is taken") && good;
 }
 
+/// Ways of drawing a surface that change VTK's shaders.
+bool TestRepresentations()
+{
+  Scene scene;
+  vtkNew<vtkSubsurfaceScatteringPass> pass;
+  pass->SetOutputEncodingToLinear();
+  scene.SetArray("ScatteredIrradiance", { 0.5, 1.0, 1.5 });
+  vtkProperty* property = scene.Actor->GetProperty();
+  property->SetColor(0.0, 0.0, 0.0);
+  scene.SetPass(pass);
+  const double straight = vtkSubsurfaceScatteringPass::GetOutgoingWeight(1.0, 1.3) / vtkMath::Pi();
+  const Color scattered = { 0.5 * straight, straight, 1.5 * straight };
+  property->EdgeVisibilityOn();
+  bool good = IsColor(scene.Draw(), scattered, "with edges");
+  property->EdgeVisibilityOff();
+  property->SetInterpolationToFlat();
+  scene.Square->GetPointData()->SetNormals(nullptr);
+  good = IsColor(scene.Draw(), scattered, "flat, without normals") && good;
+
+  // Physically based shading writes colours to the power of 1 / 2.2; they are decoded before they
+  // are added.
+  property->SetInterpolationToPBR();
+  property->SetColor(0.2, 0.4, 0.6);
+  vtkNew<vtkRenderStepsPass> plain;
+  scene.SetPass(plain);
+  Color shaded = scene.Draw();
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    shaded[channel] = std::pow(shaded[channel], 2.2) + scattered[channel];
+  }
+  scene.SetPass(pass);
+  good = Check(shaded[0] > scattered[0] + 0.01, "physically based shading is black") && good;
+  return IsColor(scene.Draw(), shaded, "physically based shading") && good;
+}
+
 /// Props without the array are drawn as if there were no pass, and somebody is told when no prop
 /// has it.
 bool TestWithoutArray()
@@ -315,6 +351,7 @@ int TestTransportPasses(int, char*[])
   bool good = TestRadiosity();
   good = TestWeight() && good;
   good = TestScattering() && good;
+  good = TestRepresentations() && good;
   good = TestWithoutArray() && good;
   good = TestWindows() && good;
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
