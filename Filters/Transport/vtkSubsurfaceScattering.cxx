@@ -331,6 +331,13 @@ bool vtkSubsurfaceScattering::MakeLinks(const Optics& optics)
   {
     self.ErrorBound = std::max(self.ErrorBound, summary.Errors[patch] / areas[patch]);
   }
+  if (self.ErrorBound > 2.0 * this->LinkTolerance)
+  {
+    vtkWarningMacro("The links may be wrong by "
+      << self.ErrorBound
+      << " of the profile's total, more than twice LinkTolerance: the patches are many mean free "
+         "paths wide. Use smaller patches, or check MillimetersPerUnit.");
+  }
   self.Exchange = exchange;
   self.Key = key;
   self.Fingerprint = self.Scene.GetFingerprint();

@@ -21,8 +21,9 @@ constexpr int MantissaBits = 23;
 constexpr int PieceBits = 6;
 constexpr int PlaceBits = MantissaBits - PieceBits;
 
-/// Cuts after which the rules have the last word: sides are 2^-15 of what they were.
-constexpr int MaximumDepth = 30;
+/// Cuts after which the rules have the last word: sides are 2^-8 of what they were. Patches wider
+/// than some 300 mean free paths then get a worse error estimate, but never endless work.
+constexpr int MaximumDepth = 16;
 
 /// Of the rough value of a pair of triangles that has to be cut.
 constexpr double RoughTolerance = 0.1;
@@ -227,8 +228,9 @@ bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, cons
   PlaceSix(a, pointsA);
   PlaceSix(b, pointsB);
   const Bands six = this->IntegrateProduct(pointsA, WeightsOfSix, 6, pointsB, WeightsOfSix, 6);
-  return accept(six,
-    0.05 * spread * (six - three).abs() + 0.0005 * spread2 * spread2 * spread2 * six);
+  const Bands difference = (six - three).abs();
+  const Bands error = 0.05 * spread * difference + 0.0005 * spread2 * spread2 * spread2 * six;
+  return accept(six, error.min(six + difference));
 }
 
 //------------------------------------------------------------------------------
