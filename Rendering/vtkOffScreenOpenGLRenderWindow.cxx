@@ -157,7 +157,6 @@ bool vtkOffScreenOpenGLRenderWindow::Open(std::string& reason)
       return false;
     }
     this->OpenGLInitState();
-    this->SetOwnContext(1);
   }
   const auto* device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   this->Self->Device = device ? device : "";

@@ -57,6 +57,7 @@ public:
   bool Combine(int z, const double* a, int x, const double* b, int y) override;
   bool Scale(int z, int x, int y) override;
   bool Dot(int x, int y, double* result) override;
+  /// Not finite where x is not.
   bool MaxNorm(int x, double* result) override;
 
   /**

@@ -23,7 +23,8 @@ void main()
 #elif REDUCE_SUM
 #define ADD(g) AddCompensated(sum[g], lost[g], texelFetch(x[g], place, 0));
 #else
-#define ADD(g) sum[g] = max(sum[g], abs(texelFetch(x[g], place, 0)));
+// max() may lose a NaN: what is not finite is carried beside it.
+#define ADD(g) { vec4 value = texelFetch(x[g], place, 0); sum[g] = max(sum[g], abs(value)); EXACT vec4 zero = value - value; lost[g] += zero; }
 #endif
       FOR_ALL_GROUPS(ADD)
     }

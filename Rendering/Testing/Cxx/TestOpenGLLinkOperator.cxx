@@ -213,6 +213,28 @@ bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
   return TestVectorAlgebra(device, setting) && good;
 }
 
+/// A solver that diverges must see it: what is not finite stays so, in its own band.
+bool TestNotFinite()
+{
+  vtkNew<vtkExchangeMatrix> exchange;
+  FillMatrix(exchange, 300, 1);
+  vtkNew<vtkOpenGLLinkOperator> device;
+  bool good = device->Initialize(exchange, 3);
+  for (double culprit : { std::nan(""), 1e300, -HUGE_VAL })
+  {
+    Vector x(3 * 300, 0.5);
+    x[3 * 77 + 1] = culprit;
+    Vector norm(3);
+    Vector dot(3);
+    good = good && device->SetVector(0, x.data()) && device->MaxNorm(0, norm.data()) &&
+      device->Dot(0, 0, dot.data());
+    good = Check(!std::isfinite(norm[1]) && !std::isfinite(dot[1]), "a NaN or infinity is lost") &&
+      Check(norm[0] == 0.5 && norm[2] == 0.5 && dot[0] == 75.0, "it spreads to other bands") &&
+      good;
+  }
+  return good;
+}
+
 /// A solver's iteration reads one number per band; only the answer is read whole.
 bool TestBytesRead()
 {
@@ -322,6 +344,7 @@ int TestOpenGLLinkOperator(int, char*[])
   {
     good = TestCase(device, setting) && good;
   }
+  good = TestNotFinite() && good;
   good = TestBytesRead() && good;
   good = TestUserWindows() && good;
   good = TestErrors() && good;
