@@ -290,8 +290,11 @@ def read(options, messages):
         raise Failure(f"cannot read {options.input}: no such file")
     reader = getattr(importlib.import_module("vtkmodules." + module), name)()
     reader.SetFileName(options.input)
-    data = Stage("read", reader, options.quiet).run(messages)
-    if data is None or data.GetNumberOfPoints() == 0:
+    try:
+        data = Stage("read", reader, options.quiet).run(messages)
+    except Failure as failure:
+        raise Failure(f"cannot read {options.input}") from failure
+    if data.GetNumberOfPoints() == 0:
         raise Failure(f"cannot read {options.input}: no surface in it")
     return data
 
