@@ -486,6 +486,11 @@ private:
     std::vector<double>& expected)
   {
     Row row{ "", matrix->GetNumberOfPatches(), bands, matrix->GetNumberOfBytes(), {}, {} };
+    if (vtkDeviceLinkOperator::SafeDownCast(links))
+    {
+      // The device holds, and reads, full rows.
+      row.Bytes = std::pow(static_cast<double>(row.Patches), 2) * sizeof(float);
+    }
     if (!links->Initialize(matrix, bands) ||
       !Measure(links, matrix, readers, this->Settings.Seconds, row))
     {

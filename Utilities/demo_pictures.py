@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of results, off screen, for demo.py and for the tests."""
+
+import vtklighttransport as lt
+import vtkmodules.vtkRenderingOpenGL2  # The mappers of OpenGL register here.
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkWindowToImageFilter,
+)
+
+
+def make_window(renderer, size):
+    window = lt.vtkOffScreenOpenGLRenderWindow()
+    window.SetSize(size, size)
+    window.SetMultiSamples(0)
+    window.AddRenderer(renderer)
+    return window
+
+
+def write_picture(window, file):
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.SetInputBufferTypeToRGB()
+    grab.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(file)
+    writer.SetInputConnection(grab.GetOutputPort())
+    writer.Write()
+
+
+def look_into_cornell_box(renderer):
+    """The published camera: 35 mm focal length over a film of 25 mm."""
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(278.0, 273.0, -800.0)
+    camera.SetFocalPoint(278.0, 273.0, 0.0)
+    camera.SetViewUp(0.0, 1.0, 0.0)
+    camera.SetViewAngle(39.3)
+    renderer.ResetCameraClippingRange()
+
+
+def render_colored_by_array(file, surface, name, color_range, look, size=512):
+    """As ParaView colours a surface by an array: a lookup table through a scalar mapper. `look` places the camera."""
+    table = vtkLookupTable()
+    table.SetHueRange(0.667, 0.0)
+    table.Build()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray(name)
+    mapper.SetLookupTable(table)
+    mapper.SetScalarRange(color_range)
+    mapper.InterpolateScalarsBeforeMappingOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().LightingOff()
+    renderer = vtkRenderer()
+    renderer.AddActor(actor)
+    window = make_window(renderer, size)
+    look(renderer)
+    write_picture(window, file)
+    window.Finalize()
+
+
+def render_cornell_box(file, surface, size=512):
+    """Radiosity as light: the lamp is far beyond white, the room fills the range."""
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().BackfaceCullingOn()
+    light = lt.vtkRadiosityPass()
+    light.SetExposure(8.0)
+    renderer = vtkRenderer()
+    renderer.AddActor(actor)
+    renderer.SetPass(light)
+    window = make_window(renderer, size)
+    look_into_cornell_box(renderer)
+    write_picture(window, file)
+    window.Finalize()
+
+
+def render_bunny(file, surface, refractive_index, light, size=512):
+    """What is scattered, weighted for the eye, added to the mirror-like reflection of the light itself."""
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(surface)
+    normals.SplittingOff()
+    normals.ConsistencyOff()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetAmbient(0.0)
+    look.SetDiffuse(0.0)
+    look.SetSpecular(0.15)
+    look.SetSpecularPower(30.0)
+    scattered = lt.vtkSubsurfaceScatteringPass()
+    scattered.SetRefractiveIndex(refractive_index)
+    scattered.SetExposure(2.5)
+    renderer = vtkRenderer()
+    renderer.AutomaticLightCreationOff()
+    renderer.AddLight(light)
+    renderer.AddActor(actor)
+    renderer.SetPass(scattered)
+    window = make_window(renderer, size)
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(0.0, 8.0, 30.0)
+    camera.SetFocalPoint(0.0, 4.8, 0.0)
+    camera.SetViewAngle(24.0)
+    renderer.ResetCameraClippingRange()
+    write_picture(window, file)
+    window.Finalize()
