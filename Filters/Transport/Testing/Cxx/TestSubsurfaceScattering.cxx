@@ -7,6 +7,7 @@
 #include "vtkLight.h"
 #include "vtkPLYReader.h"
 #include "vtkPointData.h"
+#include "vtkSMPTools.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkTable.h"
 
@@ -282,6 +283,25 @@ void TestInvariance()
 }
 
 //------------------------------------------------------------------------------
+void TestThreads()
+{
+  auto sphere = MakeSphere(2);
+  vtkNew<vtkDoubleArray> first;
+  for (const int threads : { 1, 3 })
+  {
+    auto filter = MakeFilter(sphere);
+    vtkSMPTools::Config config(threads);
+    vtkSMPTools::LocalScope(config, [&]() { filter->Update(); });
+    if (threads == 1)
+    {
+      first->DeepCopy(GetScattered(filter));
+    }
+    CheckClose(GetLargestDifference(GetScattered(filter), first), 0.0, 1e-12,
+      "the same with " + std::to_string(threads) + " threads");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestSummaries()
 {
   auto filter = MakeFilter(MakeSphere(1));
@@ -374,6 +394,7 @@ int TestSubsurfaceScattering(int, char*[])
   TestMaterials();
   TestIncidence();
   TestInvariance();
+  TestThreads();
   TestSummaries();
   TestBunny(LIGHTTRANSPORT_DATA_DIRECTORY "/bunny.ply");
   return Result();
