@@ -26,19 +26,32 @@ struct GLXLibrary
   unsigned long (*GetCurrentDrawable)() = nullptr;
   int (*MakeCurrent)(void* display, unsigned long drawable, void* context) = nullptr;
 
-  static GLXLibrary Get()
+  /// nullptr as long as nobody has loaded it.
+  static const GLXLibrary* Get();
+
+private:
+  bool Load(void* library)
   {
-    GLXLibrary glx;
-    if (!Find(RTLD_DEFAULT, "glXGetCurrentContext", glx.GetCurrentContext) ||
-      !Find(RTLD_DEFAULT, "glXGetCurrentDisplay", glx.GetCurrentDisplay) ||
-      !Find(RTLD_DEFAULT, "glXGetCurrentDrawable", glx.GetCurrentDrawable) ||
-      !Find(RTLD_DEFAULT, "glXMakeCurrent", glx.MakeCurrent))
-    {
-      return GLXLibrary();
-    }
-    return glx;
+    return library && Find(library, "glXGetCurrentContext", this->GetCurrentContext) &&
+      Find(library, "glXGetCurrentDisplay", this->GetCurrentDisplay) &&
+      Find(library, "glXGetCurrentDrawable", this->GetCurrentDrawable) &&
+      Find(library, "glXMakeCurrent", this->MakeCurrent);
   }
 };
+
+//------------------------------------------------------------------------------
+const GLXLibrary* GLXLibrary::Get()
+{
+  static GLXLibrary glx;
+  static bool loaded = false;
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  for (const char* name : { "libGL.so.1", "libGLX.so.0" })
+  {
+    loaded = loaded || glx.Load(dlopen(name, RTLD_LAZY | RTLD_LOCAL | RTLD_NOLOAD));
+  }
+  return loaded ? &glx : nullptr;
+}
 
 //------------------------------------------------------------------------------
 bool LoadEGL(vtkEGLLibrary& egl)
@@ -135,12 +148,11 @@ vtkCurrentOpenGLContext vtkCurrentOpenGLContext::Get()
     current.EGLDraw = egl->GetCurrentSurface(EGL_DRAW);
     current.EGLRead = egl->GetCurrentSurface(EGL_READ);
   }
-  const GLXLibrary glx = GLXLibrary::Get();
-  if (glx.MakeCurrent)
+  if (const GLXLibrary* glx = GLXLibrary::Get())
   {
-    current.GLXContext = glx.GetCurrentContext();
-    current.GLXDisplay = glx.GetCurrentDisplay();
-    current.GLXDrawable = glx.GetCurrentDrawable();
+    current.GLXContext = glx->GetCurrentContext();
+    current.GLXDisplay = glx->GetCurrentDisplay();
+    current.GLXDrawable = glx->GetCurrentDrawable();
   }
   if (const vtkOSMesaLibrary* mesa = vtkOSMesaLibrary::Get(false))
   {
@@ -166,7 +178,7 @@ void vtkCurrentOpenGLContext::Release()
   }
   if (current.GLXContext)
   {
-    GLXLibrary::Get().MakeCurrent(current.GLXDisplay, 0, nullptr);
+    GLXLibrary::Get()->MakeCurrent(current.GLXDisplay, 0, nullptr);
   }
   if (current.OSMesaContext)
   {
@@ -195,7 +207,7 @@ void vtkCurrentOpenGLContext::Restore() const
   }
   if (this->GLXContext)
   {
-    GLXLibrary::Get().MakeCurrent(this->GLXDisplay, this->GLXDrawable, this->GLXContext);
+    GLXLibrary::Get()->MakeCurrent(this->GLXDisplay, this->GLXDrawable, this->GLXContext);
   }
   if (this->OSMesaContext)
   {
