@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""TestParallel.py CASE RANKS COMMAND...: radiosity over MPI gives the serial answer, patch by patch, or an error on every rank.
+"""TestParallel.py CASE RANKS COMMAND...: filters over MPI give the serial answer, or an error on every rank.
 
-COMMAND runs a script with pvbatch on one rank; the words from `--` to `--` in it are left out for the serial run. CASE is
+COMMAND runs ParallelFilters.py; what stands between `--` and `--` in it is left out for the serial run.
+CASE is
   split   each rank has a part of the room
   empty   the first rank has everything, the others nothing
   ghosts  as split, with ghost cells
@@ -16,21 +17,26 @@ import tempfile
 
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-ARRAYS = ("Radiosity", "Irradiance", "NetFlux")
-# Sums over patches in another order, through a solution to 1e-10.
+ARRAYS = {
+    "radiosity": ("Radiosity", "Irradiance", "NetFlux"),
+    "scattering": ("DirectIrradiance", "TransmittedIrradiance", "ScatteredIrradiance",
+                   "ViewFactorSum", "SkyFraction", "BackFaceFraction")}
+# Room for sums over patches in another order, in a solution to 1e-10.
 TOLERANCE = 1e-9
 
 
-def run(command, case, output):
+def run(command, case, folder):
+    os.mkdir(folder)
     result = subprocess.run(
-        [*command, case, output], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        [*command, case, folder], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        check=False)
     print(result.stdout)
     return result
 
 
-def load(path):
+def load(folder, name):
     reader = vtkXMLPolyDataReader()
-    reader.SetFileName(path)
+    reader.SetFileName(os.path.join(folder, name + ".vtp"))
     reader.Update()
     return reader.GetOutput()
 
@@ -43,46 +49,52 @@ def get_values(data, name):
             if not ghosts or ghosts.GetValue(cell) == 0}
 
 
-def compare(serial, parallel):
-    problems = []
-    for name in ARRAYS:
-        expected, found = get_values(serial, name), get_values(parallel, name)
-        if sorted(expected) != sorted(found):
-            problems.append(f"{name}: {len(expected)} patches expected, {len(found)} found")
-            continue
-        largest = max(abs(value[0]) for value in expected.values())
-        differences = [abs(expected[patch][0] - found[patch][0]) for patch in expected]
-        if not all(difference <= TOLERANCE * largest for difference in differences):
-            problems.append(f"{name} differs by {max(differences)}; its largest value is {largest}")
-    return problems
+def compare(name, serial, parallel):
+    expected, found = get_values(serial, name), get_values(parallel, name)
+    if sorted(expected) != sorted(found):
+        return [f"{name}: {len(expected)} patches expected, {len(found)} found"]
+    pairs = [pair for patch in expected for pair in zip(expected[patch], found[patch])]
+    largest = max(abs(value) for value, _ in pairs)
+    if not all(abs(a - b) <= TOLERANCE * largest for a, b in pairs):
+        worst = max(abs(a - b) for a, b in pairs)
+        return [f"{name} differs by {worst}; its largest value is {largest}"]
+    return []
 
 
 def test_answer(case, ranks, serial_command, command, folder):
-    outputs = [os.path.join(folder, name) for name in ("serial.vtp", "parallel.vtp")]
-    codes = [run(serial_command, "split", outputs[0]).returncode, run(command, case, outputs[1]).returncode]
+    folders = [os.path.join(folder, name) for name in ("serial", "parallel")]
+    codes = [run(serial_command, "split", folders[0]).returncode,
+             run(command, case, folders[1]).returncode]
     if codes != [0, 0]:
         return [f"exit codes {codes}"]
-    serial, parallel = (load(output) for output in outputs)
-    if serial.GetNumberOfCells() == 0 or not serial.GetCellData().GetArray("Radiosity"):
-        return ["the serial run has no result"]
-    problems = compare(serial, parallel)
-    used = {int(value[0]) for value in get_values(parallel, "Rank").values()}
-    if used != ({0} if case == "empty" else set(range(ranks))):
-        problems.append(f"only ranks {sorted(used)} had patches")
+    problems = []
+    for name, arrays in ARRAYS.items():
+        serial, parallel = (load(place, name) for place in folders)
+        if serial.GetNumberOfCells() == 0:
+            return ["the serial run has no result"]
+        for array in arrays:
+            problems += compare(array, serial, parallel)
+        used = {int(value[0]) for value in get_values(parallel, "Rank").values()}
+        if used != ({0} if case == "empty" else set(range(ranks))):
+            problems.append(f"{name}: only ranks {sorted(used)} had patches")
     return problems
 
 
 def test_error(ranks, command, folder):
-    output = os.path.join(folder, "parallel.vtp")
-    result = run(command, "error", output)
+    place = os.path.join(folder, "parallel")
+    result = run(command, "error", place)
     problems = []
-    reports = [line for line in result.stdout.splitlines() if "vtkRadiosity (" in line and "finite" in line]
-    if len(reports) != ranks:
-        problems.append(f"{len(reports)} of {ranks} ranks reported the error")
+    for reporter in ("vtkRadiosity", "vtkDirectIrradiance"):
+        reports = [line for line in result.stdout.splitlines()
+                   if reporter + " (" in line and "finite" in line]
+        if len(reports) != ranks:
+            problems.append(f"{len(reports)} of {ranks} ranks reported the error of {reporter}")
     if "the script came to its end" not in result.stdout:
         problems.append(f"the script did not come to its end; exit code {result.returncode}")
-    elif load(output).GetCellData().GetArray("Radiosity"):
-        problems.append("there is a result in spite of the error")
+    else:
+        for name, arrays in ARRAYS.items():
+            if load(place, name).GetCellData().GetArray(arrays[0]):
+                problems.append(f"{name}: there is a result in spite of the error")
     return problems
 
 

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What TestParallel.py runs in pvbatch: the filters on the room of ParallelScene.py.
+
+The first rank gathers the results and writes them.
+"""
+
+import os
+import sys
+
+import PluginTools  # noqa: F401 (loads the plugin)
+
+from paraview import simple
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+case, folder = sys.argv[1:]
+scripts = os.path.dirname(os.path.abspath(__file__))
+source = simple.ProgrammableSource(
+    OutputDataSetType="vtkPolyData",
+    Script=f"""
+import sys
+sys.path.insert(0, {scripts!r})
+sys.dont_write_bytecode = True
+import ParallelScene
+ParallelScene.make_piece({case!r}, self.GetPolyDataOutput())
+""",
+    ScriptRequestInformation="""
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+self.GetOutputInformation(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
+""")
+irradiance = simple.DirectIrradiance(Input=source, RefractiveIndex=1.3)
+irradiance.Light1 = "Point Light"
+irradiance.Light1.Position = [0.5, 0.5, 0.8]
+scattering = simple.SubsurfaceScattering(
+    Input=irradiance, Device="CPU", Incidence="Transmitted", MillimetersPerUnit=10.0)
+results = {
+    "radiosity": simple.Radiosity(Input=source, Device="CPU", Tolerance=1e-10),
+    "scattering": simple.ViewFactors(Input=scattering)}
+for name, result in results.items():
+    result.UpdatePipeline()
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(simple.servermanager.Fetch(result))
+    writer.SetFileName(os.path.join(folder, name + ".vtp"))
+    writer.Write()
+print("the script came to its end", flush=True)
