@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""TestPictures.py CASE BASELINE OUTPUT: draws one picture and compares it with its baseline.
+
+Renderers differ by a grey level here and there, and along edges; so two numbers are compared: the mean difference of all values,
+which a wrong brightness raises, and the share of pixels that are clearly different, which a wrong shape raises.
+"""
+
+import os
+import sys
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+import vtklighttransport as lt
+
+import demo
+import demo_pictures
+
+SIZE = 256
+
+# Of 255.
+LARGEST_MEAN_DIFFERENCE = 1.0
+CLEAR_DIFFERENCE = 24
+LARGEST_CLEAR_SHARE = 0.005
+
+
+def solve_cornell_box():
+    scene = demo.RadiosityScene(500)
+    surface, _ = scene.solve(lt.vtkRadiosity.SOLVER_AUTO, lt.vtkRadiosity.DEVICE_CPU, 1e-6)
+    return surface
+
+
+def draw_cornell_box(file):
+    demo_pictures.render_cornell_box(file, solve_cornell_box(), SIZE)
+
+
+def draw_colored_by_array(file):
+    demo_pictures.render_colored_by_array(
+        file,
+        solve_cornell_box(),
+        "Irradiance",
+        (0.0, 1.0),
+        demo_pictures.look_into_cornell_box,
+        SIZE,
+    )
+
+
+def draw_bunny(file):
+    marble = demo.Translucent(lt.vtkSubsurfaceScattering.MATERIAL_MARBLE)
+    lit, _ = marble.light(demo.read_bunny(), demo.FROM_FRONT)
+    surface, _ = marble.scatter(lit, marble.filter.DEVICE_CPU)
+    light = demo.light_from(demo.FROM_FRONT)
+    demo_pictures.render_bunny(file, surface, marble.refractive_index, light, SIZE)
+
+
+CASES = {
+    "CornellBox": draw_cornell_box,
+    "ColoredByArray": draw_colored_by_array,
+    "BunnyDirectAndScattered": draw_bunny,
+}
+
+
+def read_picture(file):
+    reader = vtkPNGReader()
+    reader.SetFileName(file)
+    reader.Update()
+    image = reader.GetOutput()
+    values = vtk_to_numpy(image.GetPointData().GetScalars())
+    return values.reshape(image.GetDimensions()[1], image.GetDimensions()[0], -1)[:, :, :3].astype(int)
+
+
+def compare(picture, baseline):
+    if picture.shape != baseline.shape:
+        print(f"The picture has the shape {picture.shape}, the baseline {baseline.shape}.")
+        return False
+    difference = numpy.abs(picture - baseline)
+    mean = difference.mean()
+    share = (difference.max(axis=2) > CLEAR_DIFFERENCE).mean()
+    print(f"mean difference {mean:.3f} of 255 (at most {LARGEST_MEAN_DIFFERENCE})")
+    print(f"pixels off by more than {CLEAR_DIFFERENCE}: {share:.4%} (at most {LARGEST_CLEAR_SHARE:.2%})")
+    return mean <= LARGEST_MEAN_DIFFERENCE and share <= LARGEST_CLEAR_SHARE
+
+
+def main(case, baseline, output):
+    CASES[case](output)
+    if not os.path.isfile(baseline):
+        print(f"There is no baseline {baseline}. The picture is in {output}: look at it, then copy it there.")
+        return 1
+    if not compare(read_picture(output), read_picture(baseline)):
+        print(f"{output} differs from {baseline}.")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
