@@ -92,8 +92,9 @@ vtkScatteringIntegrals::vtkScatteringIntegrals(const std::vector<vtkDiffusionPro
     const double total = profiles[band].GetTotal();
     this->Scales[band] = total > 0.0 ? 1.0 / total : 0.0;
     depth = std::min(depth, profiles[band].GetRealDepth());
-    this->TransportCoefficient =
-      std::max(this->TransportCoefficient, profiles[band].GetTransportCoefficient());
+    const double bandDepth = profiles[band].GetRealDepth();
+    this->SquaredDepths[band] = bandDepth * bandDepth;
+    this->TransportCoefficients[band] = profiles[band].GetTransportCoefficient();
   }
   this->SquaredDepth = depth * depth;
   this->Tabulate(maximumDistance);
@@ -186,8 +187,8 @@ bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, cons
   // below bound 99 of 100 errors of random pairs.
   const double areas = a.Area * b.Area;
   const double distance2 = (a.Centroid - b.Centroid).squaredNorm();
-  const double slope = 3.5 / std::sqrt(distance2 + this->SquaredDepth) + this->TransportCoefficient;
-  const double spread2 = slope * slope * (a.Moment + b.Moment);
+  const Bands slope = 3.5 / (distance2 + this->SquaredDepths).sqrt() + this->TransportCoefficients;
+  const Bands spread2 = slope.square() * (a.Moment + b.Moment);
   const auto accept = [&](const Bands& value, const Bands& error)
   {
     // Where a profile ends in underflow its parabolas may dip below 0.
@@ -204,22 +205,29 @@ bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, cons
     return good;
   };
   const Bands one = this->Evaluate(distance2).cast<double>();
-  if (spread2 > 4.0 && !last)
+  // A band for which the triangles are too large for any rule may be one for which they are too far
+  // apart to matter.
+  Bands peak = Bands::Zero();
+  const auto wide = (spread2 > 4.0).eval();
+  if (!last && wide.any())
   {
-    // Too large for any rule, but it may be too far away to matter.
     const double nearest = std::max(0.0, std::sqrt(distance2) - a.Radius - b.Radius);
-    const Bands peak = this->Evaluate(nearest * nearest).cast<double>();
-    const bool negligible = (areas * peak <= goal.Absolute).all();
-    return negligible && accept(one, peak);
+    peak = this->Evaluate(nearest * nearest).cast<double>();
+    if ((wide && areas * peak > goal.Absolute).any())
+    {
+      return false;
+    }
   }
-  if (!last && accept(one, 0.15 * spread2 * one))
+  if (!last && accept(one, wide.select(peak, 0.15 * spread2 * one)))
   {
     return true;
   }
   const Bands three =
     this->IntegrateProduct(a.Points, WeightsOfThree, 3, b.Points, WeightsOfThree, 3);
-  const double spread = std::sqrt(spread2);
-  if (!last && accept(three, 0.1 * spread * (three - one).abs() + 0.01 * spread2 * spread2 * three))
+  const Bands spread = spread2.sqrt();
+  if (!last &&
+    accept(three,
+      wide.select(peak, 0.1 * spread * (three - one).abs() + 0.01 * spread2.square() * three)))
   {
     return true;
   }
@@ -229,8 +237,9 @@ bool vtkScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, cons
   PlaceSix(b, pointsB);
   const Bands six = this->IntegrateProduct(pointsA, WeightsOfSix, 6, pointsB, WeightsOfSix, 6);
   const Bands difference = (six - three).abs();
-  const Bands error = 0.05 * spread * difference + 0.0005 * spread2 * spread2 * spread2 * six;
-  return accept(six, error.min(six + difference));
+  const Bands error =
+    (0.05 * spread * difference + 0.0005 * spread2.cube() * six).min(six + difference);
+  return accept(six, last ? error : Bands(wide.select(peak, error)));
 }
 
 //------------------------------------------------------------------------------

@@ -23,6 +23,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkScatteringIntegrals
@@ -106,9 +107,12 @@ private:
   std::vector<vtkDiffusionProfile> Profiles;
   double Scales[NumberOfBands];
   double RelativeTolerance;
-  /// Smallest depth of all sources, squared, and the largest transport coefficient.
+  /// Smallest depth of all sources, squared.
   double SquaredDepth = 0.0;
-  double TransportCoefficient = 0.0;
+  ///@{ Per band; the padding is flat.
+  Bands SquaredDepths = Bands::Constant(std::numeric_limits<double>::infinity());
+  Bands TransportCoefficients = Bands::Zero();
+  ///@}
   std::vector<Piece> Table;
   std::uint32_t FirstPiece = 0;
 };
