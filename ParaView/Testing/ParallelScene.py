@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A room of which each rank has a piece.
 
-The room is a cube seen from inside with a bright ceiling and a block standing in it, so that what a rank does not have throws
-shadows on what it has.
+The room is a cube seen from inside with a bright ceiling and a block standing in it, so that what a
+rank does not have throws shadows on what it has.
 """
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkPoints, vtkUnsignedCharArray

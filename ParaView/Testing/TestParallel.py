@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""TestParallel.py CASE RANKS COMMAND...: filters over MPI give the serial answer, or an error on every rank.
+"""TestParallel.py CASE RANKS COMMAND...: over MPI the serial answer, or an error on every rank.
 
-COMMAND runs ParallelFilters.py; what stands between `--` and `--` in it is left out for the serial run.
-CASE is
+COMMAND runs ParallelFilters.py; what stands between `--` and `--` in it is left out for the serial
+run. CASE is
   split   each rank has a part of the room
   empty   the first rank has everything, the others nothing
   ghosts  as split, with ghost cells

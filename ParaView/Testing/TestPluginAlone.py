@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Only the plugin is loaded, there is no display: Device = OpenGL computes on OpenGL, and what the CPU computes."""
+"""Only the plugin is loaded, and there is no display.
+
+Device = OpenGL computes on OpenGL, and what the CPU computes.
+"""
 
 import PluginTools as tools
 

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin's XML agrees with the classes: every command exists, defaults and enumerations are the same, nothing is left out."""
+"""The plugin's XML agrees with the classes.
+
+Every command exists, defaults and enumerations are the same, no property of a class is left out.
+"""
 
 import PluginTools as tools
 
@@ -12,7 +15,6 @@ from vtkmodules import vtkRenderingCore
 WITHOUT_PROPERTY = {"Controller", "ViewFactors", "Environment", "EnvironmentSamples"}
 FILTERS = ("vtkPatchMesher", "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity",
            "vtkSubsurfaceScattering")
-BASES = ("vtkTransportAlgorithm", "vtkPassInputTypeAlgorithm", "vtkPolyDataAlgorithm")
 LIGHTS = ("NoLight", "DirectionalLight", "PointLight", "SpotLight")
 
 
@@ -41,9 +43,11 @@ def get_domain(prop, kind):
 
 def check_enumeration(label, domain, kind):
     """Entries count from 0 and are named as the class's constants are."""
-    names = {domain.GetEntryValue(i): domain.GetEntryText(i) for i in range(domain.GetNumberOfEntries())}
+    names = {domain.GetEntryValue(i): domain.GetEntryText(i)
+             for i in range(domain.GetNumberOfEntries())}
     prefix = "".join("_" + c if c.isupper() else c for c in label).upper().lstrip("_") + "_"
-    constants = {getattr(kind, key): key[len(prefix):] for key in dir(kind) if key.startswith(prefix)}
+    constants = {getattr(kind, key): key[len(prefix):]
+                 for key in dir(kind) if key.startswith(prefix)}
     squeeze = lambda text: "".join(c for c in text.upper() if c.isalnum())
     if {k: squeeze(v) for k, v in names.items()} != {k: squeeze(v) for k, v in constants.items()}:
         return [f"{kind.__name__} {label}: {names} in the XML, {constants} in the class"]

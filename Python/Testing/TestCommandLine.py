@@ -126,12 +126,14 @@ class TestCommandLine(unittest.TestCase):
         result = self.run_command("radiosity", source, self.path("out.vtp"), "--quiet",
                                   "--emission", "Glow", "--reflectance", "Albedo")
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
-        self.assertAlmostEqual(get_values(self.load("out.vtp"), "Radiosity")[0][0], 1.0909, delta=1e-3)
+        values = get_values(self.load("out.vtp"), "Radiosity")
+        self.assertAlmostEqual(values[0][0], 1.0909, delta=1e-3)
 
     @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
     def test_mesh(self):
         result = self.run_command(
-            "radiosity", self.make_lit_cube(), self.path("out.vtp"), "--mesh", "0.3", "--device", "cpu")
+            "radiosity", self.make_lit_cube(), self.path("out.vtp"), "--mesh", "0.3",
+            "--device", "cpu")
         self.assertEqual(result.returncode, 0, result.stderr)
         surface = self.load("out.vtp")
         self.assertGreater(surface.GetNumberOfCells(), 100)
@@ -139,7 +141,7 @@ class TestCommandLine(unittest.TestCase):
 
     def test_scatter(self):
         source = self.save("in.vtp", make_cube(outside=True))
-        # Ten millimetres to the unit: a face is 220 times as wide as marble's mean free path of green light.
+        # Ten millimetres to the unit: a face is some 20 mean free paths of marble wide.
         result = self.run_command(
             "scatter", source, self.path("out.vtp"), "--material", "marble", "--mm-per-unit", "10",
             "--light", "-1,0,0,2", "--device", "cpu")
@@ -158,8 +160,9 @@ class TestCommandLine(unittest.TestCase):
     def test_scatter_without_light(self):
         cube = add_array(make_cube(outside=True), "Light", [1.0] * 6)
         source = self.save("in.vtp", cube)
-        result = self.run_command("scatter", source, self.path("out.vtp"), "--irradiance", "Light",
-                                  "--scattering", "2", "2", "2", "--absorption", "1e-2", "1e-2", "1e-2")
+        result = self.run_command(
+            "scatter", source, self.path("out.vtp"), "--irradiance", "Light",
+            "--scattering", "2", "2", "2", "--absorption", "1e-2", "1e-2", "1e-2")
         self.assertEqual(result.returncode, 0, result.stderr)
         values = get_values(self.load("out.vtp"), "ScatteredIrradiance")
         self.assertLess(max(map(max, values)) - min(map(min, values)), 1e-6)
@@ -180,25 +183,28 @@ class TestCommandLine(unittest.TestCase):
 
     def test_failures(self):
         out = self.path("out.vtp")
-        self.check_failure(self.run_command("radiosity", self.path("none.vtp"), out), 1, "no such file")
+        missing = self.path("none.vtp")
+        self.check_failure(self.run_command("radiosity", missing, out), 1, "no such file")
         bare = self.save("bare.vtp", make_cube())
         self.check_failure(self.run_command("radiosity", bare, out), 1, "Reflectance")
         self.check_failure(self.run_command("scatter", bare, out), 1, "Irradiance")
         broken = add_array(make_cube(first=math.nan), "Emission", [1.0] * 6)
         broken = self.save("nan.vtp", add_array(broken, "Reflectance", [0.5] * 6))
         self.check_failure(self.run_command("radiosity", broken, out), 1, "finite")
-        with open(self.path("garbage.vtp"), "w", encoding="utf-8") as stream:
+        garbage = self.path("garbage.vtp")
+        with open(garbage, "w", encoding="utf-8") as stream:
             stream.write("<VTKFile type='PolyData'><broken")
-        self.check_failure(self.run_command("radiosity", self.path("garbage.vtp"), out), 1, "garbage.vtp")
+        self.check_failure(self.run_command("radiosity", garbage, out), 1, "garbage.vtp")
         lit = self.make_lit_cube()
-        self.check_failure(
-            self.run_command("radiosity", lit, self.path("no/such/out.vtp")), 1, "no such directory")
+        out = self.path("no/such/out.vtp")
+        self.check_failure(self.run_command("radiosity", lit, out), 1, "no such directory")
 
     def test_failure_keeps_the_older_file(self):
         with open(self.path("out.vtp"), "w", encoding="utf-8") as stream:
             stream.write("older")
         bare = self.save("bare.vtp", make_cube())
-        self.check_failure(self.run_command("radiosity", bare, self.path("out.vtp")), 1, "Reflectance")
+        result = self.run_command("radiosity", bare, self.path("out.vtp"))
+        self.check_failure(result, 1, "Reflectance")
         with open(self.path("out.vtp"), encoding="utf-8") as stream:
             self.assertEqual(stream.read(), "older")
 

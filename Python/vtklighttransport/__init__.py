@@ -7,9 +7,9 @@ Every class of every module that was built is here:
     import vtklighttransport as lt
     radiosity = lt.vtkRadiosity()
 
-A module that was switched off when the package was built is left out; one that was built and cannot be loaded raises ImportError.
-``arrays`` (needs numpy) holds helpers for getting numbers in and out of data sets. ``python3 -m vtklighttransport --help`` runs the
-filters from the shell.
+A module that was switched off when the package was built is left out; one that was built and
+cannot be loaded raises ImportError. ``arrays`` (needs numpy) holds helpers for getting numbers in
+and out of data sets. ``python3 -m vtklighttransport --help`` runs the filters from the shell.
 """
 
 import importlib

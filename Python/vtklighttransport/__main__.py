@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filters from the shell: python3 -m vtklighttransport radiosity|scatter in.vtp out.vtp
 
-Exit codes: 0 done, 1 reading, computing or writing failed (nothing was written), 2 wrong usage, 130 interrupted.
+Exit codes: 0 done, 1 reading, computing or writing failed (nothing was written), 2 wrong usage,
+130 interrupted.
 """
 
 import argparse
@@ -27,8 +28,9 @@ READERS = {
     ".obj": ("vtkIOGeometry", "vtkOBJReader"),
 }
 
-# Options that set a property: flag, property, kind, help. The kind is a type, a number of values of that type, True or False for
-# a switch that sets it so, or the prefix of the class constants that are its choices. Defaults come from the class.
+# Options that set a property: flag, property, kind, help. The kind is a type, a number of values of
+# that type, True or False for a switch that sets it so, or the prefix of the class constants that
+# are its choices. Defaults come from the class.
 MESHER = (
     ("--mesh", "TargetEdgeLength", float,
      "remesh to patches of this edge length first, in the mesh's unit; 0 = diagonal / 50"),
@@ -38,8 +40,10 @@ IRRADIANCE = (
 )
 RADIOSITY = (
     ("--solver", "Solver", "SOLVER_", "how the equation is solved; auto is conjugate gradients"),
-    ("--device", "Device", "DEVICE_", "where the links are applied; auto takes OpenGL on a real GPU"),
-    ("--tolerance", "Tolerance", float, "error bound to stop at, as a fraction of the largest radiosity"),
+    ("--device", "Device", "DEVICE_",
+     "where the links are applied; auto takes OpenGL on a real GPU"),
+    ("--tolerance", "Tolerance", float,
+     "error bound to stop at, as a fraction of the largest radiosity"),
     ("--iterations", "MaximumNumberOfIterations", int, "iterations at most"),
     ("--view-factor-tolerance", "ViewFactorTolerance", float,
      "bound on the absolute error of each row of view factors"),
@@ -61,7 +65,8 @@ SCATTERING = (
      "without a light: whether the mesh's array is diffuse irradiance or has entered the surface"),
     ("--link-tolerance", "LinkTolerance", float,
      "bound on the relative error of the links of a patch"),
-    ("--device", "Device", "DEVICE_", "where the links are applied; auto takes OpenGL on a real GPU"),
+    ("--device", "Device", "DEVICE_",
+     "where the links are applied; auto takes OpenGL on a real GPU"),
     ("--feature-angle", "FeatureAngle", float,
      "edges sharper than this keep their own point values, in degrees"),
 )
@@ -237,18 +242,20 @@ def make_parser():
     parser = argparse.ArgumentParser(
         prog="python3 -m vtklighttransport",
         description="Light transport on the patches of a surface mesh.",
-        epilog="Exit codes: 0 done, 1 failed (nothing was written), 2 wrong usage, 130 interrupted.")
+        epilog="Exit codes: 0 done, 1 failed (nothing was written), 2 wrong usage, "
+               "130 interrupted.")
     parser.add_argument("--version", action="version", version=lt.__version__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     radiosity = add_command(
         commands, "radiosity", "diffuse interreflection: B = E + rho F B",
-        "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the cell arrays Emission and "
-        "Reflectance, or Temperature and Emissivity; with a light Emission may be missing.")
+        "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the "
+        "cell arrays Emission and Reflectance, or Temperature and Emissivity; with a light Emission "
+        "may be missing.")
     add_properties(radiosity, "vtkRadiosity", RADIOSITY)
     scatter = add_command(
         commands, "scatter", "diffuse subsurface scattering",
-        "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a light, or a mesh with the cell "
-        "array Irradiance.")
+        "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
+        "light, or a mesh with the cell array Irradiance.")
     add_properties(scatter, "vtkSubsurfaceScattering", SCATTERING)
     for command, arrays in ((radiosity, RADIOSITY_ARRAYS), (scatter, SCATTERING_ARRAYS)):
         for flag, index, text in arrays:
@@ -264,17 +271,19 @@ def add_command(commands, name, text, description):
     command.add_argument("--quiet", action="store_true", help="no progress on stderr, no summary")
     command.add_argument(
         "--light", metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append", default=[],
-        help="light from the direction (X, Y, Z), infinitely far; INTENSITY is the irradiance facing it [1]; repeat for more")
+        help="light from the direction (X, Y, Z), infinitely far; INTENSITY is the irradiance "
+             "facing it [1]; repeat for more")
     command.add_argument(
         "--point-light", metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append", default=[],
-        help="light at a point, in the mesh's unit; irradiance facing it is INTENSITY / distance^2 [1]; repeat for more")
+        help="light at a point, in the mesh's unit; irradiance facing it is INTENSITY / distance^2 "
+             "[1]; repeat for more")
     add_properties(command, "vtkPatchMesher", MESHER)
     add_properties(command, "vtkDirectIrradiance", IRRADIANCE)
     return command
 
 
 def join_negative_values(arguments):
-    """`--light -1,0,0` as `--light=-1,0,0`: argparse takes what begins with a minus for an option."""
+    """`--light -1,0,0` as `--light=-1,0,0`: argparse takes what begins with - for an option."""
     joined = []
     for argument in arguments:
         if joined and joined[-1] in ("--light", "--point-light") and re.match(r"-[\d.]", argument):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers into data sets and out of them, with numpy (which the rest of the package does without)."""
+"""Numbers into data sets and out of them, with numpy; the rest of the package does without it."""
 
 import numpy
 from vtkmodules.util import numpy_support
@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 
 def make_surface(points, polygons):
-    """A vtkPolyData from points (n x 3) and polygons (rows of point ids, all of the same length)."""
+    """A vtkPolyData from points (n x 3) and polygons (rows of point ids, all equally long)."""
     coordinates = numpy.ascontiguousarray(points, dtype=numpy.float64)
     corners = numpy.ascontiguousarray(polygons, dtype=numpy.int64)
     if coordinates.ndim != 2 or coordinates.shape[1] != 3 or corners.ndim != 2:
