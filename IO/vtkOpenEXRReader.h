@@ -37,6 +37,8 @@
 #include "vtkImageReader2.h"
 #include "vtkLightTransportIOModule.h" // for export macro
 
+#include <string> // for std::string
+
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRReader : public vtkImageReader2
 {
 public:

@@ -26,6 +26,8 @@
 #include "vtkLightTransportIOModule.h" // for export macro
 #include "vtkWriter.h"
 
+#include <string> // for std::string
+
 class vtkImageData;
 
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRWriter : public vtkWriter
