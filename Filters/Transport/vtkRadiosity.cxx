@@ -135,6 +135,10 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkPatchScene scene;
   Problem problem;
   std::string error;
+  if (!this->CheckSolver())
+  {
+    return 0;
+  }
   if (!scene.Build(input, this->Controller, error))
   {
     vtkErrorMacro(<< error);
@@ -152,6 +156,30 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
   this->Write(input, scene, problem, viewFactors, vtkDataObject::GetData(outputs, 0));
   this->UpdateProgress(1.0);
   return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkRadiosity::GetChosenSolver() const
+{
+  return this->Solver == SOLVER_AUTO ? SOLVER_CONJUGATE_GRADIENT : this->Solver;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::CheckSolver()
+{
+  const int chosen = this->GetChosenSolver();
+  if (!vtkRadiositySolvers::IsSequential(chosen))
+  {
+    return this->CheckDevice(this->Device);
+  }
+  if (this->Device == DEVICE_OPENGL || this->GetNumberOfRanks() > 1)
+  {
+    vtkErrorMacro(<< vtkRadiositySolvers::GetName(chosen)
+                  << " goes from patch to patch and runs on the CPU of one process: set Device to "
+                     "Auto or CPU on one process, or use Jacobi, Chebyshev or ConjugateGradient.");
+    return false;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -289,18 +317,10 @@ vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene)
 bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
-  const int chosen = this->Solver == SOLVER_AUTO ? SOLVER_CONJUGATE_GRADIENT : this->Solver;
-  const bool sequential = vtkRadiositySolvers::IsSequential(chosen);
-  if (sequential && (this->Device == DEVICE_OPENGL || this->GetNumberOfRanks() > 1))
-  {
-    vtkErrorMacro(<< vtkRadiositySolvers::GetName(chosen)
-                  << " goes from patch to patch and runs on the CPU of one process: set Device to "
-                     "Auto or CPU on one process, or use Jacobi, Chebyshev or ConjugateGradient.");
-    return false;
-  }
+  const int chosen = this->GetChosenSolver();
   vtkExchangeMatrix* exchange = viewFactors->GetExchange();
-  auto links = this->MakeLinkOperator(sequential ? DEVICE_CPU : this->Device, exchange,
-    problem.Bands, problem.DeviceExplanation);
+  const int device = vtkRadiositySolvers::IsSequential(chosen) ? DEVICE_CPU : this->Device;
+  auto links = this->MakeLinkOperator(device, exchange, problem.Bands, problem.DeviceExplanation);
   vtkNew<vtkDenseLinkOperator> reference;
   reference->SetController(this->Controller);
   if (!links || !reference->Initialize(exchange, problem.Bands))

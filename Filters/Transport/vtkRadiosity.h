@@ -146,6 +146,8 @@ private:
   void operator=(const vtkRadiosity&) = delete;
 
   struct Problem;
+  int GetChosenSolver() const;
+  bool CheckSolver();
   bool ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   static std::string CheckArrays(const Problem& problem);
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);

@@ -150,7 +150,7 @@ int vtkSubsurfaceScattering::RequestData(vtkInformation*, vtkInformationVector**
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
   Optics optics;
-  if (!this->FindOptics(optics))
+  if (!this->CheckDevice(this->Device) || !this->FindOptics(optics))
   {
     return 0;
   }

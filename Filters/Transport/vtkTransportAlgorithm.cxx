@@ -163,28 +163,38 @@ vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeExchange(
 }
 
 //------------------------------------------------------------------------------
+bool vtkTransportAlgorithm::CheckDevice(int device)
+{
+  std::string reason;
+  if (device == DEVICE_OPENGL && !this->OpenDevice(device, reason))
+  {
+    vtkErrorMacro("Device is OpenGL, but " << reason << " Or set Device to Auto or CPU.");
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::MakeLinkOperator(int device,
   vtkExchangeMatrix* exchange, int numberOfBands, std::string& explanation)
 {
+  explanation = "CPU: asked for";
   if (device != DEVICE_CPU)
   {
     std::string reason;
-    auto found = this->OpenDevice(device, exchange, numberOfBands, reason);
-    if (found || device == DEVICE_OPENGL)
+    vtkSmartPointer<vtkDeviceLinkOperator> found = this->OpenDevice(device, reason);
+    if (found && found->Initialize(exchange, numberOfBands))
     {
-      explanation =
-        "OpenGL: " + std::string(device == DEVICE_AUTO ? "a GPU is there" : "asked for");
-      if (!found)
-      {
-        vtkErrorMacro("Device is OpenGL, but " << reason << " Or set Device to Auto or CPU.");
-      }
+      explanation = device == DEVICE_AUTO ? "OpenGL: a GPU is there" : "OpenGL: asked for";
       return found;
     }
+    reason = found ? "the links could not be put on it (see the message before this one)." : reason;
+    if (device == DEVICE_OPENGL)
+    {
+      vtkErrorMacro("Device is OpenGL, but " << reason << " Or set Device to Auto or CPU.");
+      return nullptr;
+    }
     explanation = "CPU: " + reason;
-  }
-  else
-  {
-    explanation = "CPU: asked for";
   }
   vtkNew<vtkDenseLinkOperator> dense;
   dense->SetController(this->Controller);
@@ -192,16 +202,15 @@ vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::MakeLinkOperator(int dev
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::OpenDevice(int device,
-  vtkExchangeMatrix* exchange, int numberOfBands, std::string& reason)
+vtkSmartPointer<vtkDeviceLinkOperator> vtkTransportAlgorithm::OpenDevice(int device,
+  std::string& reason)
 {
   if (this->GetNumberOfRanks() > 1)
   {
     reason = "the run has several ranks, which share the links on their CPUs.";
     return nullptr;
   }
-  vtkSmartPointer<vtkDeviceLinkOperator> found =
-    vtkSmartPointer<vtkDeviceLinkOperator>::Take(vtkDeviceLinkOperator::New());
+  auto found = vtkSmartPointer<vtkDeviceLinkOperator>::Take(vtkDeviceLinkOperator::New());
   if (!found)
   {
     reason = "no loaded module computes on OpenGL: load vtkLightTransportRendering (in Python, "
@@ -216,11 +225,6 @@ vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::OpenDevice(int device,
   {
     reason = std::string("OpenGL is a software renderer here (") + found->GetDeviceName() +
       "), which is slower.";
-    return nullptr;
-  }
-  if (!found->Initialize(exchange, numberOfBands))
-  {
-    reason = "the links could not be put on it (see the message before this one).";
     return nullptr;
   }
   return found;

@@ -26,6 +26,7 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class vtkDeviceLinkOperator;
 class vtkExchangeMatrix;
 class vtkFieldData;
 class vtkLinkOperator;
@@ -91,6 +92,12 @@ protected:
     int numberOfKernels);
 
   /**
+   * False, after reporting why, when the device is DEVICE_OPENGL and cannot be had. Asked before any work starts: a user who
+   * insists on a device does not want to wait for the links to hear that it is not there.
+   */
+  bool CheckDevice(int device);
+
+  /**
    * The operator for a device (see DeviceType), initialised. DEVICE_AUTO takes OpenGL on a real GPU
    * and the CPU otherwise; `explanation` says which one and why. Returns nullptr after an error,
    * which has been reported.
@@ -111,8 +118,7 @@ private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
 
-  vtkSmartPointer<vtkLinkOperator> OpenDevice(int device, vtkExchangeMatrix* exchange,
-    int numberOfBands, std::string& reason);
+  vtkSmartPointer<vtkDeviceLinkOperator> OpenDevice(int device, std::string& reason);
 
   double StageBegin = 0.0;
   double StageEnd = 1.0;
