@@ -26,7 +26,9 @@ function (lighttransport_add_configuration_test name)
       FIXTURES_SETUP "Built${name}")
   endif ()
   if (test_TEST_COMMAND)
-    add_test(NAME "Run${name}" COMMAND ${test_TEST_COMMAND} WORKING_DIRECTORY "${build}")
+    add_test(NAME "Run${name}"
+      COMMAND "${CMAKE_COMMAND}" -E env ${test_TEST_COMMAND}
+      WORKING_DIRECTORY "${build}")
     set_tests_properties("Run${name}" PROPERTIES FIXTURES_REQUIRED "Built${name}")
   endif ()
 endfunction ()

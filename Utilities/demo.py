@@ -109,6 +109,8 @@ class Folder:
         writer = vtkXMLPolyDataWriter()
         writer.SetFileName(self.name(file))
         writer.SetInputData(surface)
+        # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+        writer.SetDataModeToBinary()
         if not writer.Write():
             raise DemoError(f"cannot write {file}")
 

@@ -47,6 +47,8 @@ def plot_error_against_time(file, rows):
             )
     axes.set_xscale("log")
     axes.set_yscale("log")
+    # Room for the last label.
+    axes.margins(x=0.15)
     axes.set_xlabel("form factors and solver, time in s")
     axes.set_ylabel("error in % (root mean square over the area)")
     axes.grid(True, which="both", alpha=0.3)

@@ -40,6 +40,8 @@ for name, result in results.items():
     result.UpdatePipeline()
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(simple.servermanager.Fetch(result))
+    # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+    writer.SetDataModeToBinary()
     writer.SetFileName(os.path.join(folder, name + ".vtp"))
     writer.Write()
 print("the script came to its end", flush=True)

@@ -58,6 +58,8 @@ class TestCommandLine(unittest.TestCase):
     def save(self, name, surface):
         writer = vtkXMLPolyDataWriter()
         writer.SetInputData(surface)
+        # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+        writer.SetDataModeToBinary()
         writer.SetFileName(self.path(name))
         self.assertEqual(writer.Write(), 1)
         return self.path(name)

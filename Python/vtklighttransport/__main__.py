@@ -314,6 +314,8 @@ def write(data, options, messages):
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetFileName(unfinished)
+    # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+    writer.SetDataModeToBinary()
     try:
         if not writer.Write() or messages.errors:
             raise Failure(f"cannot write {options.output}")

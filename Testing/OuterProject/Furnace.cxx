@@ -46,7 +46,8 @@ int main()
   radiosity->SetInputData(box);
   radiosity->SetTolerance(1e-7);
   radiosity->Update();
-  vtkDataArray* result = radiosity->GetOutput()->GetCellData()->GetArray("Radiosity");
+  vtkPolyData* output = vtkPolyData::SafeDownCast(radiosity->GetOutputDataObject(0));
+  vtkDataArray* result = output ? output->GetCellData()->GetArray("Radiosity") : nullptr;
   if (!result || result->GetNumberOfTuples() != 6)
   {
     std::cerr << "No radiosity on six faces.\n";
