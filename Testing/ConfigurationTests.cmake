@@ -65,3 +65,17 @@ lighttransport_add_configuration_test(OuterProjectWithTransportOnly
     "-DREJECT_MODULES=LightTransport::vtkLightTransportMeshing$<SEMICOLON>LightTransport::vtkLightTransportRendering$<SEMICOLON>LightTransport::vtkLightTransportIO"
   TARGETS Furnace
   TEST_COMMAND "${configurations}/OuterProjectWithTransportOnly/bin/Furnace")
+
+# Installed, then used by another project.
+if (VTKLIGHTTRANSPORT_ENABLE_TRANSPORT)
+  set(installation "${configurations}/Installation")
+  add_test(NAME InstallPackage
+    COMMAND "${CMAKE_COMMAND}" --install "${CMAKE_BINARY_DIR}" --prefix "${installation}")
+  set_tests_properties(InstallPackage PROPERTIES FIXTURES_SETUP InstalledPackage)
+  lighttransport_add_configuration_test(InstalledPackage
+    SOURCE "${CMAKE_CURRENT_SOURCE_DIR}/InstalledPackage"
+    OPTIONS "-DCMAKE_PREFIX_PATH=${installation}"
+    TARGETS Furnace
+    TEST_COMMAND "${configurations}/InstalledPackage/Furnace")
+  set_tests_properties(ConfigureInstalledPackage PROPERTIES FIXTURES_REQUIRED InstalledPackage)
+endif ()
