@@ -121,7 +121,7 @@ check_build_directory()
   if [ ! -e "$build_dir" ] || [ -z "$(ls -A "$build_dir")" ]; then
     return
   fi
-  home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build_dir/CMakeCache.txt" 2>/dev/null)
+  home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build_dir/CMakeCache.txt" 2>/dev/null || true)
   if [ "$home" != "$source_dir" ] || ! grep -q '^CMAKE_GENERATOR:INTERNAL=Ninja$' "$build_dir/CMakeCache.txt"; then
     stop "$build_dir exists and was not made by this project's \"default\" CMake preset." \
       'Move it away or remove it, then run this again.'
