@@ -20,8 +20,10 @@ constexpr double BoundTolerance = 0.1;
 constexpr int MaximumBoundIterations = 200;
 // Corrections of a single precision result; each gains the digits that single precision has.
 constexpr int MaximumCorrections = 6;
-// A residual that has not fallen for so many iterations will not fall.
+// A residual that has not fallen for so many iterations will not fall. Single precision reaches its
+// floor abruptly, and the correction in double precision that follows is worth more than waiting.
 constexpr int StagnationLimit = 50;
+constexpr int StagnationLimitSinglePrecision = 5;
 
 // Reflectances closer to 1 than single precision view factors can tell.
 constexpr double FullReflectance = 1e-7;
@@ -115,7 +117,9 @@ public:
       this->Smallest = residual;
       this->SinceSmallest = 0;
     }
-    return ++this->SinceSmallest <= StagnationLimit;
+    const int limit =
+      this->Links->IsSinglePrecision() ? StagnationLimitSinglePrecision : StagnationLimit;
+    return ++this->SinceSmallest <= limit;
   }
 
   const vtkRadiosityProblem& Problem;
