@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The radiative exchange G = A_a F_ab = A_b F_ba between two planar convex polygons with nothing between them, in double precision:
+ * The radiative exchange G = A_a F_ab = A_b F_ba between two planar convex polygons with nothing
+ * between them, in double precision:
  *
  *   G = 1/pi * integral over a, integral over b of  max(0, cos a) max(0, cos b) / r^2.
  *
- * Near pairs: Stokes' theorem on both areas turns it into 1/(2 pi) * sum over pairs of edges of (u.v) * the double integral of ln r
- * (Sparrow, J. Heat Transfer 85, 1963). The inner integral has a closed form, the outer one is an adaptive Gauss-Kronrod rule;
- * shared edges and corners are integrable singularities that it resolves. Pairs further apart: a product of symmetric Gauss rules,
- * whose degree a bound on their error chooses for each side.
+ * Near pairs: Stokes' theorem on both areas turns it into 1/(2 pi) * sum over pairs of edges of
+ * (u.v) * the double integral of ln r (Sparrow, J. Heat Transfer 85, 1963). The inner integral has
+ * a closed form, the outer one is an adaptive Gauss-Kronrod rule; shared edges and corners are
+ * integrable singularities that it resolves. Pairs further apart: a product of symmetric Gauss
+ * rules, whose degree a bound on their error chooses for each side.
  */
 #ifndef vtkPolygonExchange_h
 #define vtkPolygonExchange_h
@@ -51,35 +53,36 @@ struct Estimate
 };
 
 /**
- * Cut away what lies behind the plane through `origin` with `normal`. Corners closer to it than rounding count as on it. Returns
- * false when nothing with an area is left.
+ * Cut away what lies behind the plane through `origin` with `normal`. Corners closer to it than
+ * rounding count as on it. Returns false when nothing with an area is left.
  */
 bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal);
 
 double GetArea(const Polygon& polygon);
 
-/// Points of a rule on one triangle; a polygon has as many for each triangle of its fan (corners - 2).
+/// Points of a rule on one triangle; a polygon has as many for each triangle of its fan (corners -
+/// 2).
 int GetNumberOfRulePoints(int rule);
 constexpr int MaximumRulePoints = 7 * MaximumCorners;
 
 void MakeRule(const Polygon& polygon, int rule, Vector* points, double* weights);
 
 /**
- * The cheapest rule for a polygon of this radius (around its centroid) seen from `distance` (a lower bound of the distance from
- * its centroid to the other polygon) whose error, relative to area * area / (pi distance^2), stays below `tolerance`; -1 when none
- * does. `error` is then the bound.
+ * The cheapest rule for a polygon of this radius (around its centroid) seen from `distance` (a
+ * lower bound of the distance from its centroid to the other polygon) whose error, relative to area
+ * * area / (pi distance^2), stays below `tolerance`; -1 when none does. `error` is then the bound.
  */
 int ChooseRule(double radius, double distance, double tolerance, double& error);
 
 /// The exchange by two rules.
-double IntegrateRules(
-  const RulePoints& a, const Vector& normalA, const RulePoints& b, const Vector& normalB);
+double IntegrateRules(const RulePoints& a, const Vector& normalA, const RulePoints& b,
+  const Vector& normalB);
 
 /**
- * The exchange by the contour integral; both polygons must lie in front of (or on) the plane of the other: clip them first.
- * `tolerance` is absolute, in units of area.
+ * The exchange by the contour integral; both polygons must lie in front of (or on) the plane of the
+ * other: clip them first. `tolerance` is absolute, in units of area.
  */
 Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance);
-}
+} // namespace vtkPolygonExchange
 
 #endif
