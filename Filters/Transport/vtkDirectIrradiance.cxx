@@ -41,6 +41,8 @@ constexpr int Bands = 3;
 constexpr int Refinement = 16;
 /// Longer than the scene, whose bounding box has diagonal 1.
 constexpr double OutOfScene = 2.0;
+/// Shadow rays end so far in front of a light: a lamp that touches a surface is not behind it.
+constexpr double Clearance = 1e-6;
 /// Calls of the progress function; the same on all ranks.
 constexpr int NumberOfBatches = 50;
 
@@ -233,7 +235,7 @@ double vtkDirectIrradiance::Internals::LightPoint(const Light& light, const Vect
     const Vector path = light.Position - point;
     const double distance = path.norm();
     towards = path / distance;
-    reach = std::min(reach, distance);
+    reach = std::min(reach, std::max(0.0, distance - Clearance));
     const double length = distance * this->Scene.GetScale();
     strength = 1.0 /
       (light.Attenuation[0] + length * (light.Attenuation[1] + length * light.Attenuation[2]));

@@ -15,7 +15,8 @@
  * (positional lights; attenuation values as vtkLight has them: constant, linear, quadratic), times
  * cos^Exponent of the angle from the axis within a cone narrower than 90 degrees. Directional
  * lights shine from Position to FocalPoint, both through the light's transform matrix. The angle of
- * incidence weighs it; back faces get nothing. Lights that are switched off are left out.
+ * incidence weighs it; back faces get nothing. A light that touches a surface is in front of it.
+ * Lights that are switched off are left out.
  *
  * Output field data: "DirectIrradianceRays" (shadow rays cast), "DirectIrradianceSeconds",
  * "DirectFlux" (3 components: irradiance times area, in the input's length unit squared).

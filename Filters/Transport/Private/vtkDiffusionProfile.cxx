@@ -209,7 +209,7 @@ double vtkDiffusionProfile::GetMeanExternalReflectance(double refractiveIndex)
 double vtkDiffusionProfile::GetTransmittance(double cosine, double refractiveIndex)
 {
   const double n = refractiveIndex;
-  if (cosine <= 0.0)
+  if (!(cosine > 0.0))
   {
     return 0.0;
   }

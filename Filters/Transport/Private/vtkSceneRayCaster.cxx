@@ -8,7 +8,9 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace
@@ -24,9 +26,27 @@ struct OwnPatches
 {
   QueryContext Context;
   const std::vector<vtkIdType>* PatchOfTriangle;
+  const std::vector<vtkIdType>* Places;
   vtkIdType From;
   vtkIdType To;
 };
+
+//------------------------------------------------------------------------------
+// For each patch the first one with the same corners: the two sides of a thin wall are one place,
+// and neither may stop the rays of the other.
+std::vector<vtkIdType> FindPlaces(const vtkPatchScene& scene)
+{
+  std::map<std::vector<vtkIdType>, vtkIdType> first;
+  std::vector<vtkIdType> places;
+  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  {
+    const vtkIdType* corners = scene.GetCorners(patch);
+    std::vector<vtkIdType> key(corners, corners + scene.GetNumberOfCorners(patch));
+    std::sort(key.begin(), key.end());
+    places.push_back(first.emplace(std::move(key), patch).first->second);
+  }
+  return places;
+}
 
 //------------------------------------------------------------------------------
 void RejectOwnPatches(const RTCFilterFunctionNArguments* arguments)
@@ -35,8 +55,8 @@ void RejectOwnPatches(const RTCFilterFunctionNArguments* arguments)
   for (unsigned int ray = 0; ray < arguments->N; ++ray)
   {
     const unsigned int triangle = RTCHitN_primID(arguments->hit, arguments->N, ray);
-    const vtkIdType patch = (*own->PatchOfTriangle)[triangle];
-    if (patch == own->From || patch == own->To)
+    const vtkIdType place = (*own->Places)[(*own->PatchOfTriangle)[triangle]];
+    if (place == own->From || place == own->To)
     {
       arguments->valid[ray] = 0;
     }
@@ -67,6 +87,9 @@ struct vtkSceneRayCaster::Internals
   RTCDevice Device = nullptr;
   RTCScene Scene = nullptr;
   std::vector<vtkIdType> PatchOfTriangle;
+  std::vector<vtkIdType> Places;
+  /// For each place: whether fronts look both ways.
+  std::vector<bool> TwoSided;
 
   ~Internals() { this->Close(); }
 
@@ -94,13 +117,30 @@ struct vtkSceneRayCaster::Internals
     rtcInitIntersectContext(&own.Context);
 #endif
     own.PatchOfTriangle = &this->PatchOfTriangle;
-    own.From = from;
-    own.To = to;
+    own.Places = &this->Places;
+    own.From = this->Places[from];
+    own.To = to < 0 ? to : this->Places[to];
     return own;
   }
 
+  void FindThinWalls(const vtkPatchScene& scene);
   bool AddTriangles(const vtkPatchScene& scene, const std::vector<bool>* subset);
 };
+
+//------------------------------------------------------------------------------
+void vtkSceneRayCaster::Internals::FindThinWalls(const vtkPatchScene& scene)
+{
+  this->Places = FindPlaces(scene);
+  this->TwoSided.assign(this->Places.size(), false);
+  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  {
+    const vtkIdType place = this->Places[patch];
+    if (scene.GetNormal(patch).dot(scene.GetNormal(place)) < 0.0)
+    {
+      this->TwoSided[place] = true;
+    }
+  }
+}
 
 //------------------------------------------------------------------------------
 bool vtkSceneRayCaster::Internals::AddTriangles(const vtkPatchScene& scene,
@@ -165,6 +205,7 @@ bool vtkSceneRayCaster::Build(const vtkPatchScene& scene, std::string& error,
     this->Self->Scene = rtcNewScene(this->Self->Device);
     // Robust: no ray slips through the common edge of two triangles.
     rtcSetSceneFlags(this->Self->Scene, RTC_SCENE_FLAG_ROBUST);
+    this->Self->FindThinWalls(scene);
     ok = this->Self->AddTriangles(scene, subset);
   }
   if (ok)
@@ -220,7 +261,8 @@ vtkIdType vtkSceneRayCaster::FindHit(const vtkPatchScene::Vector& origin,
   {
     return -1;
   }
+  const vtkIdType patch = this->Self->PatchOfTriangle[hit.hit.primID];
   const vtkPatchScene::Vector normal(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
-  front = normal.dot(direction) < 0.0;
-  return this->Self->PatchOfTriangle[hit.hit.primID];
+  front = this->Self->TwoSided[this->Self->Places[patch]] || normal.dot(direction) < 0.0;
+  return patch;
 }

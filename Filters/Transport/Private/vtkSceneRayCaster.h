@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Rays through a vtkPatchScene, by Embree. Patches named as a ray's own never stop it, so no ray
- * needs an offset to leave the patch where it starts or to arrive where it ends. Thread-safe after
- * Build.
+ * Rays through a vtkPatchScene, by Embree. Patches named as a ray's own never stop it, nor do
+ * others with the same corners (the other side of a thin wall), so no ray needs an offset to leave
+ * the patch where it starts or to arrive where it ends. Thread-safe after Build.
  */
 #ifndef vtkSceneRayCaster_h
 #define vtkSceneRayCaster_h
@@ -35,8 +35,8 @@ public:
     vtkIdType from, vtkIdType to) const;
 
   /**
-   * The first patch other than `from` along a ray, or -1; `front` tells whether its front side was
-   * hit. `direction` need not be normalised.
+   * The first patch other than `from` along a ray, or -1; `front` tells whether a front side was
+   * hit, its own or that of a patch with the same corners. `direction` need not be normalised.
    */
   vtkIdType FindHit(const vtkPatchScene::Vector& origin, const vtkPatchScene::Vector& direction,
     vtkIdType from, bool& front) const;

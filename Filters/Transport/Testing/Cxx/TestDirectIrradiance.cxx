@@ -284,6 +284,29 @@ void TestEnvironment()
       "quarter sky, square " + std::to_string(k));
   }
 }
+
+//------------------------------------------------------------------------------
+/// A lamp on a surface shines in front of it, and a thin wall of two patches does not shade itself.
+void TestOnSurface()
+{
+  Surface room;
+  room.AddGrid({ -0.5, -0.5, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+  room.AddGrid({ -0.5, -0.5, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 1, 1);
+  room.AddGrid({ -5, -5, 10 }, { 0, 10, 0 }, { 10, 0, 0 }, 1, 1);
+  vtkNew<vtkDirectIrradiance> filter;
+  filter->SetInputData(room.Get());
+  filter->SetRefractiveIndex(1.5);
+  filter->AddLight(MakeLight({ 0, 0, 10 }, { 0, 0, 0 }, true));
+  filter->Update();
+  CheckClose(GetValue(filter, 0), 1.0, 5e-3, "a lamp on the ceiling");
+  Check(GetValue(filter, 1) == 0.0, "the other side of a thin wall");
+  // Where the lamp touches the ceiling there is no angle of incidence.
+  const double ceiling = filter->GetPolyDataOutput()
+                           ->GetCellData()
+                           ->GetArray("TransmittedIrradiance")
+                           ->GetComponent(2, 0);
+  Check(ceiling == 0.0, "a lamp does not light the plane that it is in");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -293,6 +316,7 @@ int TestDirectIrradiance(int, char*[])
   TestPositional();
   TestShadows();
   TestThreads();
+  TestOnSurface();
   TestTransmission();
   TestEnvironment();
   return Result();

@@ -4,6 +4,8 @@
 // Factors: C-11, C-14, C-41) and against what symmetry gives exactly.
 #include "LightTransportTesting.h"
 #include "vtkExchangeMatrix.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
 #include "vtkViewFactors.h"
 
 #include <algorithm>
@@ -265,6 +267,51 @@ void TestInvariance()
 }
 
 //------------------------------------------------------------------------------
+// A room that no axis is parallel to: edges that touch along a line that is only known to rounding
+// still converge.
+void TestSlanted()
+{
+  vtkNew<vtkTransform> turn;
+  turn->RotateWXYZ(37.0, 0.3, 0.5, 0.8);
+  vtkNew<vtkTransformPolyDataFilter> slanted;
+  slanted->SetInputData(MakeRoom(2));
+  slanted->SetTransform(turn);
+  slanted->Update();
+  auto factors = Compute(slanted->GetOutput(), 1e-12);
+  for (vtkIdType i = 0; i < 24; ++i)
+  {
+    CheckClose(GetCell(factors, "ViewFactorSum", i), 1.0, Single, "row of a slanted room");
+    Check(GetCell(factors, "ViewFactorError", i) < 1e-11,
+      "error estimate of a slanted room: " +
+        std::to_string(GetCell(factors, "ViewFactorError", i)));
+  }
+}
+
+//------------------------------------------------------------------------------
+// A plate whose flipped copy makes it a thin wall sees what it sees without, and so does the copy.
+void TestThinWall()
+{
+  Surface plates;
+  plates.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 2, 2);
+  plates.AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
+  plates.AddGrid({ 0, 0, -1 }, { 1, 0, 0 }, { 0, 1, 0 }, 2, 2);
+  plates.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
+  auto factors = Compute(plates.Get(), 1e-6);
+  for (int side = 0; side < 4; ++side)
+  {
+    double sum = 0.0;
+    double sky = 0.0;
+    for (int cell = 4 * side; cell < 4 * side + 4; ++cell)
+    {
+      sum += 0.25 * GetCell(factors, "ViewFactorSum", cell);
+      sky += 0.25 * GetCell(factors, "SkyFraction", cell);
+    }
+    CheckClose(sum, 0.199824895698387, 1e-6, "thin wall, side " + std::to_string(side));
+    CheckClose(sky, 1.0 - 0.199824895698387, 1e-6, "sky beside a thin wall");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestEnforceClosure()
 {
   Surface sphere;
@@ -296,6 +343,8 @@ int TestViewFactors(int, char*[])
   TestConcentricSpheres();
   TestOpenings();
   TestInvariance();
+  TestSlanted();
+  TestThinWall();
   TestEnforceClosure();
   return Result();
 }
