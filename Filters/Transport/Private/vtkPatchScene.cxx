@@ -186,7 +186,11 @@ bool vtkPatchScene::CollectLocal(vtkDataObject* input, Raw& raw, std::string& er
       error = "The input has triangle strips: pass it through vtkTriangleFilter first.";
       return false;
     }
-    this->CollectBlock(data, static_cast<int>(block), raw);
+    if (!this->CollectBlock(data, static_cast<int>(block), raw))
+    {
+      error = "The input has polygons whose points do not exist: check its connectivity.";
+      return false;
+    }
   }
   if (!std::all_of(raw.Coordinates.begin(), raw.Coordinates.end(),
         [](double value) { return std::isfinite(value); }))
@@ -199,7 +203,7 @@ bool vtkPatchScene::CollectLocal(vtkDataObject* input, Raw& raw, std::string& er
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
+bool vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
 {
   auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
     data->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
@@ -217,8 +221,13 @@ void vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
     raw.Counts.push_back(corners->GetNumberOfIds());
     for (vtkIdType corner = 0; corner < corners->GetNumberOfIds(); ++corner)
     {
+      const vtkIdType id = corners->GetId(corner);
+      if (id < 0 || id >= data->GetNumberOfPoints())
+      {
+        return false;
+      }
       double point[3];
-      data->GetPoint(corners->GetId(corner), point);
+      data->GetPoint(id, point);
       for (const double coordinate : point)
       {
         // Adding zero turns -0 into 0: equal coordinates then have equal bits.
@@ -226,6 +235,7 @@ void vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
       }
     }
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -361,6 +371,7 @@ const char* vtkPatchScene::CheckShape(vtkIdType patch) const
     return nullptr;
   }
   const Vector& normal = this->Normals[patch];
+  const Vector& first = this->GetCorner(patch, 0);
   const double tolerance = PlanarityTolerance * this->Radii[patch] + CoordinateTolerance;
   for (int corner = 0; corner < corners; ++corner)
   {
@@ -372,7 +383,10 @@ const char* vtkPatchScene::CheckShape(vtkIdType patch) const
       return "is not planar: pass the input through vtkTriangleFilter first.";
     }
     const double turn = (b - a).cross(c - b).dot(normal);
-    if (turn < -tolerance * ((b - a).norm() + (c - b).norm()))
+    // A star turns the same way at all corners, but winds around more than once.
+    const double fan = (a - first).cross(b - first).dot(normal);
+    if (turn < -tolerance * ((b - a).norm() + (c - b).norm()) ||
+      fan < -tolerance * ((a - first).norm() + (b - first).norm()))
     {
       return "is not convex: pass the input through vtkTriangleFilter first.";
     }

@@ -134,7 +134,8 @@ private:
     std::vector<vtkIdType> Counts;
   };
   bool CollectLocal(vtkDataObject* input, Raw& raw, std::string& error);
-  void CollectBlock(vtkPolyData* data, int block, Raw& raw);
+  /// False when a polygon names points that do not exist.
+  bool CollectBlock(vtkPolyData* data, int block, Raw& raw);
   void GatherRanks(Raw& raw);
   bool Normalize(const Raw& raw, std::string& error);
   void MergePoints(const Raw& raw);

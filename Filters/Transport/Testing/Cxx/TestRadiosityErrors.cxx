@@ -73,6 +73,20 @@ void TestGeometry()
     Surface arrow;
     arrow.AddPolygon({ { 0, 0, 0 }, { 2, 0, 0 }, { 0.5, 0.5, 0 }, { 0, 2, 0 } });
     Expect(arrow.Get(), "not convex");
+    Surface star;
+    std::vector<Point> corners;
+    for (int k = 0; k < 5; ++k)
+    {
+      const double angle = 0.8 * vtkMath::Pi() * k;
+      corners.push_back({ std::cos(angle), std::sin(angle), 0.0 });
+    }
+    star.AddPolygon(corners);
+    Expect(star.Get(), "not convex");
+  }
+  {
+    auto scene = MakeScene();
+    scene->GetPolys()->InsertNextCell({ 0, 1, scene->GetNumberOfPoints() });
+    Expect(scene, "points do not exist");
   }
   {
     auto huge = MakeScene();
