@@ -20,7 +20,7 @@ constexpr int RowsPerStrip = 8;
 constexpr int NumberOfBatches = 50;
 
 ///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours, of which a
-///triangle mesh has about 40 within
+/// triangle mesh has about 40 within
 /// reach.
 constexpr double ShareOfValues = 0.4;
 constexpr double ShareOfAreas = 0.3;
@@ -41,7 +41,12 @@ struct Patches
       const auto corner = [&](int k) { return scale * scene.GetCorner(patch, k); };
       for (int k = 2; k < scene.GetNumberOfCorners(patch); ++k)
       {
-        this->Triangles.emplace_back(corner(0), corner(k - 1), corner(k));
+        const Triangle triangle(corner(0), corner(k - 1), corner(k));
+        // A corner in the middle of an edge leaves one without an area.
+        if (triangle.Area > 0.0)
+        {
+          this->Triangles.push_back(triangle);
+        }
       }
       this->Offsets.push_back(static_cast<vtkIdType>(this->Triangles.size()));
       this->Centroids.emplace_back(scale * scene.GetCentroid(patch));

@@ -3,7 +3,6 @@
 #include "vtkScatteringIntegrals.h"
 
 #include "vtkGaussLegendre.h"
-#include "vtkMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +28,9 @@ constexpr int MaximumDepth = 16;
 constexpr double RoughTolerance = 0.1;
 /// Parts of pairs are left alone when their sum is below this much of the tolerance.
 constexpr double NegligiblePart = 0.01;
+
+/// Of the logarithmic range of distances that one rule takes in a triangle with itself.
+constexpr double WidestPart = 1.5;
 
 constexpr float WeightsOfThree[] = { 1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f };
 /// D. A. Dunavant, 1985: degree 4.
@@ -295,45 +297,37 @@ void vtkScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, doubl
 //------------------------------------------------------------------------------
 void vtkScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) const
 {
-  // Barycentric coordinates change by Gradients . e along a direction e of the plane; their
-  // positive part is gamma.
-  const Vector edges[3] = { triangle.Corners[2] - triangle.Corners[1],
-    triangle.Corners[0] - triangle.Corners[2], triangle.Corners[1] - triangle.Corners[0] };
-  const Vector normal = edges[0].cross(edges[1]).normalized();
-  const Vector axisX = edges[0].normalized();
-  const Vector axisY = normal.cross(axisX);
-  double angles[4];
-  for (int k = 0; k < 3; ++k)
+  // Directions from a corner to the opposite edge, of height h: gamma = 1 / (h cosh t) where the
+  // edge is met h sinh(t) from the foot of the height, and the angle changes by dt / cosh t. The
+  // three corners together see all directions, up to their opposites, once. In t the integrand is
+  // smooth for the thinnest triangle and for any ratio of its size to the profile's.
+  static const vtkGaussLegendre rule(12);
+  for (int corner = 0; corner < 3; ++corner)
   {
-    // gamma has a kink along each edge; directions and their opposites count alike.
-    const double angle = std::atan2(edges[k].dot(axisY), edges[k].dot(axisX));
-    angles[k] = angle < 0.0 ? angle + vtkMath::Pi() : angle;
-    angles[k] = angles[k] >= vtkMath::Pi() ? angles[k] - vtkMath::Pi() : angles[k];
-  }
-  std::sort(angles, angles + 3);
-  angles[3] = angles[0] + vtkMath::Pi();
-
-  static const vtkGaussLegendre rule(16);
-  for (int sector = 0; sector < 3; ++sector)
-  {
-    const double width = angles[sector + 1] - angles[sector];
-    for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+    const Vector& apex = triangle.Corners[corner];
+    const Vector& begin = triangle.Corners[(corner + 1) % 3];
+    const Vector& end = triangle.Corners[(corner + 2) % 3];
+    const double length = (end - begin).norm();
+    const Vector axis = (end - begin) / length;
+    const double height = 2.0 * triangle.Area / length;
+    const double first = std::asinh((begin - apex).dot(axis) / height);
+    const double last = std::asinh((end - apex).dot(axis) / height);
+    const int parts = static_cast<int>(std::ceil((last - first) / WidestPart));
+    const double width = (last - first) / parts;
+    for (int part = 0; part < parts; ++part)
     {
-      const double angle = angles[sector] + width * rule.Nodes[k];
-      const Vector direction = std::cos(angle) * axisX + std::sin(angle) * axisY;
-      double gamma = 0.0;
-      for (const Vector& edge : edges)
+      for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
       {
-        gamma += std::max(0.0, normal.cross(edge).dot(direction));
-      }
-      gamma /= 2.0 * triangle.Area;
-      const double weight = 2.0 * triangle.Area * width * rule.Weights[k];
-      for (int band = 0; band < NumberOfBands; ++band)
-      {
-        double moments[3];
-        this->Profiles[band].GetMoments(1.0 / gamma, moments);
-        result.Value[band] += weight * this->Scales[band] *
-          (moments[0] - 2.0 * gamma * moments[1] + gamma * gamma * moments[2]);
+        const double stretch = std::cosh(first + width * (part + rule.Nodes[k]));
+        const double reach = height * stretch;
+        const double weight = 2.0 * triangle.Area * width * rule.Weights[k] / stretch;
+        for (int band = 0; band < NumberOfBands; ++band)
+        {
+          double moments[3];
+          this->Profiles[band].GetMoments(reach, moments);
+          result.Value[band] += weight * this->Scales[band] *
+            (moments[0] - 2.0 * moments[1] / reach + moments[2] / (reach * reach));
+        }
       }
     }
   }

@@ -70,7 +70,7 @@ public:
   /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
   void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
 
-  /// Add the integral over twice the same triangle.
+  /// Add the integral over twice the same triangle, which must have an area.
   void AddSelf(const Triangle& triangle, Result& result) const;
 
 private:

@@ -381,6 +381,48 @@ void TestBunny(const char* fileName)
     Check(dark < 0.5 * leaving->GetComponent(0, 0), "most light leaves near where it entered");
   }
 }
+
+//------------------------------------------------------------------------------
+/// What a square gives back in all does not depend on how it is cut into patches: slivers, a corner
+/// in the middle of an edge, a corner named twice.
+void TestCuts()
+{
+  const Point a{ 0, 0, 0 }, b{ 1, 0, 0 }, c{ 1, 1, 0 }, d{ 0, 1, 0 }, middle{ 0.5, 0, 0 };
+  std::vector<Surface> cuts(5);
+  cuts[0].AddPolygon({ a, middle, b, c, d });
+  cuts[1].AddPolygon({ a, a, b, c, d });
+  cuts[2].AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 12, 1);
+  const double heights[] = { 1e-2, 1e-6 };
+  for (int k = 0; k < 2; ++k)
+  {
+    const Point apex{ 0.5, heights[k], 0 };
+    for (const auto& side : { std::array<Point, 2>{ a, b }, { b, c }, { c, d }, { d, a } })
+    {
+      cuts[3 + k].AddPolygon({ side[0], side[1], apex });
+    }
+  }
+  Surface whole;
+  whole.AddPolygon({ a, b, c, d });
+  for (const double millimeters : { 0.01, 1.0, 10.0 })
+  {
+    const auto getFlux = [&](const Surface& surface)
+    {
+      auto data = surface.Get();
+      AddArray(data, "TransmittedIrradiance", { 1.0 });
+      auto filter = MakeFilter(data);
+      filter->SetMillimetersPerUnit(millimeters);
+      filter->SetLinkTolerance(1e-5);
+      filter->Update();
+      return GetSummary(filter->GetPolyDataOutput(), "LeavingFlux");
+    };
+    const double expected = getFlux(whole);
+    for (std::size_t k = 0; k < cuts.size(); ++k)
+    {
+      CheckClose(getFlux(cuts[k]), expected, 1e-4,
+        "cut " + std::to_string(k) + " of a square of " + std::to_string(millimeters) + " mm");
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -394,6 +436,7 @@ int TestSubsurfaceScattering(int, char*[])
   TestMaterials();
   TestIncidence();
   TestInvariance();
+  TestCuts();
   TestThreads();
   TestSummaries();
   TestBunny(LIGHTTRANSPORT_DATA_DIRECTORY "/bunny.ply");
