@@ -313,7 +313,7 @@ struct vtkViewFactors::Assembly
   }
 
   // The share of the exchange that nothing stands in the way of, by rays between points spread over
-  // both patches, each weighted with the exchange of its two points.
+  // what of both patches lies in front of the other, each weighted with the exchange of its points.
   vtkPolygonExchange::Estimate ApplyVisibility(vtkIdType i, vtkIdType j,
     const vtkPolygonExchange::Estimate& open, Counters& counters) const
   {
@@ -321,14 +321,16 @@ struct vtkViewFactors::Assembly
       static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j));
     const double smaller = std::min(this->Scene.GetAreas()[i], this->Scene.GetAreas()[j]);
     const double factor = open.Value / smaller;
+    vtkPolygonExchange::Polygon a, b;
+    this->Clip(i, j, a, b);
     int target = factor > LargeViewFactor ? FirstRays : FewRays;
     double total = 0.0;
     double visible = 0.0;
     int rays = 0;
     for (int sample = 0; sample < this->MaximumNumberOfRays; ++sample)
     {
-      const Vector from = sampler.GetPoint(this->Scene, i, sample, 0);
-      const Vector to = sampler.GetPoint(this->Scene, j, sample, 2);
+      const Vector from = sampler.GetPoint(a, sample, 0);
+      const Vector to = sampler.GetPoint(b, sample, 2);
       const Vector ray = to - from;
       const double squared = ray.squaredNorm();
       const double weight = std::max(0.0, ray.dot(this->Scene.GetNormal(i))) *
@@ -489,7 +491,9 @@ struct Openings
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
       const vtkPatchSampler sampler(static_cast<std::uint64_t>(patch));
-      const Vector& normal = this->Scene.GetNormal(patch);
+      vtkPolygonExchange::Polygon polygon;
+      RuleTable::Copy(this->Scene, patch, polygon);
+      const Vector& normal = polygon.Normal;
       const Vector tangent = normal.unitOrthogonal();
       const Vector bitangent = normal.cross(tangent);
       int sky = 0;
@@ -502,8 +506,8 @@ struct Openings
           radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) +
           std::sqrt(1.0 - radius * radius) * normal;
         bool front = false;
-        const vtkIdType hit = this->Caster.FindHit(sampler.GetPoint(this->Scene, patch, ray, 0),
-          direction, patch, front);
+        const vtkIdType hit =
+          this->Caster.FindHit(sampler.GetPoint(polygon, ray, 0), direction, patch, front);
         sky += hit < 0 ? 1 : 0;
         back += hit >= 0 && !front ? 1 : 0;
       }

@@ -9,7 +9,9 @@
 #ifndef vtkPatchSampler_h
 #define vtkPatchSampler_h
 
-#include "vtkPatchScene.h"
+#include "vtkPolygonExchange.h"
+
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <cstdint>
@@ -42,44 +44,44 @@ public:
     return (digits + 0.5) * 0x1.0p-32;
   }
 
-  /// A uniformly distributed point of a patch, from dimensions `first` and `first` + 1 of point
+  /// A uniformly distributed point of a polygon, from dimensions `first` and `first` + 1 of point
   /// `index`.
-  vtkPatchScene::Vector GetPoint(const vtkPatchScene& scene, vtkIdType patch, int index,
+  vtkPolygonExchange::Vector GetPoint(const vtkPolygonExchange::Polygon& polygon, int index,
     int first) const
   {
     double u = this->Get(index, first);
     double v = this->Get(index, first + 1);
-    const vtkPatchScene::Vector& origin = scene.GetCorner(patch, 0);
-    int corner = 1;
-    if (scene.GetNumberOfCorners(patch) > 3)
-    {
-      corner = ChooseTriangle(scene, patch, u);
-    }
+    const vtkPolygonExchange::Vector& origin = polygon.Corners[0];
+    const int corner = polygon.Count > 3 ? ChooseTriangle(polygon, u) : 1;
     if (u + v > 1.0)
     {
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    return origin + u * (scene.GetCorner(patch, corner) - origin) +
-      v * (scene.GetCorner(patch, corner + 1) - origin);
+    return origin + u * (polygon.Corners[corner] - origin) +
+      v * (polygon.Corners[corner + 1] - origin);
   }
 
 private:
   // A triangle of the fan by its share of the area; u is stretched so that it is uniform within it.
-  static int ChooseTriangle(const vtkPatchScene& scene, vtkIdType patch, double& u)
+  static int ChooseTriangle(const vtkPolygonExchange::Polygon& polygon, double& u)
   {
-    const vtkPatchScene::Vector& origin = scene.GetCorner(patch, 0);
-    const vtkPatchScene::Vector& normal = scene.GetNormal(patch);
-    const int last = scene.GetNumberOfCorners(patch) - 2;
-    double left = u * scene.GetAreas()[patch];
+    const auto getTwiceArea = [&](int corner)
+    {
+      const vtkPolygonExchange::Vector a = polygon.Corners[corner] - polygon.Corners[0];
+      const vtkPolygonExchange::Vector b = polygon.Corners[corner + 1] - polygon.Corners[0];
+      return a.cross(b).dot(polygon.Normal);
+    };
+    const int last = polygon.Count - 2;
+    double left = 0.0;
+    for (int corner = 1; corner <= last; ++corner)
+    {
+      left += getTwiceArea(corner);
+    }
+    left *= u;
     for (int corner = 1;; ++corner)
     {
-      const vtkPatchScene::Vector a = scene.GetCorner(patch, corner) - origin;
-      const vtkPatchScene::Vector b = scene.GetCorner(patch, corner + 1) - origin;
-      const double area = 0.5 *
-        (normal.x() * (a.y() * b.z() - a.z() * b.y()) +
-          normal.y() * (a.z() * b.x() - a.x() * b.z()) +
-          normal.z() * (a.x() * b.y() - a.y() * b.x()));
+      const double area = getTwiceArea(corner);
       if (left < area || corner == last)
       {
         u = area > 0.0 ? std::fmin(left / area, 1.0) : 0.0;

@@ -312,6 +312,20 @@ void TestThinWall()
 }
 
 //------------------------------------------------------------------------------
+// Of a wall only the strip above the floor's plane is in sight, and a screen hides it: rays that
+// start or end below the horizon would tell nothing.
+void TestHiddenStrip()
+{
+  Surface scene;
+  scene.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+  scene.AddGrid({ 1.5, 0, -20 }, { 0, 0, 20.1 }, { 0, 1, 0 }, 1, 1);
+  const double open = Compute(scene.Get())->GetViewFactor(0, 1);
+  Check(open > 1e-4 && open < 1e-2, "the strip is small: " + std::to_string(open));
+  scene.AddGrid({ 1.2, -9, -1 }, { 0, 19, 0 }, { 0, 0, 9 }, 1, 1);
+  Check(Compute(scene.Get(), 1e-4)->GetViewFactor(0, 1) == 0.0, "a hidden strip");
+}
+
+//------------------------------------------------------------------------------
 void TestEnforceClosure()
 {
   Surface sphere;
@@ -345,6 +359,7 @@ int TestViewFactors(int, char*[])
   TestInvariance();
   TestSlanted();
   TestThinWall();
+  TestHiddenStrip();
   TestEnforceClosure();
   return Result();
 }
