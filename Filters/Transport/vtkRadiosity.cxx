@@ -50,6 +50,21 @@ constexpr double ViewFactorsDone = 0.8;
 constexpr double SolverDone = 0.98;
 
 //------------------------------------------------------------------------------
+// The largest error of a row sum. A row that has been closed is as good as its sum.
+double GetRowSumError(vtkViewFactors* viewFactors)
+{
+  const std::vector<double>& errors = viewFactors->GetRowErrors();
+  const std::vector<double>& sums = viewFactors->GetRowSums();
+  double largest = 0.0;
+  for (std::size_t row = 0; row < errors.size(); ++row)
+  {
+    const double gap = viewFactors->GetEnforceClosure() ? std::abs(1.0 - sums[row]) : errors[row];
+    largest = std::max(largest, std::min(errors[row], gap));
+  }
+  return largest + SinglePrecision;
+}
+
+//------------------------------------------------------------------------------
 struct BandArray
 {
   std::string Name;
@@ -336,8 +351,7 @@ bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable
   equation.NumberOfBands = problem.Bands;
   equation.Areas = problem.Areas;
   equation.RowSums = &viewFactors->GetRowSums();
-  const std::vector<double>& errors = viewFactors->GetRowErrors();
-  equation.RowSumError = *std::max_element(errors.begin(), errors.end()) + SinglePrecision;
+  equation.RowSumError = GetRowSumError(viewFactors);
   equation.Reflectance = problem.Reflectance;
   equation.Emission = problem.Emission;
   for (std::size_t k = 0; k < equation.Emission.size(); ++k)

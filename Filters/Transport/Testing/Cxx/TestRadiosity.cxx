@@ -316,6 +316,27 @@ void TestStructures()
       Get(whole, "Radiosity", cell), 1e-12, "the same scene in blocks");
   }
 }
+
+//------------------------------------------------------------------------------
+// One small black patch emits and all others reflect everything: every patch has its radiosity.
+// Only closed rows are good enough for that where rays decide what is visible.
+void TestMirrors()
+{
+  Surface spheres;
+  AddSphere(spheres, 1.0, 2, true);
+  AddSphere(spheres, 0.4, 1, false);
+  auto data = spheres.Get();
+  AddArray(data, "Reflectance", { 1.0 })->SetValue(0, 0.0);
+  AddArray(data, "Emission", { 0.0 })->SetValue(0, 3.0);
+  vtkNew<vtkRadiosity> radiosity;
+  radiosity->SetInputData(data);
+  radiosity->EnforceClosureOn();
+  radiosity->Update();
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    CheckClose(Get(radiosity, "Radiosity", cell), 3.0, 1e-3, "mirrors around a lamp");
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -329,5 +350,6 @@ int TestRadiosity(int, char*[])
   TestThermal();
   TestCacheAndDirect();
   TestStructures();
+  TestMirrors();
   return Result();
 }
