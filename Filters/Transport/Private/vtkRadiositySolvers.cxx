@@ -52,7 +52,8 @@ public:
   Iteration(const vtkRadiosityProblem& problem, vtkLinkOperator* links, const double* source)
     : Problem(problem), Links(links), Ones(problem.NumberOfBands, 1.0),
       MinusOnes(problem.NumberOfBands, -1.0), Zeros(problem.NumberOfBands, 0.0),
-      Scales(problem.NumberOfBands, 0.0), BoundScales(problem.NumberOfBands, 1.0)
+      Scales(problem.NumberOfBands, 0.0), BoundScales(problem.NumberOfBands, 1.0),
+      Smallest(problem.NumberOfBands, Infinity)
   {
     const std::size_t size = problem.Reflectance.size();
     std::vector<double> reflection(size), symmetric(size);
@@ -89,6 +90,8 @@ public:
       this->Links->Scale(SCRATCH, RESIDUAL, BOUND_WEIGHT) &&
       this->Links->MaxNorm(SCRATCH, bounds.data()) && this->Links->MaxNorm(SOLUTION, sizes.data());
     bool reached = true;
+    bool falling = false;
+    bool finite = true;
     double residual = 0.0;
     this->ErrorBound = 0.0;
     for (int band = 0; band < bands; ++band)
@@ -96,30 +99,26 @@ public:
       const double bound = bounds[band] * this->BoundScales[band];
       const double size = std::max(sizes[band], this->Scales[band]);
       // Written so that a NaN does not pass for an answer.
-      reached = reached && bound <= this->Problem.Tolerance * size;
+      const bool bandReached = bound <= this->Problem.Tolerance * size;
+      reached = reached && bandReached;
+      // Bands apart: one that is done, or as far as it goes, does not end the others.
+      falling = falling || (!bandReached && residuals[band] < 0.999 * this->Smallest[band]);
+      this->Smallest[band] = std::min(this->Smallest[band], residuals[band]);
       residual = std::max(residual, residuals[band]);
+      finite = finite && std::isfinite(residuals[band]);
       this->ErrorBound = bound >= this->ErrorBound ? bound : this->ErrorBound;
     }
     this->Converged = reached;
     this->Aborted = !this->Problem.Report(this->Count, residual, this->ErrorBound);
-    return this->Ok && !this->Converged && !this->Aborted && this->IsFalling(residual) &&
+    this->SinceSmallest = falling ? 1 : this->SinceSmallest + 1;
+    return this->Ok && !this->Converged && !this->Aborted && finite &&
+      this->SinceSmallest <= this->GetStagnationLimit() &&
       this->Count < this->Problem.MaximumNumberOfIterations;
   }
 
-  bool IsFalling(double residual)
+  int GetStagnationLimit() const
   {
-    if (!std::isfinite(residual))
-    {
-      return false;
-    }
-    if (residual < 0.999 * this->Smallest)
-    {
-      this->Smallest = residual;
-      this->SinceSmallest = 0;
-    }
-    const int limit =
-      this->Links->IsSinglePrecision() ? StagnationLimitSinglePrecision : StagnationLimit;
-    return ++this->SinceSmallest <= limit;
+    return this->Links->IsSinglePrecision() ? StagnationLimitSinglePrecision : StagnationLimit;
   }
 
   const vtkRadiosityProblem& Problem;
@@ -128,9 +127,9 @@ public:
   Bands Scales;      // sizes of B that a correction is measured against
   Bands BoundScales; // largest w
   Bands SpectralRadii;
+  Bands Smallest; // residuals so far
   int Count = 0;
   double ErrorBound = Infinity;
-  double Smallest = Infinity;
   int SinceSmallest = 0;
   bool Ok = true;
   bool Converged = false;

@@ -318,6 +318,28 @@ void TestStructures()
 }
 
 //------------------------------------------------------------------------------
+// Each band converges by itself, also beside one whose rounding errors are larger than all of it.
+void TestUnequalBands()
+{
+  auto room = MakeRoom(1);
+  AddArray(room, "Emission", { 0.9e15, 0.01 });
+  AddArray(room, "Reflectance", { 0.1, 0.99 });
+  for (const int solver : { vtkRadiosity::SOLVER_JACOBI, vtkRadiosity::SOLVER_GAUSS_SEIDEL,
+         vtkRadiosity::SOLVER_CHEBYSHEV, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
+  {
+    vtkNew<vtkRadiosity> radiosity;
+    radiosity->SetInputData(room);
+    radiosity->SetSolver(solver);
+    radiosity->SetMaximumNumberOfIterations(5000);
+    radiosity->Update();
+    const std::string what = "unequal bands, solver " + std::to_string(solver);
+    Check(GetSummary(radiosity->GetPolyDataOutput(), "Converged") == 1.0, what + " converges");
+    CheckClose(Get(radiosity, "Radiosity", 0, 0), 1e15, 1.1e-4, what + ", large band");
+    CheckClose(Get(radiosity, "Radiosity", 0, 1), 1.0, 1.1e-4, what + ", small band");
+  }
+}
+
+//------------------------------------------------------------------------------
 // One small black patch emits and all others reflect everything: every patch has its radiosity.
 // Only closed rows are good enough for that where rays decide what is visible.
 void TestMirrors()
@@ -350,6 +372,7 @@ int TestRadiosity(int, char*[])
   TestThermal();
   TestCacheAndDirect();
   TestStructures();
+  TestUnequalBands();
   TestMirrors();
   return Result();
 }
