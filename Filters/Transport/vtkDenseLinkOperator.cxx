@@ -205,6 +205,11 @@ void vtkDenseLinkOperator::Release()
 //------------------------------------------------------------------------------
 vtkDenseLinkOperator::Vector* vtkDenseLinkOperator::FindVector(int slot)
 {
+  if (!this->Exchange)
+  {
+    vtkErrorMacro("The link operator has no links: call Initialize first.");
+    return nullptr;
+  }
   const auto found = this->Vectors.find(slot);
   if (found == this->Vectors.end())
   {
@@ -390,6 +395,11 @@ bool vtkDenseLinkOperator::Sweep(int x, int e, int left)
 //------------------------------------------------------------------------------
 bool vtkDenseLinkOperator::GetRow(vtkIdType i, int band, double* row)
 {
+  if (!this->Exchange || this->Exchange->GetNumberOfParts() > 1)
+  {
+    vtkErrorMacro("A row needs the whole matrix: call Initialize with one in a single part.");
+    return false;
+  }
   const int kernel = this->Exchange->GetNumberOfKernels() == 1 ? 0 : band;
   for (vtkIdType column = 0; column < this->Exchange->GetNumberOfTileRows(); ++column)
   {

@@ -192,7 +192,7 @@ void IterateSouthwell(Iteration& state)
         most = std::max(here, most);
       }
       const std::vector<double> sent(&unshot[from * bands], &unshot[from * bands] + bands);
-      links->GetRow(from, 0, row.data());
+      state.Ok = links->GetRow(from, 0, row.data());
       for (int band = 0; band < bands; ++band)
       {
         radiosity[from * bands + band] += sent[band];

@@ -211,6 +211,8 @@ void TestErrors()
     errors->Clear();
   };
   auto matrix = MakeMatrix(10, 2);
+  expect(!links->Multiply(1, 0), "call Initialize first");
+  expect(!links->GetRow(0, 0, nullptr), "call Initialize");
   expect(!links->Initialize(nullptr, 1), "needs an exchange matrix");
   expect(!links->Initialize(matrix, 3), "2 kernels for 3 bands");
   expect(!links->Initialize(MakeMatrix(10, 1, 0, 2), 1), "2 parts");
