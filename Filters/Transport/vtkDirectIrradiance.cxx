@@ -5,7 +5,6 @@
 #include "vtkCommunicator.h"
 #include "vtkDataArray.h"
 #include "vtkDiffusionProfile.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -644,11 +643,7 @@ void vtkDirectIrradiance::WriteResults(vtkDataObject* input, vtkDataObject* outp
       flux[band] += unit * self.Scene.GetAreas()[patch] * self.Incident[patch * Bands + band];
     }
   }
-  vtkNew<vtkDoubleArray> total;
-  total->SetName("DirectFlux");
-  total->SetNumberOfComponents(Bands);
-  total->InsertNextTuple(flux);
-  fields->AddArray(total);
+  AddSummary(fields, "DirectFlux", flux);
   AddSummary(fields, "DirectIrradianceRays", this->Shadows ? rays : 0.0);
   AddSummary(fields, "DirectIrradianceSeconds", seconds);
 }

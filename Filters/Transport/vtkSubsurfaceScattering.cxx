@@ -57,16 +57,6 @@ vtkDataArray* FindFieldArray(vtkDataObject* data, const char* name)
 }
 
 //------------------------------------------------------------------------------
-void AddBands(vtkFieldData* fields, const char* name, const double values[Bands])
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(Bands);
-  array->InsertNextTuple(values);
-  fields->AddArray(array);
-}
-
-//------------------------------------------------------------------------------
 void AddColumn(vtkTable* table, const char* name, double value)
 {
   vtkNew<vtkDoubleArray> column;
@@ -409,8 +399,8 @@ void vtkSubsurfaceScattering::WriteResults(const std::vector<double>& irradiance
   AddSummary(fields, "LinkErrorBound", self.ErrorBound);
   AddSummary(fields, "LinkSeconds", self.LinkSeconds);
   AddSummary(fields, "ApplySeconds", self.ApplySeconds);
-  AddBands(fields, "EnteringFlux", enteringFlux);
-  AddBands(fields, "LeavingFlux", leavingFlux);
+  AddSummary(fields, "EnteringFlux", enteringFlux);
+  AddSummary(fields, "LeavingFlux", leavingFlux);
   AddSummary(fields, "DeviceUsed", self.DeviceUsed);
   AddSummary(fields, "DeviceExplanation", self.DeviceExplanation);
 

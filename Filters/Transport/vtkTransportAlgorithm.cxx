@@ -241,6 +241,17 @@ void vtkTransportAlgorithm::AddSummary(vtkFieldData* fields, const char* name, d
 
 //------------------------------------------------------------------------------
 void vtkTransportAlgorithm::AddSummary(vtkFieldData* fields, const char* name,
+  const double values[3])
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->InsertNextTuple(values);
+  fields->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::AddSummary(vtkFieldData* fields, const char* name,
   const std::string& value)
 {
   vtkNew<vtkStringArray> array;

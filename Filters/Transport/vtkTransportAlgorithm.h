@@ -92,8 +92,9 @@ protected:
     int numberOfKernels);
 
   /**
-   * False, after reporting why, when the device is DEVICE_OPENGL and cannot be had. Asked before any work starts: a user who
-   * insists on a device does not want to wait for the links to hear that it is not there.
+   * False, after reporting why, when the device is DEVICE_OPENGL and cannot be had. Asked before
+   * any work starts: a user who insists on a device does not want to wait for the links to hear
+   * that it is not there.
    */
   bool CheckDevice(int device);
 
@@ -108,6 +109,7 @@ protected:
   ///@{
   /// One-tuple summaries of a run go into the output's field data.
   static void AddSummary(vtkFieldData* fields, const char* name, double value);
+  static void AddSummary(vtkFieldData* fields, const char* name, const double values[3]);
   static void AddSummary(vtkFieldData* fields, const char* name, const std::string& value);
   ///@}
 

@@ -674,5 +674,8 @@ void vtkViewFactors::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfRays: " << this->MaximumNumberOfRays << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
   os << indent << "PairsExamined: " << this->PairsExamined << "\n";
+  os << indent << "PairsFacing: " << this->PairsFacing << "\n";
+  os << indent << "PairsPartlyVisible: " << this->PairsPartlyVisible << "\n";
   os << indent << "RaysCast: " << this->RaysCast << "\n";
+  os << indent << "ClosureChange: " << this->ClosureChange << "\n";
 }

@@ -77,7 +77,7 @@ public:
   ///@}
 
   /// F_ij after Update, patches counted as the input's polygons (all blocks, all ranks, ghosts left
-  /// out). 0 where out of range.
+  /// out). 0 where out of range and, on several ranks, where another rank holds the pair.
   double GetViewFactor(vtkIdType i, vtkIdType j);
 
   ///@{
