@@ -19,6 +19,11 @@ vtkStandardNewMacro(vtkDenseLinkOperator);
 namespace
 {
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+// Keeps the same patch of different bands at different offsets within a page of memory: processors
+// take equal ones for a store followed by a load of the same address, and wait.
+constexpr vtkIdType StridePadding = 40;
+// Few tiles a task: a core that is busy with something else must not hold up the others.
+constexpr vtkIdType TilesPerTask = 8;
 
 using Array = Eigen::Map<Eigen::ArrayXd>;
 using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
@@ -185,7 +190,7 @@ bool vtkDenseLinkOperator::Initialize(vtkExchangeMatrix* exchange, int numberOfB
   this->Exchange->Register(this);
   this->NumberOfPatches = exchange->GetNumberOfPatches();
   this->NumberOfBands = numberOfBands;
-  this->Stride = static_cast<long>(exchange->GetNumberOfTileRows() * N);
+  this->Stride = static_cast<long>(exchange->GetNumberOfTileRows() * N + StridePadding);
   return true;
 }
 
@@ -275,7 +280,7 @@ bool vtkDenseLinkOperator::Multiply(int y, int x)
   {
     TileProducts products{ tiles, this->Exchange->GetNumberOfKernels(), this->NumberOfBands,
       this->Stride, source->data(), target.data(), {} };
-    vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), 0, products);
+    vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), TilesPerTask, products);
   }
   if (this->Exchange->GetNumberOfParts() > 1)
   {

@@ -7,12 +7,37 @@
 #include <algorithm>
 #include <new>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 vtkStandardNewMacro(vtkExchangeMatrix);
 
 namespace
 {
 constexpr vtkIdType TileValues =
   static_cast<vtkIdType>(vtkExchangeMatrix::TileSize) * vtkExchangeMatrix::TileSize;
+
+// Large pages, where the system has them: a product reads the whole matrix, and with small pages it
+// waits for address look-ups for about a third of the time.
+constexpr std::align_val_t LargePage{ std::size_t(2) << 20 };
+
+//------------------------------------------------------------------------------
+// Zeros, or nullptr when the memory is not there.
+float* AllocateBlock(std::size_t count)
+{
+  const std::size_t bytes = count * sizeof(float);
+  auto* block = static_cast<float*>(::operator new(bytes, LargePage, std::nothrow));
+  if (block)
+  {
+#if defined(__linux__)
+    // Advice: where it is not taken everything still works.
+    madvise(block, bytes, MADV_HUGEPAGE);
+#endif
+    std::fill_n(block, count, 0.0f);
+  }
+  return block;
+}
 
 //------------------------------------------------------------------------------
 vtkIdType CountTileRows(vtkIdType numberOfPatches)
@@ -28,37 +53,46 @@ vtkExchangeMatrix::vtkExchangeMatrix() = default;
 vtkExchangeMatrix::~vtkExchangeMatrix() = default;
 
 //------------------------------------------------------------------------------
+void vtkExchangeMatrix::FreeBlock::operator()(float* block) const
+{
+  ::operator delete(block, LargePage);
+}
+
+//------------------------------------------------------------------------------
 bool vtkExchangeMatrix::Allocate(const std::vector<double>& areas, int numberOfKernels, int part,
   int numberOfParts)
 {
   this->Areas = areas;
   this->Tiles.clear();
-  this->Storage.clear();
+  this->Storage.reset();
   this->NumberOfKernels = numberOfKernels;
   this->Part = part;
   this->NumberOfParts = numberOfParts;
 
-  const std::size_t values = static_cast<std::size_t>(TileValues) * numberOfKernels;
   const vtkIdType rows = this->GetNumberOfTileRows();
   for (vtkIdType row = 0, index = 0; row < rows; ++row)
   {
     for (vtkIdType column = row; column < rows; ++column, ++index)
     {
-      if (index % numberOfParts != part)
+      if (index % numberOfParts == part)
       {
-        continue;
+        this->Tiles.push_back({ row, column, nullptr });
       }
-      std::unique_ptr<float[]> storage(new (std::nothrow) float[values]());
-      if (!storage)
-      {
-        this->Areas.clear();
-        this->Tiles.clear();
-        this->Storage.clear();
-        return false;
-      }
-      this->Tiles.push_back({ row, column, storage.get() });
-      this->Storage.push_back(std::move(storage));
     }
+  }
+  const std::size_t values = static_cast<std::size_t>(TileValues) * numberOfKernels;
+  this->Storage.reset(AllocateBlock(values * this->Tiles.size()));
+  if (!this->Storage)
+  {
+    this->Areas.clear();
+    this->Tiles.clear();
+    return false;
+  }
+  float* next = this->Storage.get();
+  for (Tile& tile : this->Tiles)
+  {
+    tile.Values = next;
+    next += values;
   }
   this->Modified();
   return true;

@@ -93,7 +93,11 @@ private:
 
   std::vector<double> Areas;
   std::vector<Tile> Tiles;
-  std::vector<std::unique_ptr<float[]>> Storage;
+  struct FreeBlock
+  {
+    void operator()(float* block) const;
+  };
+  std::unique_ptr<float, FreeBlock> Storage; ///< all tiles, one after another
   int NumberOfKernels = 0;
   int Part = 0;
   int NumberOfParts = 1;
