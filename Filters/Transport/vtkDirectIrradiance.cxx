@@ -60,6 +60,44 @@ struct Light
 };
 
 //------------------------------------------------------------------------------
+/// Returns nullptr, or what is wrong with the light and the remedy.
+const char* ConvertLight(vtkLight* object, const vtkPatchScene& scene, Light& light)
+{
+  double position[3];
+  double focus[3];
+  object->GetTransformedPosition(position);
+  object->GetTransformedFocalPoint(focus);
+  light.Positional = object->GetPositional() != 0;
+  light.Position = (Vector(position) - scene.GetCenter()) / scene.GetScale();
+  light.Axis = Vector(focus) - Vector(position);
+  const double* attenuation = object->GetAttenuationValues();
+  std::copy_n(attenuation, 3, light.Attenuation);
+  const bool cone = light.Positional && object->GetConeAngle() < 90.0;
+  light.ConeCosine = cone ? std::cos(vtkMath::RadiansFromDegrees(object->GetConeAngle())) : 0.0;
+  light.Exponent = object->GetExponent();
+  double strength = object->GetIntensity();
+  for (int band = 0; band < Bands; ++band)
+  {
+    light.Color[band] = object->GetIntensity() * object->GetDiffuseColor()[band];
+    strength = std::min(strength, light.Color[band]);
+  }
+  const double smallest = *std::min_element(attenuation, attenuation + 3);
+  const double sum = attenuation[0] + attenuation[1] + attenuation[2];
+  if (!(strength >= 0.0) || !std::isfinite(light.Color[0] + light.Color[1] + light.Color[2]) ||
+    !(smallest >= 0.0) || !(sum > 0.0) || !std::isfinite(sum))
+  {
+    return " has an intensity, color or attenuation that is negative or not finite, or no "
+           "attenuation value above 0: correct them.";
+  }
+  if ((!light.Positional || cone) && !(light.Axis.norm() > 0.0))
+  {
+    return " has its focal point at its position and so no direction: move one of them.";
+  }
+  light.Axis.normalize();
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
 /// Radiance by longitude and latitude.
 struct RadianceMap
 {
@@ -482,43 +520,13 @@ bool vtkDirectIrradiance::ReadLights()
                                 "filter has none: call SetLightTypeToSceneLight().");
       return false;
     }
-    double position[3];
-    double focus[3];
-    object->GetTransformedPosition(position);
-    object->GetTransformedFocalPoint(focus);
     Light light;
-    light.Positional = object->GetPositional() != 0;
-    light.Position = (Vector(position) - self.Scene.GetCenter()) / self.Scene.GetScale();
-    light.Axis = Vector(focus) - Vector(position);
-    const double* attenuation = object->GetAttenuationValues();
-    std::copy_n(attenuation, 3, light.Attenuation);
-    const bool cone = light.Positional && object->GetConeAngle() < 90.0;
-    light.ConeCosine = cone ? std::cos(vtkMath::RadiansFromDegrees(object->GetConeAngle())) : 0.0;
-    light.Exponent = object->GetExponent();
-    double strength = object->GetIntensity();
-    for (int band = 0; band < Bands; ++band)
+    const char* problem = ConvertLight(object, self.Scene, light);
+    if (problem)
     {
-      light.Color[band] = object->GetIntensity() * object->GetDiffuseColor()[band];
-      strength = std::min(strength, light.Color[band]);
-    }
-    const double smallest = *std::min_element(attenuation, attenuation + 3);
-    const double sum = attenuation[0] + attenuation[1] + attenuation[2];
-    if (!(strength >= 0.0) || !std::isfinite(light.Color[0] + light.Color[1] + light.Color[2]) ||
-      !(smallest >= 0.0) || !(sum > 0.0) || !std::isfinite(sum))
-    {
-      vtkErrorMacro("Light " << index
-                             << " has an intensity, color or attenuation that is negative or not "
-                                "finite, or no attenuation value above 0: correct them.");
+      vtkErrorMacro("Light " << index << problem);
       return false;
     }
-    if ((!light.Positional || cone) && !(light.Axis.norm() > 0.0))
-    {
-      vtkErrorMacro("Light " << index
-                             << " has its focal point at its position and so no direction: move "
-                                "one of them.");
-      return false;
-    }
-    light.Axis.normalize();
     self.Lights.push_back(light);
   }
   if (self.Lights.empty() && !this->Environment)
