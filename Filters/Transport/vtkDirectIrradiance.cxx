@@ -15,6 +15,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPatchSampler.h"
 #include "vtkPatchScene.h"
 #include "vtkPointData.h"
 #include "vtkSceneRayCaster.h"
@@ -132,80 +133,19 @@ struct RadianceMap
 };
 
 //------------------------------------------------------------------------------
-/// Smallest whole number whose square is at least `number`.
-int SideOf(int number)
+/// Evenly spread points of a patch.
+struct PatchPoints
 {
-  int side = static_cast<int>(std::sqrt(static_cast<double>(number)));
-  while (side * side < number)
-  {
-    ++side;
-  }
-  return side;
-}
+  vtkPolygonExchange::Polygon Polygon;
+  vtkPatchSampler Sampler;
 
-//------------------------------------------------------------------------------
-/// A point of the unit square for each patch, scattered (splitmix64).
-std::array<double, 2> ShiftOf(vtkIdType patch)
-{
-  std::array<double, 2> shift;
-  std::uint64_t state = static_cast<std::uint64_t>(patch) * 0x9e3779b97f4a7c15ULL;
-  for (double& value : shift)
+  PatchPoints(const vtkPatchScene& scene, vtkIdType patch)
+    : Sampler(static_cast<std::uint64_t>(patch))
   {
-    state += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t mixed = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebULL;
-    value = static_cast<double>((mixed ^ (mixed >> 31)) >> 11) * 0x1.0p-53;
-  }
-  return shift;
-}
-
-//------------------------------------------------------------------------------
-/// The k-th point of an even sequence in the unit square (M. Roberts' R2), shifted.
-std::array<double, 2> SpreadPoint(int k, const std::array<double, 2>& shift)
-{
-  const double x = shift[0] + 0.7548776662466927 * (k + 1);
-  const double y = shift[1] + 0.5698402909980532 * (k + 1);
-  return { x - std::floor(x), y - std::floor(y) };
-}
-
-//------------------------------------------------------------------------------
-/// Maps the unit square onto a patch, areas to areas.
-class PatchSquare
-{
-public:
-  PatchSquare(const vtkPatchScene& scene, vtkIdType patch) : Scene(scene), Patch(patch)
-  {
-    const Vector& apex = scene.GetCorner(patch, 0);
-    for (int k = 2; k < scene.GetNumberOfCorners(patch); ++k)
-    {
-      const Vector normal =
-        (scene.GetCorner(patch, k - 1) - apex).cross(scene.GetCorner(patch, k) - apex);
-      this->Area += 0.5 * normal.norm();
-      this->Areas.push_back(this->Area);
-    }
+    vtkPolygonExchange::MakePolygon(scene, patch, this->Polygon);
   }
 
-  Vector GetPoint(double x, double y) const
-  {
-    const double wanted = x * this->Area;
-    const int last = static_cast<int>(this->Areas.size()) - 1;
-    int triangle = 0;
-    while (triangle < last && wanted >= this->Areas[triangle])
-    {
-      ++triangle;
-    }
-    const double begin = triangle > 0 ? this->Areas[triangle - 1] : 0.0;
-    const double along = std::sqrt((wanted - begin) / (this->Areas[triangle] - begin));
-    return (1.0 - along) * this->Scene.GetCorner(this->Patch, 0) +
-      along * (1.0 - y) * this->Scene.GetCorner(this->Patch, triangle + 1) +
-      along * y * this->Scene.GetCorner(this->Patch, triangle + 2);
-  }
-
-private:
-  const vtkPatchScene& Scene;
-  vtkIdType Patch;
-  std::vector<double> Areas;
-  double Area = 0.0;
+  Vector Get(int k) const { return this->Sampler.GetPoint(this->Polygon, k, 0); }
 };
 
 //------------------------------------------------------------------------------
@@ -237,8 +177,8 @@ struct vtkDirectIrradiance::Internals
   RadianceMap Surroundings;
 
   bool Shadows = true;
-  int ShadowSide = 4;
-  int EnvironmentSide = 16;
+  int ShadowSamples = 16;
+  int EnvironmentSamples = 256;
   double RefractiveIndex = 1.0;
 
   std::vector<double> Incident;
@@ -253,10 +193,10 @@ struct vtkDirectIrradiance::Internals
   /// Irradiance at normal incidence over Color, cosine and shadow included; 0 in the shadow or
   /// behind.
   double LightPoint(const Light& light, const Vector& point, vtkIdType patch, double& cosine) const;
-  bool LightPatch(const Light& light, const PatchSquare& square, vtkIdType patch, bool refined,
+  bool LightPatch(const Light& light, const PatchPoints& points, vtkIdType patch, bool refined,
     Sum& sum) const;
-  void AddLight(const Light& light, const PatchSquare& square, vtkIdType patch, Sum& sum);
-  void AddEnvironment(const PatchSquare& square, vtkIdType patch, Sum& sum);
+  void AddLight(const Light& light, const PatchPoints& points, vtkIdType patch, Sum& sum);
+  void AddEnvironment(const PatchPoints& points, vtkIdType patch, Sum& sum);
   void ComputePatch(vtkIdType patch);
 };
 
@@ -292,22 +232,16 @@ double vtkDirectIrradiance::Internals::LightPoint(const Light& light, const Vect
 
 //------------------------------------------------------------------------------
 /// Returns false where the points disagree.
-bool vtkDirectIrradiance::Internals::LightPatch(const Light& light, const PatchSquare& square,
+bool vtkDirectIrradiance::Internals::LightPatch(const Light& light, const PatchPoints& points,
   vtkIdType patch, bool refined, Sum& sum) const
 {
-  const int count = this->ShadowSide * this->ShadowSide * (refined ? Refinement : 1);
-  const std::array<double, 2> shift = ShiftOf(patch);
+  const int count = this->ShadowSamples * (refined ? Refinement : 1);
   double smallest = VTK_DOUBLE_MAX;
   double largest = 0.0;
   for (int k = 0; k < count; ++k)
   {
-    const std::array<double, 2> place = refined
-      ? SpreadPoint(k, shift)
-      : std::array<double, 2>{ (k % this->ShadowSide + 0.5) / this->ShadowSide,
-          (k / this->ShadowSide + 0.5) / this->ShadowSide };
     double cosine = 0.0;
-    const double strength =
-      this->LightPoint(light, square.GetPoint(place[0], place[1]), patch, cosine);
+    const double strength = this->LightPoint(light, points.Get(k), patch, cosine);
     smallest = std::min(smallest, strength);
     largest = std::max(largest, strength);
     sum.Add(light.Color, strength / count,
@@ -328,21 +262,21 @@ bool vtkDirectIrradiance::Internals::LightPatch(const Light& light, const PatchS
 }
 
 //------------------------------------------------------------------------------
-void vtkDirectIrradiance::Internals::AddLight(const Light& light, const PatchSquare& square,
+void vtkDirectIrradiance::Internals::AddLight(const Light& light, const PatchPoints& points,
   vtkIdType patch, Sum& sum)
 {
   if (!light.Positional && light.Axis.dot(this->Scene.GetNormal(patch)) >= 0.0)
   {
     return;
   }
-  const double count = this->ShadowSide * this->ShadowSide;
+  const double count = this->ShadowSamples;
   this->Rays[patch] += count + this->Scene.GetNumberOfCorners(patch);
   Sum part;
-  if (!this->LightPatch(light, square, patch, false, part))
+  if (!this->LightPatch(light, points, patch, false, part))
   {
     part = Sum();
     this->Rays[patch] += count * Refinement;
-    this->LightPatch(light, square, patch, true, part);
+    this->LightPatch(light, points, patch, true, part);
   }
   for (int band = 0; band < Bands; ++band)
   {
@@ -352,26 +286,16 @@ void vtkDirectIrradiance::Internals::AddLight(const Light& light, const PatchSqu
 }
 
 //------------------------------------------------------------------------------
-void vtkDirectIrradiance::Internals::AddEnvironment(const PatchSquare& square, vtkIdType patch,
+void vtkDirectIrradiance::Internals::AddEnvironment(const PatchPoints& points, vtkIdType patch,
   Sum& sum)
 {
   const Vector& normal = this->Scene.GetNormal(patch);
-  const Vector axisX = normal.unitOrthogonal();
-  const Vector axisY = normal.cross(axisX);
-  const std::array<double, 2> shift = ShiftOf(patch);
-  const int side = this->EnvironmentSide;
-  const double weight = vtkMath::Pi() / (side * side);
-  for (int k = 0; k < side * side; ++k)
+  const double weight = vtkMath::Pi() / this->EnvironmentSamples;
+  for (int k = 0; k < this->EnvironmentSamples; ++k)
   {
-    // Even over the projected disc, which is even in cosine-weighted solid angle.
-    const std::array<double, 2> jitter = SpreadPoint(k, shift);
-    const double squared = (k / side + jitter[0]) / side;
-    const double angle = 2.0 * vtkMath::Pi() * (k % side + jitter[1]) / side;
-    const double cosine = std::sqrt(1.0 - squared);
-    const Vector direction =
-      std::sqrt(squared) * (std::cos(angle) * axisX + std::sin(angle) * axisY) + cosine * normal;
-    const std::array<double, 2> place = SpreadPoint(side * side + k, shift);
-    const Vector point = square.GetPoint(place[0], place[1]);
+    const Vector direction = points.Sampler.GetDirection(normal, k, 2);
+    const double cosine = direction.dot(normal);
+    const Vector point = points.Get(k);
     if (!this->IsBlocked(point, point + OutOfScene * direction, patch))
     {
       double radiance[Bands];
@@ -380,21 +304,21 @@ void vtkDirectIrradiance::Internals::AddEnvironment(const PatchSquare& square, v
         vtkDiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
     }
   }
-  this->Rays[patch] += side * side;
+  this->Rays[patch] += this->EnvironmentSamples;
 }
 
 //------------------------------------------------------------------------------
 void vtkDirectIrradiance::Internals::ComputePatch(vtkIdType patch)
 {
-  const PatchSquare square(this->Scene, patch);
+  const PatchPoints points(this->Scene, patch);
   Sum sum;
   for (const Light& light : this->Lights)
   {
-    this->AddLight(light, square, patch, sum);
+    this->AddLight(light, points, patch, sum);
   }
   if (!this->Surroundings.IsEmpty())
   {
-    this->AddEnvironment(square, patch, sum);
+    this->AddEnvironment(points, patch, sum);
   }
   std::copy_n(sum.Incident, Bands, &this->Incident[patch * Bands]);
   std::copy_n(sum.Transmitted, Bands, &this->Transmitted[patch * Bands]);
@@ -589,8 +513,8 @@ bool vtkDirectIrradiance::ComputeIrradiance()
     return false;
   }
   self.Shadows = this->Shadows;
-  self.ShadowSide = SideOf(this->ShadowSamples);
-  self.EnvironmentSide = SideOf(this->EnvironmentSamples);
+  self.ShadowSamples = this->ShadowSamples;
+  self.EnvironmentSamples = this->EnvironmentSamples;
   self.RefractiveIndex = this->RefractiveIndex;
   const std::size_t patches = self.Scene.GetAreas().size();
   self.Incident.assign(patches * Bands, 0.0);

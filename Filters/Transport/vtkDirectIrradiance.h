@@ -67,7 +67,7 @@ public:
   ///@{
   /**
    * Rays per patch for the environment, stratified over the cosine-weighted hemisphere and over the
-   * patch. Default 256, range 1 to 65536; rounded up to a square number.
+   * patch. Default 256, range 1 to 65536; powers of two spread best.
    */
   vtkSetClampMacro(EnvironmentSamples, int, 1, 65536);
   vtkGetMacro(EnvironmentSamples, int);
@@ -77,7 +77,7 @@ public:
   /**
    * Points on a patch that look at each light, stratified; its corners look, too. Where not all of
    * them see it, or some get less than three quarters of others, 16 times as many are taken.
-   * Default 16, range 1 to 4096; rounded up to a square number.
+   * Default 16, range 1 to 4096; powers of two spread best.
    */
   vtkSetClampMacro(ShadowSamples, int, 1, 4096);
   vtkGetMacro(ShadowSamples, int);

@@ -445,12 +445,13 @@ bool vtkRadiosity::Finish(vtkDenseLinkOperator* links, Problem& problem)
 void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
   const vtkViewFactors* viewFactors, vtkDataObject* output)
 {
-  // Points are not averaged across a change of what the patches are made of.
+  // Points are not averaged across a change of what the patches are made of. That a patch emits is
+  // part of it, how much is not: temperatures and emissions may vary from patch to patch.
   std::vector<double> materials;
   for (std::size_t k = 0; k < problem.Reflectance.size(); ++k)
   {
     materials.push_back(problem.Reflectance[k]);
-    materials.push_back(problem.Emission[k]);
+    materials.push_back(problem.Emission[k] > 0.0 ? 1.0 : 0.0);
   }
   scene.BuildSmoothPoints(this->FeatureAngle, materials, 2 * problem.Bands);
   scene.CopyStructure(input, output);

@@ -75,7 +75,7 @@ public:
       this->Weights[rule].resize(points * this->Triangles.back());
       for (vtkIdType patch = 0; patch < patches; ++patch)
       {
-        Copy(scene, patch, polygon);
+        vtkPolygonExchange::MakePolygon(scene, patch, polygon);
         vtkPolygonExchange::MakeRule(polygon, rule,
           &this->Points[rule][points * this->Triangles[patch]],
           &this->Weights[rule][points * this->Triangles[patch]]);
@@ -90,17 +90,6 @@ public:
     const auto count =
       static_cast<int>(points * (this->Triangles[patch + 1] - this->Triangles[patch]));
     return { count, &this->Points[rule][first], &this->Weights[rule][first] };
-  }
-
-  static void Copy(const vtkPatchScene& scene, vtkIdType patch,
-    vtkPolygonExchange::Polygon& polygon)
-  {
-    polygon.Count = scene.GetNumberOfCorners(patch);
-    polygon.Normal = scene.GetNormal(patch);
-    for (int corner = 0; corner < polygon.Count; ++corner)
-    {
-      polygon.Corners[corner] = scene.GetCorner(patch, corner);
-    }
   }
 
 private:
@@ -277,8 +266,8 @@ struct vtkViewFactors::Assembly
   bool Clip(vtkIdType i, vtkIdType j, vtkPolygonExchange::Polygon& a,
     vtkPolygonExchange::Polygon& b) const
   {
-    RuleTable::Copy(this->Scene, i, a);
-    RuleTable::Copy(this->Scene, j, b);
+    vtkPolygonExchange::MakePolygon(this->Scene, i, a);
+    vtkPolygonExchange::MakePolygon(this->Scene, j, b);
     return vtkPolygonExchange::Clip(b, this->Scene.GetCorner(i, 0), a.Normal) &&
       vtkPolygonExchange::Clip(a, this->Scene.GetCorner(j, 0), b.Normal);
   }
@@ -492,22 +481,14 @@ struct Openings
     {
       const vtkPatchSampler sampler(static_cast<std::uint64_t>(patch));
       vtkPolygonExchange::Polygon polygon;
-      RuleTable::Copy(this->Scene, patch, polygon);
-      const Vector& normal = polygon.Normal;
-      const Vector tangent = normal.unitOrthogonal();
-      const Vector bitangent = normal.cross(tangent);
+      vtkPolygonExchange::MakePolygon(this->Scene, patch, polygon);
       int sky = 0;
       int back = 0;
       for (int ray = 0; ray < OpeningRays; ++ray)
       {
-        const double radius = std::sqrt(sampler.Get(ray, 2));
-        const double angle = 2.0 * vtkMath::Pi() * sampler.Get(ray, 3);
-        const Vector direction =
-          radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) +
-          std::sqrt(1.0 - radius * radius) * normal;
         bool front = false;
-        const vtkIdType hit =
-          this->Caster.FindHit(sampler.GetPoint(polygon, ray, 0), direction, patch, front);
+        const vtkIdType hit = this->Caster.FindHit(sampler.GetPoint(polygon, ray, 0),
+          sampler.GetDirection(polygon.Normal, ray, 2), patch, front);
         sky += hit < 0 ? 1 : 0;
         back += hit >= 0 && !front ? 1 : 0;
       }

@@ -52,6 +52,10 @@ public:
     double u = this->Get(index, first);
     double v = this->Get(index, first + 1);
     const vtkPolygonExchange::Vector& origin = polygon.Corners[0];
+    if (IsParallelogram(polygon))
+    {
+      return origin + u * (polygon.Corners[1] - origin) + v * (polygon.Corners[3] - origin);
+    }
     const int corner = polygon.Count > 3 ? ChooseTriangle(polygon, u) : 1;
     if (u + v > 1.0)
     {
@@ -62,7 +66,32 @@ public:
       v * (polygon.Corners[corner + 1] - origin);
   }
 
+  /// A unit vector around a normal, even in projected (cosine-weighted) solid angle.
+  vtkPolygonExchange::Vector GetDirection(const vtkPolygonExchange::Vector& normal, int index,
+    int first) const
+  {
+    const double squared = this->Get(index, first);
+    const double angle = 6.283185307179586 * this->Get(index, first + 1);
+    const vtkPolygonExchange::Vector tangent = normal.unitOrthogonal();
+    return std::sqrt(squared) *
+      (std::cos(angle) * tangent + std::sin(angle) * normal.cross(tangent)) +
+      std::sqrt(1.0 - squared) * normal;
+  }
+
 private:
+  // The most frequent polygon besides triangles; on it the points stay as even as they are in the
+  // unit square.
+  static bool IsParallelogram(const vtkPolygonExchange::Polygon& polygon)
+  {
+    if (polygon.Count != 4)
+    {
+      return false;
+    }
+    const auto& corners = polygon.Corners;
+    return (corners[0] - corners[1] + corners[2] - corners[3]).norm() <=
+      1e-9 * (corners[2] - corners[0]).norm();
+  }
+
   // A triangle of the fan by its share of the area; u is stretched so that it is uniform within it.
   static int ChooseTriangle(const vtkPolygonExchange::Polygon& polygon, double& u)
   {

@@ -194,6 +194,17 @@ Vector GetMiddle(const Polygon& polygon)
 namespace vtkPolygonExchange
 {
 //------------------------------------------------------------------------------
+void MakePolygon(const vtkPatchScene& scene, vtkIdType patch, Polygon& polygon)
+{
+  polygon.Count = scene.GetNumberOfCorners(patch);
+  polygon.Normal = scene.GetNormal(patch);
+  for (int corner = 0; corner < polygon.Count; ++corner)
+  {
+    polygon.Corners[corner] = scene.GetCorner(patch, corner);
+  }
+}
+
+//------------------------------------------------------------------------------
 bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal)
 {
   std::array<double, MaximumCorners + 2> heights;

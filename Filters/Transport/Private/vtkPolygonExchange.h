@@ -35,6 +35,8 @@ struct Polygon
   Vector Normal;
 };
 
+void MakePolygon(const vtkPatchScene& scene, vtkIdType patch, Polygon& polygon);
+
 /// Quadrature points of a polygon; the weights sum to the area.
 struct RulePoints
 {
