@@ -18,7 +18,8 @@
  * Output (port 0): the input with the cell arrays
  *   - "ViewFactorSum" (1 component): sum_j F_ij as computed, before any closure. 1 in a closed
  * scene.
- *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|.
+ *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|. It does not know of an occluder
+ * that the first rays of a pair all miss.
  *   - "SkyFraction" (1): the part of the missing 1 - ViewFactorSum that leaves the scene.
  *   - "BackFaceFraction" (1): the part of it that meets back faces.
  * and field data: PairsExamined, PairsFacing, PairsPartlyVisible, RaysCast, ViewFactorSeconds,
