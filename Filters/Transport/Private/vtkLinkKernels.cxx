@@ -68,14 +68,17 @@ LT_INLINE double Sum(const Wide& values)
 constexpr int Rows = 4;
 
 //------------------------------------------------------------------------------
-// Ask for a part of the rows that come next, as large as what one step over the columns reads.
-// Processors follow long runs of addresses by themselves, but not four rows in turn.
-LT_INLINE void PrefetchNextRows(const float* tile, int first, int column)
+// Ask for a part of the rows that come in two steps' time, as large as what one step over the
+// columns reads: processors follow long runs of addresses by themselves, but not four rows in turn.
+// Into the second-level cache, since the first holds the vectors. After the last rows this is the
+// next tile, and at the end of the matrix nothing: a prefetch reads no memory that is not there.
+LT_INLINE void PrefetchComingRows(const float* tile, int first, int column)
 {
-  const int next = first + Rows < N ? first + Rows : 0;
-  const float* values = tile + next * N + column * Rows;
-  __builtin_prefetch(values);
-  __builtin_prefetch(values + 64 / sizeof(float));
+  constexpr int forReading = 0;
+  constexpr int secondLevel = 2;
+  const float* values = tile + (first + 2 * Rows) * N + column * Rows;
+  __builtin_prefetch(values, forReading, secondLevel);
+  __builtin_prefetch(values + 64 / sizeof(float), forReading, secondLevel);
 }
 
 //------------------------------------------------------------------------------
@@ -117,7 +120,7 @@ LT_INLINE void MultiplyTileBands(const float* tile, long stride, const double* x
     Spread(xRow + first, stride, factors);
     for (int column = 0; column < N; column += Lanes)
     {
-      PrefetchNextRows(tile, first, column);
+      PrefetchComingRows(tile, first, column);
       Wide values[Rows];
 #pragma GCC unroll 4
       for (int row = 0; row < Rows; ++row)
@@ -153,7 +156,7 @@ LT_INLINE void MultiplyRowsBands(const float* tile, long stride, const double* x
     Wide sums[Rows][Bands] = {};
     for (int column = 0; column < N; column += Lanes)
     {
-      PrefetchNextRows(tile, first, column);
+      PrefetchComingRows(tile, first, column);
       Wide factors[Bands];
 #pragma GCC unroll 4
       for (int band = 0; band < Bands; ++band)
@@ -186,7 +189,7 @@ LT_INLINE void MultiplyColumnsBands(const float* tile, long stride, const double
     Spread(x + first, stride, factors);
     for (int column = 0; column < N; column += Lanes)
     {
-      PrefetchNextRows(tile, first, column);
+      PrefetchComingRows(tile, first, column);
       Wide values[Rows];
 #pragma GCC unroll 4
       for (int row = 0; row < Rows; ++row)
