@@ -29,6 +29,18 @@ using Array = Eigen::Map<Eigen::ArrayXd>;
 using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
 
 //------------------------------------------------------------------------------
+// What the threads have summed, each for itself.
+void AddUp(vtkSMPThreadLocal<std::vector<double>>& sums, double* target, long size)
+{
+  Array total(target, size);
+  total.setZero();
+  for (const std::vector<double>& sum : sums)
+  {
+    total += ConstArray(sum.data(), size);
+  }
+}
+
+//------------------------------------------------------------------------------
 // Products with a range of tiles, summed into a vector of each thread's own.
 struct TileProducts
 {
@@ -77,15 +89,7 @@ struct TileProducts
     }
   }
 
-  void Reduce()
-  {
-    Array y(this->Y, this->Bands * this->Stride);
-    y.setZero();
-    for (const std::vector<double>& sum : this->Sums)
-    {
-      y += ConstArray(sum.data(), y.size());
-    }
-  }
+  void Reduce() { AddUp(this->Sums, this->Y, this->Bands * this->Stride); }
 };
 
 //------------------------------------------------------------------------------
@@ -137,15 +141,7 @@ struct RowOfTiles
     }
   }
 
-  void Reduce()
-  {
-    Array y(this->Y, this->Bands * N);
-    y.setZero();
-    for (const std::vector<double>& sum : this->Sums)
-    {
-      y += ConstArray(sum.data(), y.size());
-    }
-  }
+  void Reduce() { AddUp(this->Sums, this->Y, this->Bands * N); }
 };
 } // namespace
 
@@ -275,8 +271,12 @@ bool vtkDenseLinkOperator::Multiply(int y, int x)
   }
   Vector& target = this->MakeVector(y);
   const std::vector<vtkExchangeMatrix::Tile>& tiles = this->Exchange->GetTiles();
-  std::fill(target.begin(), target.end(), 0.0);
-  if (!tiles.empty())
+  if (tiles.empty())
+  {
+    // A rank may hold none.
+    std::fill(target.begin(), target.end(), 0.0);
+  }
+  else
   {
     TileProducts products{ tiles, this->Exchange->GetNumberOfKernels(), this->NumberOfBands,
       this->Stride, source->data(), target.data(), {} };

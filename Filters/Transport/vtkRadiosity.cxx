@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiosity.h"
 
-#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkDoubleArray.h"

@@ -14,7 +14,6 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPatchScene.h"
-#include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
