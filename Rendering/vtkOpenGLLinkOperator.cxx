@@ -206,6 +206,8 @@ bool vtkOpenGLLinkOperator::Internals::AllocateMatrix()
     {
       return false;
     }
+    // What is not uploaded is zero.
+    this->Engine->Clear(tile.Textures);
   }
   return true;
 }
@@ -239,6 +241,10 @@ void vtkOpenGLLinkOperator::Internals::UploadMatrix(vtkExchangeMatrix* exchange)
   const int groups = this->SharedKernel ? 1 : this->Groups;
   for (const vtkExchangeMatrix::Tile& tile : exchange->GetTiles())
   {
+    if (!tile.Values)
+    {
+      continue;
+    }
     const int row = static_cast<int>(tile.Row);
     const int column = static_cast<int>(tile.Column);
     for (int group = 0; group < groups; ++group)

@@ -24,6 +24,7 @@ constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
 constexpr vtkIdType StridePadding = 40;
 // Few tiles a task: a core that is busy with something else must not hold up the others.
 constexpr vtkIdType TilesPerTask = 8;
+constexpr float RowOfZeros[N] = {};
 
 using Array = Eigen::Map<Eigen::ArrayXd>;
 using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
@@ -60,6 +61,10 @@ struct TileProducts
     for (vtkIdType index = begin; index < end; ++index)
     {
       const vtkExchangeMatrix::Tile& tile = this->Tiles[index];
+      if (!tile.Values)
+      {
+        continue;
+      }
       if (this->Kernels == 1)
       {
         this->MultiplyKernel(tile, tile.Values, this->Bands, this->X, y);
@@ -112,7 +117,8 @@ struct RowOfTiles
     double* y = this->Sums.Local().data();
     for (vtkIdType other = begin; other < end; ++other)
     {
-      if (other == this->Row)
+      const float* values = this->FindTile(other);
+      if (other == this->Row || !values)
       {
         continue;
       }
@@ -121,16 +127,19 @@ struct RowOfTiles
         const double* source = this->X + band * this->Stride + other * N;
         std::copy(source, source + N, x.begin() + band * N);
       }
-      this->Gather(other, x.data(), y);
+      this->Gather(values, other < this->Row, x.data(), y);
     }
   }
 
-  void Gather(vtkIdType other, const double* x, double* y) const
+  const float* FindTile(vtkIdType other) const
   {
-    const bool transposed = other < this->Row;
-    const vtkIdType index = transposed ? this->Exchange.GetTileIndex(other, this->Row)
-                                       : this->Exchange.GetTileIndex(this->Row, other);
-    const float* values = this->Exchange.GetTiles()[index].Values;
+    const vtkIdType index =
+      this->Exchange.GetTileIndex(std::min(this->Row, other), std::max(this->Row, other));
+    return this->Exchange.GetTiles()[index].Values;
+  }
+
+  void Gather(const float* values, bool transposed, const double* x, double* y) const
+  {
     const int kernels = this->Exchange.GetNumberOfKernels();
     const int bands = kernels == 1 ? this->Bands : 1;
     for (int kernel = 0; kernel < kernels; ++kernel)
@@ -384,7 +393,7 @@ bool vtkDenseLinkOperator::Sweep(int x, int e, int left)
       double* block = solution->data() + offset;
       for (int i = 0; i < patches; ++i)
       {
-        const float* g = tile.Values + (kernel * N + i) * N;
+        const float* g = tile.Values ? tile.Values + (kernel * N + i) * N : RowOfZeros;
         double sum = sums[band * N + i];
         for (int j = 0; j < patches; ++j)
         {

@@ -6,7 +6,8 @@
  *
  * Threads come from vtkSMPTools (the STDThread backend where nothing else was chosen). The matrix
  * is read once per product for up to four bands, and because only one triangle of it is stored,
- * half the bytes of a full matrix are read. Vectors and sums are double precision.
+ * half the bytes of a full matrix are read; tiles that are not stored cost nothing. Vectors and
+ * sums are double precision.
  *
  * For solvers that go from patch to patch (Gauss-Seidel, Southwell) it also sweeps and gives rows;
  * those need a matrix in one part.

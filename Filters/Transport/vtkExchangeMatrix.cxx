@@ -22,22 +22,10 @@ constexpr vtkIdType TileValues =
 // waits for address look-ups for about a third of the time.
 constexpr std::align_val_t LargePage{ std::size_t(2) << 20 };
 
-//------------------------------------------------------------------------------
-// Zeros, or nullptr when the memory is not there.
-float* AllocateBlock(std::size_t count)
-{
-  const std::size_t bytes = count * sizeof(float);
-  auto* block = static_cast<float*>(::operator new(bytes, LargePage, std::nothrow));
-  if (block)
-  {
-#if defined(__linux__)
-    // Advice: where it is not taken everything still works.
-    madvise(block, bytes, MADV_HUGEPAGE);
-#endif
-    std::fill_n(block, count, 0.0f);
-  }
-  return block;
-}
+// Chunks start with one large page (for one kernel) and double, so that neither small matrices nor
+// large ones ask the system for much more, or much more often, than they need.
+constexpr vtkIdType TilesOfFirstChunk = 8;
+constexpr vtkIdType TilesOfLargestChunk = 256;
 
 //------------------------------------------------------------------------------
 vtkIdType CountTileRows(vtkIdType numberOfPatches)
@@ -53,18 +41,37 @@ vtkExchangeMatrix::vtkExchangeMatrix() = default;
 vtkExchangeMatrix::~vtkExchangeMatrix() = default;
 
 //------------------------------------------------------------------------------
-void vtkExchangeMatrix::FreeBlock::operator()(float* block) const
+void vtkExchangeMatrix::FreeChunk::operator()(float* chunk) const
 {
-  ::operator delete(block, LargePage);
+  ::operator delete(chunk, LargePage);
 }
 
 //------------------------------------------------------------------------------
 bool vtkExchangeMatrix::Allocate(const std::vector<double>& areas, int numberOfKernels, int part,
   int numberOfParts)
 {
+  this->AllocateSparse(areas, numberOfKernels, part, numberOfParts);
+  bool good = this->AddChunk(static_cast<vtkIdType>(this->Tiles.size()));
+  for (Tile& tile : this->Tiles)
+  {
+    good = good && this->AllocateTile(tile);
+  }
+  if (!good)
+  {
+    this->AllocateSparse({}, numberOfKernels, part, numberOfParts);
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeMatrix::AllocateSparse(const std::vector<double>& areas, int numberOfKernels,
+  int part, int numberOfParts)
+{
   this->Areas = areas;
   this->Tiles.clear();
-  this->Storage.reset();
+  this->FreeTiles.clear();
+  this->Chunks.clear();
+  this->TilesOfNextChunk = TilesOfFirstChunk;
   this->NumberOfKernels = numberOfKernels;
   this->Part = part;
   this->NumberOfParts = numberOfParts;
@@ -80,22 +87,65 @@ bool vtkExchangeMatrix::Allocate(const std::vector<double>& areas, int numberOfK
       }
     }
   }
-  const std::size_t values = static_cast<std::size_t>(TileValues) * numberOfKernels;
-  this->Storage.reset(AllocateBlock(values * this->Tiles.size()));
-  if (!this->Storage)
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+bool vtkExchangeMatrix::AddChunk(vtkIdType numberOfTiles)
+{
+  const auto tiles = static_cast<std::size_t>(numberOfTiles);
+  const std::size_t values = static_cast<std::size_t>(TileValues) * this->NumberOfKernels;
+  const std::size_t bytes = tiles * values * sizeof(float);
+  auto* chunk = static_cast<float*>(::operator new(bytes, LargePage, std::nothrow));
+  if (!chunk)
   {
-    this->Areas.clear();
-    this->Tiles.clear();
     return false;
   }
-  float* next = this->Storage.get();
-  for (Tile& tile : this->Tiles)
+  this->Chunks.emplace_back(chunk);
+#if defined(__linux__)
+  // Advice: where it is not taken everything still works.
+  madvise(chunk, bytes, MADV_HUGEPAGE);
+#endif
+  for (std::size_t tile = tiles; tile > 0; --tile)
   {
-    tile.Values = next;
-    next += values;
+    this->FreeTiles.push_back(chunk + (tile - 1) * values);
   }
-  this->Modified();
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkExchangeMatrix::AllocateTile(Tile& tile)
+{
+  if (tile.Values)
+  {
+    return true;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(this->StorageMutex);
+    if (this->FreeTiles.empty())
+    {
+      if (!this->AddChunk(this->TilesOfNextChunk))
+      {
+        return false;
+      }
+      this->TilesOfNextChunk = std::min(2 * this->TilesOfNextChunk, TilesOfLargestChunk);
+    }
+    tile.Values = this->FreeTiles.back();
+    this->FreeTiles.pop_back();
+  }
+  std::fill_n(tile.Values, TileValues * this->NumberOfKernels, 0.0f);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeMatrix::ReleaseTile(Tile& tile)
+{
+  if (tile.Values)
+  {
+    const std::lock_guard<std::mutex> lock(this->StorageMutex);
+    this->FreeTiles.push_back(tile.Values);
+    tile.Values = nullptr;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -131,8 +181,8 @@ double vtkExchangeMatrix::GetValue(vtkIdType i, vtkIdType j, int kernel) const
   {
     return 0.0;
   }
-  const Tile& tile = this->Tiles[index / this->NumberOfParts];
-  return tile.Values[kernel * TileValues + (i % TileSize) * TileSize + j % TileSize];
+  const float* values = this->Tiles[index / this->NumberOfParts].Values;
+  return values ? values[kernel * TileValues + (i % TileSize) * TileSize + j % TileSize] : 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -147,9 +197,16 @@ void vtkExchangeMatrix::SetValue(Tile& tile, int row, int column, int kernel, do
 }
 
 //------------------------------------------------------------------------------
+vtkIdType vtkExchangeMatrix::GetNumberOfStoredTiles() const
+{
+  return static_cast<vtkIdType>(std::count_if(this->Tiles.begin(), this->Tiles.end(),
+    [](const Tile& tile) { return tile.Values != nullptr; }));
+}
+
+//------------------------------------------------------------------------------
 double vtkExchangeMatrix::GetNumberOfBytes() const
 {
-  return static_cast<double>(this->Tiles.size()) * TileValues * sizeof(float) *
+  return static_cast<double>(this->GetNumberOfStoredTiles()) * TileValues * sizeof(float) *
     this->NumberOfKernels;
 }
 
@@ -161,4 +218,5 @@ void vtkExchangeMatrix::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfKernels: " << this->NumberOfKernels << "\n";
   os << indent << "Part: " << this->Part << " of " << this->NumberOfParts << "\n";
   os << indent << "NumberOfTiles: " << this->Tiles.size() << "\n";
+  os << indent << "NumberOfStoredTiles: " << this->GetNumberOfStoredTiles() << "\n";
 }

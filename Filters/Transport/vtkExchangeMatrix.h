@@ -17,6 +17,10 @@
  * zero. With several *parts* (the ranks of a parallel run) each part holds every NumberOfParts-th
  * tile and the sum over the parts is the matrix.
  *
+ * A tile without storage is zero: patches that are numbered by place see each other in blocks, and
+ * the blocks that do not are not worth their memory. Allocate gives storage to all tiles,
+ * AllocateSparse to none; AllocateTile and ReleaseTile change one.
+ *
  * Areas are in the units that the filler chose; the patch areas that belong to it are kept beside
  * it, so that G/A has no unit.
  */
@@ -27,6 +31,7 @@
 #include "vtkObject.h"
 
 #include <memory> // for std::unique_ptr
+#include <mutex>  // for std::mutex
 #include <vector> // for std::vector
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkExchangeMatrix : public vtkObject
@@ -43,7 +48,8 @@ public:
   {
     vtkIdType Row;    ///< first patch of the tile's rows divided by TileSize
     vtkIdType Column; ///< likewise for the columns; Row <= Column
-    float* Values;    ///< NumberOfKernels blocks of TileSize x TileSize values, row by row
+    float* Values;    ///< NumberOfKernels blocks of TileSize x TileSize values, row by row;
+                      ///< nullptr where all are zero and none is stored
   };
 
   /**
@@ -53,7 +59,22 @@ public:
   bool Allocate(const std::vector<double>& areas, int numberOfKernels, int part = 0,
     int numberOfParts = 1);
 
-  /// Bytes that the tiles of one part take.
+  /// Likewise with no tile stored: a zero matrix that takes next to no memory.
+  void AllocateSparse(const std::vector<double>& areas, int numberOfKernels, int part = 0,
+    int numberOfParts = 1);
+
+  ///@{
+  /**
+   * Storage for one tile of this part, filled with zeros; a tile that has storage keeps it and its
+   * values. Returns false when the memory is not there. ReleaseTile makes a tile zero again; its
+   * storage serves the next AllocateTile. Threads may call both at the same time for different
+   * tiles.
+   */
+  bool AllocateTile(Tile& tile);
+  void ReleaseTile(Tile& tile);
+  ///@}
+
+  /// Bytes that the tiles of one part take when all of them are stored.
   static double GetEstimatedBytes(vtkIdType numberOfPatches, int numberOfKernels,
     int numberOfParts = 1);
 
@@ -73,15 +94,18 @@ public:
   /// Row-major index of tile (row, column), row <= column, among all tiles of the upper triangle.
   vtkIdType GetTileIndex(vtkIdType row, vtkIdType column) const;
 
-  /// G_ij of one kernel; 0 where another part holds the tile.
+  /// G_ij of one kernel; 0 where the tile is not stored or another part holds it.
   double GetValue(vtkIdType i, vtkIdType j, int kernel = 0) const;
 
-  /// Store G_ij = G_ji. The tile must belong to this part. Threads may fill different tiles at the
-  /// same time.
+  /// Store G_ij = G_ji. The tile must belong to this part and be stored. Threads may fill different
+  /// tiles at the same time.
   static void SetValue(Tile& tile, int row, int column, int kernel, double value);
 
-  /// Bytes held in tiles.
+  ///@{
+  /// Tiles of this part that are stored, and their bytes. Not while threads allocate or release.
+  vtkIdType GetNumberOfStoredTiles() const;
   double GetNumberOfBytes() const;
+  ///@}
 
 protected:
   vtkExchangeMatrix();
@@ -91,13 +115,20 @@ private:
   vtkExchangeMatrix(const vtkExchangeMatrix&) = delete;
   void operator=(const vtkExchangeMatrix&) = delete;
 
+  struct FreeChunk
+  {
+    void operator()(float* chunk) const;
+  };
+
+  bool AddChunk(vtkIdType numberOfTiles);
+
   std::vector<double> Areas;
   std::vector<Tile> Tiles;
-  struct FreeBlock
-  {
-    void operator()(float* block) const;
-  };
-  std::unique_ptr<float, FreeBlock> Storage; ///< all tiles, one after another
+  /// Memory is had in chunks that many tiles are cut from.
+  std::vector<std::unique_ptr<float, FreeChunk>> Chunks;
+  std::vector<float*> FreeTiles; ///< cut but not in use, the next one last
+  vtkIdType TilesOfNextChunk = 0;
+  std::mutex StorageMutex;
   int NumberOfKernels = 0;
   int Part = 0;
   int NumberOfParts = 1;

@@ -154,6 +154,18 @@ void vtkFloatTextures::Attach(const Group& group)
 }
 
 //------------------------------------------------------------------------------
+void vtkFloatTextures::Clear(const Group& group)
+{
+  this->Attach(group);
+  this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(group.size()));
+  const float zeros[4] = {};
+  for (int index = 0; index < static_cast<int>(group.size()); ++index)
+  {
+    glClearBufferfv(GL_COLOR, index, zeros);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkFloatTextures::Download(const Group& group, std::size_t index, int width, int height,
   float* rgba)
 {

@@ -78,6 +78,9 @@ public:
   /// Empty when the memory is not there.
   Group Allocate(std::size_t count, int width, int height);
 
+  /// Set all texels of a group to zero.
+  void Clear(const Group& group);
+
   /// Write a region (x, y, width, height) of a texture; `rowLength` texels lie between the starts
   /// of two rows of `rgba`.
   void Upload(vtkTextureObject* texture, const int region[4], int rowLength, const float* rgba);

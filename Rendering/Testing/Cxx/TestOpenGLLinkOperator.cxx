@@ -50,12 +50,18 @@ Vector MakeVector(std::size_t size, unsigned int seed)
   return values;
 }
 
-void FillMatrix(vtkExchangeMatrix* exchange, int patches, int kernels)
+/// With `sparse`, only every third tile is stored and not zero.
+void FillMatrix(vtkExchangeMatrix* exchange, int patches, int kernels, bool sparse = false)
 {
-  exchange->Allocate(Vector(static_cast<std::size_t>(patches), 1.0), kernels);
+  exchange->AllocateSparse(Vector(static_cast<std::size_t>(patches), 1.0), kernels);
   std::mt19937 engine(7);
   for (vtkExchangeMatrix::Tile& tile : exchange->GetTiles())
   {
+    if (sparse && (tile.Row + tile.Column) % 3 != 1)
+    {
+      continue;
+    }
+    exchange->AllocateTile(tile);
     for (int i = 0; i < vtkExchangeMatrix::TileSize; ++i)
     {
       for (int j = tile.Row == tile.Column ? i : 0; j < vtkExchangeMatrix::TileSize; ++j)
@@ -213,6 +219,22 @@ bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
   return TestVectorAlgebra(device, setting) && good;
 }
 
+/// Tiles that are not stored are zero, also in textures whose memory held another matrix before.
+bool TestSparse(vtkOpenGLLinkOperator* device)
+{
+  bool good = true;
+  for (const Case& setting : { Case{ 1000, 3, 1, 0, 1 }, Case{ 1000, 5, 5, 0, 2 },
+         Case{ 1000, 3, 1, 64, 16 * 4 }, Case{ 200, 1, 1, 0, 1 } })
+  {
+    good = TestCase(device, setting) && good;
+    vtkNew<vtkExchangeMatrix> sparse;
+    FillMatrix(sparse, setting.Patches, setting.Kernels, true);
+    good = Check(device->Initialize(sparse, setting.Bands), "a sparse matrix is refused") &&
+      TestProducts(device, sparse, setting) && good;
+  }
+  return good;
+}
+
 /// A solver that diverges must see it: what is not finite stays so, in its own band.
 bool TestNotFinite()
 {
@@ -344,6 +366,7 @@ int TestOpenGLLinkOperator(int, char*[])
   {
     good = TestCase(device, setting) && good;
   }
+  good = TestSparse(device) && good;
   good = TestNotFinite() && good;
   good = TestBytesRead() && good;
   good = TestUserWindows() && good;

@@ -4,10 +4,12 @@
 #include "LightTransportTesting.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkExchangeMatrix.h"
+#include "vtkSMPTools.h"
 #include "vtkTestErrorObserver.h"
 
 #include <algorithm>
 #include <random>
+#include <set>
 
 using namespace LightTransportTesting;
 
@@ -25,24 +27,31 @@ double GetEntry(vtkIdType i, vtkIdType j, int kernel)
 }
 
 //------------------------------------------------------------------------------
+void Fill(const vtkExchangeMatrix* matrix, vtkExchangeMatrix::Tile& tile)
+{
+  const vtkIdType n = matrix->GetNumberOfPatches();
+  for (int row = 0; row < N && tile.Row * N + row < n; ++row)
+  {
+    for (int column = tile.Row == tile.Column ? row : 0; column < N && tile.Column * N + column < n;
+         ++column)
+    {
+      for (int kernel = 0; kernel < matrix->GetNumberOfKernels(); ++kernel)
+      {
+        vtkExchangeMatrix::SetValue(tile, row, column, kernel,
+          GetEntry(tile.Row * N + row, tile.Column * N + column, kernel));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkExchangeMatrix> MakeMatrix(vtkIdType n, int kernels, int part = 0, int parts = 1)
 {
   auto matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
   Check(matrix->Allocate(std::vector<double>(n, 1.0), kernels, part, parts), "allocation");
   for (vtkExchangeMatrix::Tile& tile : matrix->GetTiles())
   {
-    for (int row = 0; row < N && tile.Row * N + row < n; ++row)
-    {
-      for (int column = tile.Row == tile.Column ? row : 0;
-           column < N && tile.Column * N + column < n; ++column)
-      {
-        for (int kernel = 0; kernel < kernels; ++kernel)
-        {
-          vtkExchangeMatrix::SetValue(tile, row, column, kernel,
-            GetEntry(tile.Row * N + row, tile.Column * N + column, kernel));
-        }
-      }
-    }
+    Fill(matrix, tile);
   }
   return matrix;
 }
@@ -200,6 +209,152 @@ void TestParts()
 }
 
 //------------------------------------------------------------------------------
+// Which tiles of a sparse matrix are there: some of the diagonal and some beside it.
+bool IsStored(const vtkExchangeMatrix::Tile& tile)
+{
+  return (3 * tile.Row + 2 * tile.Column) % 4 != 1;
+}
+
+//------------------------------------------------------------------------------
+// The same matrix twice: without the tiles that are zero, and with zeros.
+std::pair<vtkSmartPointer<vtkExchangeMatrix>, vtkSmartPointer<vtkExchangeMatrix>>
+MakeSparseAndDense(vtkIdType n, int kernels, int part = 0, int parts = 1)
+{
+  auto sparse = vtkSmartPointer<vtkExchangeMatrix>::New();
+  auto dense = vtkSmartPointer<vtkExchangeMatrix>::New();
+  sparse->AllocateSparse(std::vector<double>(n, 1.0), kernels, part, parts);
+  Check(dense->Allocate(std::vector<double>(n, 1.0), kernels, part, parts), "dense allocation");
+  Check(sparse->GetTiles().size() == dense->GetTiles().size(), "all tiles are listed");
+  for (std::size_t t = 0; t < sparse->GetTiles().size(); ++t)
+  {
+    vtkExchangeMatrix::Tile& tile = sparse->GetTiles()[t];
+    Check(tile.Values == nullptr, "a new sparse matrix stores nothing");
+    if (IsStored(tile))
+    {
+      Check(sparse->AllocateTile(tile), "allocation of a tile");
+      Fill(sparse, tile);
+      Fill(dense, dense->GetTiles()[t]);
+    }
+  }
+  return { sparse, dense };
+}
+
+//------------------------------------------------------------------------------
+// Bit by bit, apart from the order in which threads add up a product.
+void TestSparse(vtkIdType n, int bands, int kernels)
+{
+  const std::string what = " (sparse, n " + std::to_string(n) + ", bands " + std::to_string(bands) +
+    ", kernels " + std::to_string(kernels) + ")";
+  const auto matrices = MakeSparseAndDense(n, kernels);
+  const std::vector<double> x = MakeVector(n, bands, 1), e = MakeVector(n, bands, 2),
+                            left(n * bands, 1.0 / static_cast<double>(n));
+  std::vector<double> products[2], sweeps[2], rows[2];
+  int which = 0;
+  for (vtkExchangeMatrix* matrix : { matrices.first.Get(), matrices.second.Get() })
+  {
+    vtkNew<vtkDenseLinkOperator> links;
+    Check(links->Initialize(matrix, bands), "initialize" + what);
+    links->SetVector(0, x.data());
+    links->SetVector(1, e.data());
+    links->SetVector(2, left.data());
+    products[which].resize(x.size());
+    sweeps[which].resize(x.size());
+    Check(links->Apply(3, 2, 2, 0, 4) && links->GetVector(3, products[which].data()), "y" + what);
+    Check(links->Sweep(0, 1, 2) && links->GetVector(0, sweeps[which].data()), "sweep" + what);
+    for (vtkIdType i = 0; i < n; i += 97)
+    {
+      std::vector<double> row(n, -1.0);
+      Check(links->GetRow(i, bands - 1, row.data()), "row" + what);
+      rows[which].insert(rows[which].end(), row.begin(), row.end());
+    }
+    ++which;
+  }
+  Check(Compare(products[0], products[1]) < 1e-14, "product" + what);
+  Check(Compare(sweeps[0], sweeps[1]) < 1e-14, "Gauss-Seidel sweep" + what);
+  Check(rows[0] == rows[1], "rows" + what);
+}
+
+//------------------------------------------------------------------------------
+void TestSparseParts()
+{
+  constexpr vtkIdType n = 1100;
+  constexpr int parts = 4;
+  const auto whole = MakeSparseAndDense(n, 2);
+  std::vector<vtkSmartPointer<vtkExchangeMatrix>> matrices;
+  vtkIdType stored = 0;
+  for (int part = 0; part < parts; ++part)
+  {
+    matrices.push_back(MakeSparseAndDense(n, 2, part, parts).first);
+    stored += matrices.back()->GetNumberOfStoredTiles();
+  }
+  Check(stored == whole.first->GetNumberOfStoredTiles(), "stored tiles of the parts");
+  for (vtkIdType i = 0; i < n; i += 31)
+  {
+    for (vtkIdType j = 0; j < n; j += 37)
+    {
+      double sum = 0.0;
+      for (const auto& part : matrices)
+      {
+        sum += part->GetValue(i, j, 1);
+      }
+      Check(sum == whole.second->GetValue(j, i, 1), "value of the sparse parts");
+      Check(whole.first->GetValue(i, j, 1) == sum, "value of the sparse matrix");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestStorage()
+{
+  constexpr vtkIdType n = 30 * N - 5;
+  vtkNew<vtkExchangeMatrix> matrix;
+  matrix->AllocateSparse(std::vector<double>(n, 1.0), 1);
+  auto& tiles = matrix->GetTiles();
+  Check(tiles.size() == 465 && matrix->GetNumberOfStoredTiles() == 0 &&
+      matrix->GetNumberOfBytes() == 0.0 && matrix->GetValue(5, 7000) == 0.0,
+    "a sparse matrix starts with nothing");
+
+  // Threads allocate all tiles at the same time; no two may share memory.
+  vtkSMPTools::LocalScope(vtkSMPTools::Config("STDThread"),
+    [&]()
+    {
+      vtkSMPTools::For(0, static_cast<vtkIdType>(tiles.size()), 1,
+        [&](vtkIdType begin, vtkIdType end)
+        {
+          for (vtkIdType t = begin; t < end; ++t)
+          {
+            matrix->AllocateTile(tiles[t]);
+            std::fill_n(tiles[t].Values, N * N, static_cast<float>(t));
+          }
+        });
+    });
+  CheckClose(matrix->GetNumberOfBytes(), vtkExchangeMatrix::GetEstimatedBytes(n, 1), 1e-15,
+    "bytes with all tiles stored");
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+  {
+    const float* values = tiles[t].Values;
+    Check(std::count(values, values + N * N, static_cast<float>(t)) == N * N, "shared memory");
+  }
+
+  // What is released is used again, and holds zeros again.
+  const std::set<float*> before{ tiles[3].Values, tiles[400].Values };
+  matrix->ReleaseTile(tiles[3]);
+  matrix->ReleaseTile(tiles[400]);
+  matrix->ReleaseTile(tiles[400]);
+  Check(matrix->GetNumberOfStoredTiles() == 463 && !tiles[3].Values, "released tiles");
+  CheckClose(matrix->GetNumberOfBytes(), 463.0 * N * N * sizeof(float), 0.0, "bytes after release");
+  Check(matrix->AllocateTile(tiles[400]) && matrix->AllocateTile(tiles[3]), "allocation again");
+  Check(before == std::set<float*>{ tiles[3].Values, tiles[400].Values }, "memory used again");
+  Check(std::count(tiles[3].Values, tiles[3].Values + N * N, 0.0f) == N * N &&
+      std::count(tiles[400].Values, tiles[400].Values + N * N, 0.0f) == N * N,
+    "zeros in memory that is used again");
+  Check(matrix->AllocateTile(tiles[1]) && tiles[1].Values[0] == 1.0f, "a stored tile stays");
+
+  matrix->AllocateSparse({}, 1);
+  Check(matrix->GetTiles().empty() && matrix->GetNumberOfBytes() == 0.0, "emptied");
+}
+
+//------------------------------------------------------------------------------
 void TestErrors()
 {
   vtkNew<vtkTest::ErrorObserver> errors;
@@ -238,6 +393,10 @@ int TestLinkOperator(int, char*[])
   TestSweep(300, 3, 1);
   TestSweep(520, 2, 2);
   TestParts();
+  TestSparse(700, 3, 1);
+  TestSparse(1100, 2, 2);
+  TestSparseParts();
+  TestStorage();
   TestErrors();
   return Result();
 }
