@@ -521,19 +521,19 @@ bool vtkDirectIrradiance::ComputeIrradiance()
   self.Transmitted.assign(patches * Bands, 0.0);
   self.Rays.assign(patches, 0.0);
 
-  const vtkIdType begin = self.Scene.GetFirstLocalPatch();
-  const vtkIdType count = self.Scene.GetNumberOfLocalPatches();
-  auto compute = [&self](vtkIdType first, vtkIdType last)
+  const std::vector<vtkIdType>& locals = self.Scene.GetLocalPatches();
+  const auto count = static_cast<vtkIdType>(locals.size());
+  auto compute = [&self, &locals](vtkIdType first, vtkIdType last)
   {
-    for (vtkIdType patch = first; patch < last; ++patch)
+    for (vtkIdType local = first; local < last; ++local)
     {
-      self.ComputePatch(patch);
+      self.ComputePatch(locals[local]);
     }
   };
   for (int batch = 0; batch < NumberOfBatches; ++batch)
   {
-    vtkTransportThreads::For(begin + count * batch / NumberOfBatches,
-      begin + count * (batch + 1) / NumberOfBatches, 16, compute);
+    vtkTransportThreads::For(count * batch / NumberOfBatches, count * (batch + 1) / NumberOfBatches,
+      16, compute);
     if (!this->ReportProgress(static_cast<double>(batch + 1) / NumberOfBatches))
     {
       return false;

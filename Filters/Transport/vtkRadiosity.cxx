@@ -76,14 +76,19 @@ struct BandArray
     return this->Values[patch * this->Components + (this->Components == 1 ? 0 : band)];
   }
   // Empty, or what is wrong with the range of the values.
-  std::string CheckRange(double low, double high, const char* range) const
+  std::string CheckRange(const vtkPatchScene& scene, double low, double high,
+    const char* range) const
   {
-    for (std::size_t k = 0; k < this->Values.size(); ++k)
+    const auto count = static_cast<vtkIdType>(this->Values.size());
+    for (vtkIdType k = 0; k < count; ++k)
     {
-      if (!(this->Values[k] >= low && this->Values[k] <= high))
+      const vtkIdType polygon = k / this->Components;
+      const double value =
+        this->Get(scene.GetPatch(polygon), static_cast<int>(k % this->Components));
+      if (!(value >= low && value <= high))
       {
-        return "The cell array \"" + this->Name + "\" is " + std::to_string(this->Values[k]) +
-          " at patch " + std::to_string(k / this->Components) + ": it must be " + range + ".";
+        return "The cell array \"" + this->Name + "\" is " + std::to_string(value) +
+          " at polygon " + std::to_string(polygon) + ": it must be " + range + ".";
       }
     }
     return "";
@@ -225,7 +230,7 @@ bool vtkRadiosity::ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, 
 }
 
 //------------------------------------------------------------------------------
-std::string vtkRadiosity::CheckArrays(const Problem& problem)
+std::string vtkRadiosity::CheckArrays(const vtkPatchScene& scene, const Problem& problem)
 {
   const BandArray* arrays = problem.Arrays;
   const bool thermal = arrays[TEMPERATURE].IsThere();
@@ -260,11 +265,12 @@ std::string vtkRadiosity::CheckArrays(const Problem& problem)
       arrays[DIRECT_IRRADIANCE].Name + "\" from vtkDirectIrradiance.";
   }
   const double most = VTK_DOUBLE_MAX;
-  for (const std::string& problemFound : { arrays[REFLECTANCE].CheckRange(0.0, 1.0, "from 0 to 1"),
-         arrays[EMISSIVITY].CheckRange(0.0, 1.0, "from 0 to 1"),
-         arrays[TEMPERATURE].CheckRange(0.0, most, "in kelvin, at least 0"),
-         arrays[EMISSION].CheckRange(0.0, most, "at least 0"),
-         arrays[DIRECT_IRRADIANCE].CheckRange(0.0, most, "at least 0") })
+  for (const std::string& problemFound :
+    { arrays[REFLECTANCE].CheckRange(scene, 0.0, 1.0, "from 0 to 1"),
+      arrays[EMISSIVITY].CheckRange(scene, 0.0, 1.0, "from 0 to 1"),
+      arrays[TEMPERATURE].CheckRange(scene, 0.0, most, "in kelvin, at least 0"),
+      arrays[EMISSION].CheckRange(scene, 0.0, most, "at least 0"),
+      arrays[DIRECT_IRRADIANCE].CheckRange(scene, 0.0, most, "at least 0") })
   {
     if (!problemFound.empty())
     {
@@ -281,7 +287,7 @@ bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const vtkPatchScene& scen
   {
     return false;
   }
-  const std::string error = CheckArrays(problem);
+  const std::string error = CheckArrays(scene, problem);
   if (!error.empty())
   {
     vtkErrorMacro(<< error);

@@ -149,7 +149,7 @@ private:
   int GetChosenSolver() const;
   bool CheckSolver();
   bool ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
-  static std::string CheckArrays(const Problem& problem);
+  static std::string CheckArrays(const vtkPatchScene& scene, const Problem& problem);
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene);
   bool Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence);

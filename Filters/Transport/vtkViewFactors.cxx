@@ -381,6 +381,11 @@ bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFu
     return false;
   }
   this->Fingerprint = scene.GetFingerprint();
+  this->Patches.resize(scene.GetNumberOfPatches());
+  for (std::size_t polygon = 0; polygon < this->Patches.size(); ++polygon)
+  {
+    this->Patches[polygon] = scene.GetPatch(static_cast<vtkIdType>(polygon));
+  }
   this->BuildTime.Modified();
   this->Seconds = vtkTimerLog::GetUniversalTime() - begin;
   return true;
@@ -605,7 +610,8 @@ double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
   {
     return 0.0;
   }
-  return this->Exchange->GetValue(i, j) / this->Exchange->GetAreas()[i];
+  const vtkIdType row = this->Patches[i];
+  return this->Exchange->GetValue(row, this->Patches[j]) / this->Exchange->GetAreas()[row];
 }
 
 //------------------------------------------------------------------------------

@@ -119,6 +119,7 @@ private:
   bool EnforceClosure = false;
 
   vtkSmartPointer<vtkExchangeMatrix> Exchange;
+  std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons
   std::vector<double> RawRowSums; ///< before closure
   std::vector<double> RowSums;    ///< of the exchange as it is
   std::vector<double> RowErrors;

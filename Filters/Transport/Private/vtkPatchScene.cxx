@@ -152,21 +152,25 @@ bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* contr
   {
     return false;
   }
-  this->GatherRanks(raw);
+  const vtkIdType firstLocal = this->GatherRanks(raw);
   if (raw.Counts.empty())
   {
     error = "The input has no polygons: give a surface with at least one polygon.";
     return false;
   }
   this->ComputeFingerprint(raw);
-  this->Offsets.resize(raw.Counts.size() + 1, 0);
-  std::partial_sum(raw.Counts.begin(), raw.Counts.end(), this->Offsets.begin() + 1);
   if (!this->Normalize(raw, error))
   {
     return false;
   }
+  this->SortPatches(raw, firstLocal);
   this->MergePoints(raw);
-  return this->ComputePatchGeometry(error);
+  if (!this->ComputePatchGeometry(error))
+  {
+    return false;
+  }
+  this->Tree.Build(*this);
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -239,15 +243,14 @@ bool vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchScene::GatherRanks(Raw& raw)
+vtkIdType vtkPatchScene::GatherRanks(Raw& raw)
 {
   const std::vector<vtkIdType> mine{ static_cast<vtkIdType>(raw.Counts.size()) };
   const std::vector<vtkIdType> patches = AllGather(this->Controller, mine);
   const int rank = patches.size() > 1 ? this->Controller->GetLocalProcessId() : 0;
-  this->FirstLocalPatch =
-    std::accumulate(patches.begin(), patches.begin() + rank, static_cast<vtkIdType>(0));
   raw.Counts = AllGather(this->Controller, raw.Counts);
   raw.Coordinates = AllGather(this->Controller, raw.Coordinates);
+  return std::accumulate(patches.begin(), patches.begin() + rank, static_cast<vtkIdType>(0));
 }
 
 //------------------------------------------------------------------------------
@@ -272,6 +275,40 @@ bool vtkPatchScene::Normalize(const Raw& raw, std::string& error)
     return false;
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+// The order comes from the scaled scene: in the input's unit a mean of corners could overflow.
+void vtkPatchScene::SortPatches(Raw& raw, vtkIdType firstLocal)
+{
+  const std::size_t patches = raw.Counts.size();
+  std::vector<vtkIdType> starts(patches + 1, 0);
+  std::partial_sum(raw.Counts.begin(), raw.Counts.end(), starts.begin() + 1);
+  std::vector<Vector> centers(patches, Vector::Zero());
+  for (std::size_t polygon = 0; polygon < patches; ++polygon)
+  {
+    for (vtkIdType corner = starts[polygon]; corner < starts[polygon + 1]; ++corner)
+    {
+      const Vector point(&raw.Coordinates[3 * corner]);
+      centers[polygon] += (point - this->Center) / this->Scale / raw.Counts[polygon];
+    }
+  }
+  this->Polygons = vtkPatchTree::Sort(centers);
+  this->Patches.resize(patches);
+  this->Offsets.assign(1, 0);
+  std::vector<double> coordinates;
+  coordinates.reserve(raw.Coordinates.size());
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    const vtkIdType polygon = this->Polygons[patch];
+    this->Patches[polygon] = static_cast<vtkIdType>(patch);
+    this->Offsets.push_back(this->Offsets.back() + raw.Counts[polygon]);
+    coordinates.insert(coordinates.end(), raw.Coordinates.begin() + 3 * starts[polygon],
+      raw.Coordinates.begin() + 3 * starts[polygon + 1]);
+  }
+  raw.Coordinates.swap(coordinates);
+  const auto local = this->Patches.begin() + firstLocal;
+  this->LocalPatches.assign(local, local + static_cast<vtkIdType>(this->LocalCells.size()));
 }
 
 //------------------------------------------------------------------------------
@@ -300,12 +337,12 @@ bool vtkPatchScene::ComputePatchGeometry(std::string& error)
   this->Normals.resize(patches);
   this->Centroids.resize(patches);
   this->Radii.resize(patches);
-  for (vtkIdType patch = 0; patch < patches; ++patch)
+  for (vtkIdType polygon = 0; polygon < patches; ++polygon)
   {
-    const char* problem = this->ComputeOnePatch(patch);
+    const char* problem = this->ComputeOnePatch(this->Patches[polygon]);
     if (problem)
     {
-      error = "Polygon " + std::to_string(patch) + " " + problem;
+      error = "Polygon " + std::to_string(polygon) + " " + problem;
       return false;
     }
   }
@@ -448,7 +485,13 @@ bool vtkPatchScene::GatherCellArray(vtkDataObject* input, const std::string& nam
       "\" is missing or has another number of components in some blocks: give it to all of them.";
     return false;
   }
-  values = AllGather(this->Controller, mine);
+  mine = AllGather(this->Controller, mine);
+  values.resize(mine.size());
+  for (std::size_t polygon = 0; polygon < this->Patches.size(); ++polygon)
+  {
+    std::copy_n(mine.begin() + polygon * components, components,
+      values.begin() + this->Patches[polygon] * components);
+  }
   return true;
 }
 
@@ -624,7 +667,7 @@ void vtkPatchScene::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLoca
       this->LocalCells[local].Block == block && this->LocalCells[local].Cell == first + polygon;
     for (vtkIdType corner = 0; isPatch && corner < corners->GetNumberOfIds(); ++corner)
     {
-      const vtkIdType patch = this->FirstLocalPatch + static_cast<vtkIdType>(local);
+      const vtkIdType patch = this->LocalPatches[local];
       const vtkIdType group = this->CornerGroups[this->Offsets[patch] + corner];
       const vtkIdType point = corners->GetId(corner);
       if (groups[point] < 0)
@@ -691,11 +734,10 @@ void vtkPatchScene::AddCellArray(vtkDataObject* output, const std::string& name,
     data->GetCellData()->AddArray(array);
     arrays.push_back(array);
   }
-  const double* source = values.data() + this->FirstLocalPatch * components;
-  for (const LocalCell& local : this->LocalCells)
+  for (std::size_t k = 0; k < this->LocalCells.size(); ++k)
   {
-    arrays[local.Block]->SetTypedTuple(local.Cell, source);
-    source += components;
+    const LocalCell& local = this->LocalCells[k];
+    arrays[local.Block]->SetTypedTuple(local.Cell, &values[this->LocalPatches[k] * components]);
   }
 }
 

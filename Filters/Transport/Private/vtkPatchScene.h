@@ -8,12 +8,16 @@
  * box has diagonal 1: nothing downstream needs an absolute length, and a micrometre and a thousand
  * kilometres give the same numbers. Lengths in the input's unit are scene lengths times GetScale().
  *
- * All ranks hold the whole scene, in the same order; the patches that came from this rank are a
- * contiguous range of it.
+ * All ranks hold the whole scene, in the same order: that of a spatial tree (vtkPatchTree), so that
+ * patches that are near each other in space are near each other in every array and in the exchange
+ * matrix. Where users meet numbers of patches (messages, arguments) they are those of the input's
+ * polygons: all blocks and ranks in order, ghosts left out.
  */
 #ifndef vtkPatchScene_h
 #define vtkPatchScene_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkPatchTree.h"
 #include "vtkType.h"
 
 #include <Eigen/Core>
@@ -27,7 +31,7 @@ class vtkDataObject;
 class vtkMultiProcessController;
 class vtkPolyData;
 
-class vtkPatchScene
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkPatchScene
 {
 public:
   using Vector = Eigen::Vector3d;
@@ -43,12 +47,14 @@ public:
   bool Build(vtkDataObject* input, vtkMultiProcessController* controller, std::string& error);
 
   vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
-  /// The patches of this rank are [first, first + number).
-  vtkIdType GetFirstLocalPatch() const { return this->FirstLocalPatch; }
-  vtkIdType GetNumberOfLocalPatches() const
-  {
-    return static_cast<vtkIdType>(this->LocalCells.size());
-  }
+  /// The patches of this rank, in the order of its polygons.
+  const std::vector<vtkIdType>& GetLocalPatches() const { return this->LocalPatches; }
+  /// The patch that the input's polygon `polygon` has become.
+  vtkIdType GetPatch(vtkIdType polygon) const { return this->Patches[polygon]; }
+  /// The input's polygon of a patch.
+  vtkIdType GetPolygon(vtkIdType patch) const { return this->Polygons[patch]; }
+  /// The tree that the order of the patches comes from.
+  const vtkPatchTree& GetTree() const { return this->Tree; }
 
   ///@{ Scene geometry: centred and scaled.
   const std::vector<Vector>& GetPoints() const { return this->Points; }
@@ -136,7 +142,9 @@ private:
   bool CollectLocal(vtkDataObject* input, Raw& raw, std::string& error);
   /// False when a polygon names points that do not exist.
   bool CollectBlock(vtkPolyData* data, int block, Raw& raw);
-  void GatherRanks(Raw& raw);
+  /// Returns the number of polygons on the ranks before this one.
+  vtkIdType GatherRanks(Raw& raw);
+  void SortPatches(Raw& raw, vtkIdType firstLocal);
   bool Normalize(const Raw& raw, std::string& error);
   void MergePoints(const Raw& raw);
   void ComputeFingerprint(const Raw& raw);
@@ -164,8 +172,11 @@ private:
   double Scale = 1.0;
   std::uint64_t Fingerprint = 0;
 
-  vtkIdType FirstLocalPatch = 0;
+  std::vector<vtkIdType> Polygons; ///< of each patch
+  std::vector<vtkIdType> Patches;  ///< of each polygon
+  vtkPatchTree Tree;
   std::vector<LocalCell> LocalCells;
+  std::vector<vtkIdType> LocalPatches; ///< as LocalCells
 
   /// Smooth group of each corner (as Corners), and the number of groups.
   std::vector<vtkIdType> CornerGroups;

@@ -65,6 +65,9 @@ void TestGeometry()
     line.AddPolygon({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } });
     line.AddPolygon({ { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 } });
     Expect(line.Get(), "Polygon 0 has no area");
+    // The input's number, wherever the scene has put the patch.
+    scene->GetPolys()->InsertNextCell({ 0, 1, 0 });
+    Expect(scene, "Polygon 24 has no area");
   }
   {
     Surface warped;
@@ -124,6 +127,10 @@ void TestArrays()
       auto scene = MakeScene();
       scene->GetCellData()->GetArray(array.first.c_str())->SetComponent(7, 0, value);
       Expect(scene, "\"" + array.first + "\"");
+      if (std::isfinite(value))
+      {
+        Expect(scene, "at polygon 7");
+      }
     }
   }
   {

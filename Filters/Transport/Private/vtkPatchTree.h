@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A balanced binary tree over the patches of a scene, as plain data: every node is a contiguous
+ * range of patches (the scene keeps its patches in the order of this tree), with a box, a cone of
+ * normals and an area.
+ *
+ * The shape depends on the number of patches alone: ranges longer than BlockSize are cut at a
+ * multiple of BlockSize, so that every block of BlockSize patches (a row of tiles of an exchange
+ * matrix) is a node; shorter ones in half, at a multiple of LeafSize. Which patches go left is
+ * decided along the longest axis of the box of the centroids.
+ */
+#ifndef vtkPatchTree_h
+#define vtkPatchTree_h
+
+#include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkType.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+class vtkPatchScene;
+
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkPatchTree
+{
+public:
+  using Vector = Eigen::Vector3d;
+
+  /// Patches of a block: vtkExchangeMatrix::TileSize.
+  static constexpr vtkIdType BlockSize = 256;
+  /// Patches of a leaf, at most.
+  static constexpr vtkIdType LeafSize = 4;
+
+  struct Node
+  {
+    vtkIdType First = 0; ///< patches [First, Last)
+    vtkIdType Last = 0;
+    int Parent = -1;
+    int Left = -1; ///< child, -1 at a leaf; the other child is Left + 1
+    /// Box of all corners.
+    Vector Lower = Vector::Zero();
+    Vector Upper = Vector::Zero();
+    /// Box of all centroids, and the largest radius of a patch around its centroid.
+    Vector CentroidLower = Vector::Zero();
+    Vector CentroidUpper = Vector::Zero();
+    double Radius = 0.0;
+    /// All normals n have n . ConeAxis >= ConeCosine; -1 where they point everywhere.
+    Vector ConeAxis = Vector::UnitZ();
+    double ConeCosine = -1.0;
+    double Area = 0.0;
+
+    bool IsLeaf() const { return this->Left < 0; }
+    vtkIdType GetSize() const { return this->Last - this->First; }
+  };
+
+  /// The order of the tree: patch k of the sorted scene is patch order[k] of the unsorted one.
+  static std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids);
+
+  /// The tree over a scene that is in the order of Sort.
+  void Build(const vtkPatchScene& scene);
+
+  /// Node 0 is the root.
+  const std::vector<Node>& GetNodes() const { return this->Nodes; }
+  const Node& GetNode(int node) const { return this->Nodes[node]; }
+  /// The node of patches [BlockSize * block, BlockSize * (block + 1)).
+  int GetBlock(vtkIdType block) const { return this->Blocks[block]; }
+
+private:
+  std::vector<Node> Nodes;
+  std::vector<int> Blocks;
+};
+
+#endif
