@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Makes the rows of closed scenes sum to 1 without losing reciprocity: the symmetric change that is
+ * smallest in least squares weighted with what is known of the errors (van Leersum, Int. J. Heat
+ * Mass Transfer 32, 1989, weights with the view factors themselves), so that an entry moves in
+ * proportion to its own error estimate; bounded, so that no entry becomes negative or larger than
+ * with nothing between the two patches (plus the error bound of that number itself).
+ */
+#ifndef vtkViewFactorClosure_h
+#define vtkViewFactorClosure_h
+
+#include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkViewFactorsResult.h"
+
+class vtkMultiProcessController;
+
+namespace vtkViewFactorClosure
+{
+struct Report
+{
+  double Change = 0.0; ///< largest sum_j |change of F_ij| of a row
+  double Gap = 0.0;    ///< largest |1 - row sum| that is left in a closed row
+};
+
+/**
+ * Rows with closed[i] get the sum 1, as far as the bounds let them; other rows keep theirs.
+ * `pairs` are the partly visible pairs of this rank's part of the matrix; all other entries are
+ * taken to be right within `relativeError` of their value. Result.RowSums is brought up to date.
+ * Collective. Returns false when the link operator fails (its error has been reported).
+ */
+VTKLIGHTTRANSPORTFILTERS_EXPORT bool Close(vtkViewFactorsResult& result,
+  const std::vector<vtkPartlyVisiblePair>& pairs, const std::vector<bool>& closed,
+  double relativeError, vtkMultiProcessController* controller, Report& report);
+} // namespace vtkViewFactorClosure
+
+#endif

@@ -1,0 +1,418 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The closure of view factors, on the matrix of a sphere's inside: there G_ij = A_i A_j / (sum A)
+// is exact, whatever the division into patches. Likewise with a smaller sphere within.
+#include "LightTransportTesting.h"
+#include "RanksInThreads.h"
+#include "vtkViewFactorClosure.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+using namespace LightTransportTesting;
+
+namespace
+{
+constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+constexpr double Single = 3e-7;
+
+//------------------------------------------------------------------------------
+// A sphere, some pairs of which are known badly: between the exchange with nothing between and 0,
+// where the exact value is half of what is open.
+struct Case
+{
+  explicit Case(vtkIdType patches) : Areas(patches), Closed(patches, true)
+  {
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<double> uniform(0.5, 1.5);
+    std::generate(this->Areas.begin(), this->Areas.end(), [&]() { return uniform(generator); });
+    this->Total = std::accumulate(this->Areas.begin(), this->Areas.end(), 0.0);
+  }
+
+  vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
+  // Patches below this number are a sphere within the sphere of the others.
+  void SetInner(vtkIdType inner)
+  {
+    this->Inner = inner;
+    this->InnerArea = std::accumulate(this->Areas.begin(), this->Areas.begin() + inner, 0.0);
+    this->Total -= this->InnerArea;
+  }
+
+  double GetExact(vtkIdType i, vtkIdType j) const
+  {
+    const double apart = this->Areas[i] * this->Areas[j] / this->Total;
+    if (i < this->Inner && j < this->Inner)
+    {
+      return 0.0;
+    }
+    return i < this->Inner || j < this->Inner ? apart
+                                              : apart * (1.0 - this->InnerArea / this->Total);
+  }
+
+  // Every `stride`-th neighbour of each patch, wrong by up to its error estimate.
+  void Perturb(vtkIdType stride, double error)
+  {
+    std::mt19937 generator(11);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (vtkIdType i = this->Inner; i < this->GetNumberOfPatches(); ++i)
+    {
+      for (vtkIdType j = i + 1; j < this->GetNumberOfPatches(); j += stride)
+      {
+        const double exact = this->GetExact(i, j);
+        this->Pairs.push_back(
+          { i, j, 2.0 * exact, exact * (1.0 + error * uniform(generator)), error * exact });
+      }
+    }
+  }
+
+  // The tiles of one rank, all others without storage, and the pairs in them.
+  vtkViewFactorsResult MakeResult(std::vector<vtkPartlyVisiblePair>& pairs, int part = 0,
+    int parts = 1) const
+  {
+    vtkViewFactorsResult result;
+    result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
+    Check(result.Exchange->Allocate(this->Areas, 1, part, parts), "allocation");
+    for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
+    {
+      this->ForEachEntry(tile,
+        [&](int row, int column, vtkIdType i, vtkIdType j)
+        { vtkExchangeMatrix::SetValue(tile, row, column, 0, this->GetExact(i, j)); });
+    }
+    for (const vtkPartlyVisiblePair& pair : this->Pairs)
+    {
+      const vtkIdType index = result.Exchange->GetTileIndex(pair.I / N, pair.J / N);
+      if (index % parts == part)
+      {
+        vtkExchangeMatrix::SetValue(result.Exchange->GetTiles()[index / parts],
+          static_cast<int>(pair.I % N), static_cast<int>(pair.J % N), 0, pair.Value);
+        pairs.push_back(pair);
+      }
+    }
+    return result;
+  }
+
+  template <typename Function>
+  void ForEachEntry(const vtkExchangeMatrix::Tile& tile, Function&& function) const
+  {
+    for (int row = 0; row < N && tile.Row * N + row < this->GetNumberOfPatches(); ++row)
+    {
+      for (int column = 0; column < N && tile.Column * N + column < this->GetNumberOfPatches();
+           ++column)
+      {
+        function(row, column, tile.Row * N + row, tile.Column * N + column);
+      }
+    }
+  }
+
+  vtkViewFactorClosure::Report Close(vtkViewFactorsResult& result, double relativeError) const
+  {
+    std::vector<vtkPartlyVisiblePair> pairs;
+    result = this->MakeResult(pairs);
+    vtkViewFactorClosure::Report report;
+    Check(vtkViewFactorClosure::Close(result, pairs, this->Closed, relativeError, nullptr, report),
+      "closure");
+    return report;
+  }
+
+  std::vector<double> Areas;
+  std::vector<bool> Closed;
+  std::vector<vtkPartlyVisiblePair> Pairs;
+  double Total = 0.0; // area of the outer sphere
+  vtkIdType Inner = 0;
+  double InnerArea = 0.0;
+};
+
+//------------------------------------------------------------------------------
+double SumRow(const vtkViewFactorsResult& result, vtkIdType i)
+{
+  double sum = 0.0;
+  for (vtkIdType j = 0; j < result.Exchange->GetNumberOfPatches(); ++j)
+  {
+    sum += result.Exchange->GetValue(i, j);
+  }
+  return sum / result.Exchange->GetAreas()[i];
+}
+
+//------------------------------------------------------------------------------
+// Largest |change of an entry that is not listed| relative to the entry; the squares of the
+// distances of the listed ones to the exact matrix, before and after.
+struct Comparison
+{
+  double Unlisted = 0.0;
+  double Before = 0.0;
+  double After = 0.0;
+};
+
+Comparison Compare(const Case& scene, const vtkViewFactorsResult& result)
+{
+  Comparison comparison;
+  std::vector<bool> listed(scene.GetNumberOfPatches() * scene.GetNumberOfPatches(), false);
+  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  {
+    const double value = result.Exchange->GetValue(pair.I, pair.J);
+    const double exact = scene.GetExact(pair.I, pair.J);
+    Check(value >= 0.0 && value <= pair.Open * (1.0 + 1e-7), "a pair keeps its bounds");
+    comparison.Before += std::pow(pair.Value - exact, 2);
+    comparison.After += std::pow(value - exact, 2);
+    listed[pair.I * scene.GetNumberOfPatches() + pair.J] = true;
+    listed[pair.J * scene.GetNumberOfPatches() + pair.I] = true;
+  }
+  for (vtkIdType i = 0; i < scene.GetNumberOfPatches(); ++i)
+  {
+    for (vtkIdType j = 0; j < scene.GetNumberOfPatches(); ++j)
+    {
+      const double value = result.Exchange->GetValue(i, j);
+      Check(value == result.Exchange->GetValue(j, i), "the matrix stays symmetric");
+      if (scene.GetExact(i, j) > 0.0 && !listed[i * scene.GetNumberOfPatches() + j])
+      {
+        const double exact = static_cast<float>(scene.GetExact(i, j));
+        comparison.Unlisted = std::max(comparison.Unlisted, std::abs(value / exact - 1.0));
+      }
+    }
+  }
+  return comparison;
+}
+
+//------------------------------------------------------------------------------
+void TestClosedScene(vtkIdType patches, double relativeError)
+{
+  const std::string what = " (" + std::to_string(patches) + " patches, others within " +
+    std::to_string(relativeError) + ")";
+  Case scene(patches);
+  scene.Perturb(5, 0.3);
+  vtkViewFactorsResult result;
+  const vtkViewFactorClosure::Report report = scene.Close(result, relativeError);
+  Check(report.Gap < Single, "no gap is left" + what);
+  double worst = 0.0;
+  for (vtkIdType i = 0; i < patches; ++i)
+  {
+    CheckClose(SumRow(result, i), 1.0, Single, "closed row" + what);
+    CheckClose(result.RowSums[i], SumRow(result, i), 1e-13, "row sum as stored" + what);
+    worst = std::max(worst, std::abs(1.0 - result.RowSums[i]));
+  }
+  CheckClose(report.Gap, worst, 1e-14, "the gap" + what);
+  const Comparison comparison = Compare(scene, result);
+  // What single precision rounds counts as unmoved.
+  Check(comparison.Unlisted <= relativeError + 1.2e-7, "entries that are right stay" + what);
+  Check(comparison.After < comparison.Before, "closer to the exact matrix" + what);
+  Check(report.Change > 1e-3 && report.Change < 0.1, "change of a row" + what);
+}
+
+//------------------------------------------------------------------------------
+// A sphere within the sphere: the inner rows have nothing but entries that may move a little, the
+// outer ones make up for that with the pairs that are known badly.
+void TestSphereWithinSphere()
+{
+  Case scene(400);
+  scene.SetInner(80);
+  scene.Perturb(5, 0.3);
+  std::vector<vtkPartlyVisiblePair> pairs;
+  vtkViewFactorsResult result = scene.MakeResult(pairs);
+  for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
+  {
+    scene.ForEachEntry(tile,
+      [&](int row, int column, vtkIdType i, vtkIdType j)
+      {
+        if (i < 80)
+        {
+          vtkExchangeMatrix::SetValue(tile, row, column, 0,
+            scene.GetExact(i, j) * (1.0 + 5e-5 * std::sin(static_cast<double>(i))));
+        }
+      });
+  }
+  vtkViewFactorClosure::Report report;
+  vtkViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, nullptr, report);
+  Check(report.Gap < Single, "sphere within a sphere");
+  const Comparison comparison = Compare(scene, result);
+  Check(comparison.Unlisted < 1.5e-4, "entries of the sphere within");
+  Check(comparison.After < comparison.Before, "the sphere within is closer to the exact matrix");
+}
+
+//------------------------------------------------------------------------------
+// The change is the smallest: its sum of squares over the estimates is stationary against closed
+// loops i-j-k-l that keep the row sums.
+void TestLeastSquares()
+{
+  Case scene(40);
+  scene.Perturb(1, 0.1);
+  for (vtkPartlyVisiblePair& pair : scene.Pairs)
+  {
+    pair.Error *= 1.0 + static_cast<double>((pair.I * 7 + pair.J * 3) % 5);
+  }
+  vtkViewFactorsResult result;
+  scene.Close(result, 0.0);
+  std::map<std::pair<vtkIdType, vtkIdType>, double> slopes;
+  double largest = 0.0;
+  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  {
+    const double slope = (result.Exchange->GetValue(pair.I, pair.J) - pair.Value) / pair.Error;
+    slopes[{ pair.I, pair.J }] = slope;
+    largest = std::max(largest, std::abs(slope));
+  }
+  for (vtkIdType i = 0; i + 3 < 40; ++i)
+  {
+    const double loop = slopes[{ i, i + 1 }] - slopes[{ i + 1, i + 2 }] + slopes[{ i + 2, i + 3 }] -
+      slopes[{ i, i + 3 }];
+    CheckClose(loop, 0.0, 1e-5 * largest, "the change is the smallest");
+  }
+}
+
+//------------------------------------------------------------------------------
+// Errors that only the few pairs that cause them can mend: bounds are met on the way.
+void TestBounds()
+{
+  Case scene(300);
+  scene.Perturb(7, 0.2);
+  // Nothing visible where half is open, and all open where half is: the estimates say less.
+  for (std::size_t k = 0; k < scene.Pairs.size(); k += 3)
+  {
+    vtkPartlyVisiblePair& pair = scene.Pairs[k];
+    pair.Value = k % 2 == 0 ? 0.0 : 0.98 * pair.Open;
+    pair.Error = 5.0 * pair.Error;
+  }
+  vtkViewFactorsResult result;
+  const vtkViewFactorClosure::Report report = scene.Close(result, 1e-7);
+  Check(report.Gap < Single, "closed at the bounds");
+  const Comparison comparison = Compare(scene, result);
+  Check(comparison.After < comparison.Before, "closer to the exact matrix at the bounds");
+  vtkIdType atBounds = 0;
+  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  {
+    const double value = result.Exchange->GetValue(pair.I, pair.J);
+    atBounds += value == 0.0 || value > pair.Open * (1.0 - 1e-7) ? 1 : 0;
+  }
+  Check(atBounds > 10, "some pairs are at their bounds");
+}
+
+//------------------------------------------------------------------------------
+// An open row keeps its sum and its entries to the last bit.
+void TestOpenRows()
+{
+  Case scene(300);
+  scene.Perturb(5, 0.3);
+  for (vtkIdType i = 0; i < 300; i += 10)
+  {
+    scene.Closed[i] = false;
+  }
+  std::vector<vtkPartlyVisiblePair> pairs;
+  const vtkViewFactorsResult before = scene.MakeResult(pairs);
+  vtkViewFactorsResult result;
+  const vtkViewFactorClosure::Report report = scene.Close(result, 1e-5);
+  Check(report.Gap < Single, "closed rows beside open ones");
+  for (vtkIdType i = 0; i < 300; ++i)
+  {
+    for (vtkIdType j = 0; !scene.Closed[i] && j < 300; ++j)
+    {
+      Check(result.Exchange->GetValue(i, j) == before.Exchange->GetValue(i, j),
+        "entries of open rows stay");
+    }
+    CheckClose(SumRow(result, i), scene.Closed[i] ? 1.0 : SumRow(before, i), Single, "row sum");
+  }
+}
+
+//------------------------------------------------------------------------------
+// Where the entries may not move far enough they go to their bounds, and the gap says so.
+void TestUnclosable()
+{
+  Case scene(100);
+  scene.Perturb(1, 0.0);
+  for (vtkPartlyVisiblePair& pair : scene.Pairs)
+  {
+    pair.Value = 0.4 * pair.Value;
+    pair.Open = 0.25 * pair.Open;
+    pair.Error = 0.1 * pair.Value;
+  }
+  vtkViewFactorsResult result;
+  vtkViewFactorClosure::Report report = scene.Close(result, 1e-6);
+  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  {
+    CheckClose(result.Exchange->GetValue(pair.I, pair.J), pair.Open, 1e-7, "all that is open");
+  }
+  // The diagonal has all of its share, the other entries half of it.
+  double gap = 0.0;
+  for (const double area : scene.Areas)
+  {
+    gap = std::max(gap, 0.5 * (1.0 - area / scene.Total));
+  }
+  CheckClose(report.Gap, gap, 1e-5, "gap");
+
+  // Without pairs: every entry may shrink by its error, no more.
+  scene.Pairs.clear();
+  for (double& area : scene.Areas)
+  {
+    area *= 1.01;
+  }
+  report = scene.Close(result, 1e-3);
+  CheckClose(report.Gap, 0.01 - 1.01e-3, 1e-3, "gap of a matrix without pairs");
+  CheckClose(report.Change, 1.01e-3, 1e-3, "change of a matrix without pairs");
+}
+
+//------------------------------------------------------------------------------
+// Nothing to do, and no room to do it in.
+void TestNothing()
+{
+  Case scene(50);
+  vtkViewFactorsResult result;
+  vtkViewFactorClosure::Report report = scene.Close(result, 1e-3);
+  Check(report.Change < 1e-7 && report.Gap < Single, "a matrix that is closed stays");
+  scene.Closed.assign(50, false);
+  scene.Perturb(2, 0.5);
+  report = scene.Close(result, 1e-3);
+  Check(report.Change == 0.0 && report.Gap == 0.0, "an open scene stays");
+  CheckClose(result.RowSums[3], SumRow(result, 3), 1e-13, "row sums of an open scene");
+}
+
+//------------------------------------------------------------------------------
+// Ranks that hold the parts of a matrix find what one rank finds.
+void TestRanks()
+{
+  Case scene(700);
+  scene.Perturb(5, 0.3);
+  vtkViewFactorsResult whole;
+  const vtkViewFactorClosure::Report expected = scene.Close(whole, 1e-5);
+  constexpr int ranks = 4;
+  std::vector<vtkViewFactorsResult> results(ranks);
+  RunRanks(ranks,
+    [&](vtkMultiProcessController* controller, int rank)
+    {
+      std::vector<vtkPartlyVisiblePair> pairs;
+      results[rank] = scene.MakeResult(pairs, rank, ranks);
+      vtkViewFactorClosure::Report report;
+      Check(
+        vtkViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5, controller, report),
+        "closure on several ranks");
+      CheckClose(report.Change, expected.Change, 1e-6, "change on several ranks");
+      Check(report.Gap < Single, "gap on several ranks");
+    });
+  for (vtkIdType i = 0; i < 700; i += 3)
+  {
+    for (vtkIdType j = 0; j < 700; j += 7)
+    {
+      double sum = 0.0;
+      for (const vtkViewFactorsResult& result : results)
+      {
+        sum += result.Exchange->GetValue(i, j);
+      }
+      CheckClose(sum, whole.Exchange->GetValue(i, j), 2e-7, "entry of the parts");
+    }
+    CheckClose(results[1].RowSums[i], whole.RowSums[i], 1e-7, "row sum on several ranks");
+  }
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestViewFactorClosure(int, char*[])
+{
+  TestClosedScene(64, 0.0);
+  TestClosedScene(300, 1e-6);
+  TestClosedScene(520, 1e-4);
+  TestLeastSquares();
+  TestSphereWithinSphere();
+  TestBounds();
+  TestOpenRows();
+  TestUnclosable();
+  TestNothing();
+  TestRanks();
+  return Result();
+}
