@@ -45,8 +45,8 @@ struct RulePoints
   const double* Weights;
 };
 
-/// Number of rules, of degrees 1, 2, 4 and 5.
-constexpr int NumberOfRules = 4;
+/// Number of rules, of degrees 1, 2, 4, 5 and 8.
+constexpr int NumberOfRules = 5;
 
 struct Estimate
 {
@@ -65,9 +65,14 @@ double GetArea(const Polygon& polygon);
 /// Points of a rule on one triangle; a polygon has as many for each triangle of its fan (corners -
 /// 2).
 int GetNumberOfRulePoints(int rule);
-constexpr int MaximumRulePoints = 7 * MaximumCorners;
+constexpr int MaximumRulePoints = 16 * MaximumCorners;
 
 void MakeRule(const Polygon& polygon, int rule, Vector* points, double* weights);
+
+/// The same degree with fewer points for quadrilaterals: Gauss points in both of its parameters.
+/// Rule 0, the centroid, is one point for all: callers that know it need not ask.
+int GetNumberOfRulePoints(int rule, int corners);
+void MakeCompactRule(const Polygon& polygon, int rule, Vector* points, double* weights);
 
 /**
  * The cheapest rule for a polygon of this radius (around its centroid) seen from `distance` (a
