@@ -155,8 +155,8 @@ LT_INLINE void IntegrateLanes(const Row& row, const Patches& rows, int rowCount,
     const double x = rows.Points[0][offset];
     const double y = rows.Points[1][offset];
     const double z = rows.Points[2][offset];
-    Wide height = normals[0] * (centroids[0] - x) + normals[1] * (centroids[1] - y) +
-      normals[2] * (centroids[2] - z);
+    Wide height = normals[0] * (x - centroids[0]) + normals[1] * (y - centroids[1]) +
+      normals[2] * (z - centroids[2]);
     Clamp(height);
     Wide fourth[Count];
 #pragma GCC unroll 25

@@ -20,6 +20,8 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr double ClipTolerance = 1e-12;
 // Bisections of an edge: enough to resolve the logarithm at a shared corner to rounding.
 constexpr int MaximumDepth = 24;
+// Triangles that an integral over points may take.
+constexpr int MaximumTriangles = 4000;
 // Relative error of a double integral over two edges by rounding, lengths being of order one.
 constexpr double Rounding = 4e-16;
 
@@ -192,6 +194,114 @@ Vector GetMiddle(const Polygon& polygon)
   }
   return sum / polygon.Count;
 }
+
+//------------------------------------------------------------------------------
+// The integral over one polygon of the part of its light that falls on the other, which is exact at
+// each point (Lambert 1760): a rule on triangles that are cut into four where it has not settled.
+class PointIntegral
+{
+public:
+  PointIntegral(const Polygon& outer, const Polygon& inner) : Outer(outer), Inner(inner) {}
+
+  Estimate Integrate(double tolerance) const
+  {
+    Estimate total;
+    int budget = MaximumTriangles;
+    Polygon triangle = this->Outer;
+    triangle.Count = 3;
+    for (int corner = 1; corner + 1 < this->Outer.Count; ++corner)
+    {
+      triangle.Corners[1] = this->Outer.Corners[corner];
+      triangle.Corners[2] = this->Outer.Corners[corner + 1];
+      const Estimate part =
+        this->Refine(triangle, this->IntegrateTriangle(triangle), tolerance, 0, budget);
+      total.Value += part.Value;
+      total.Error += part.Error;
+    }
+    // Angles come to some roundings of 1.
+    total.Error += 4.0 * Rounding * vtkPolygonExchange::GetArea(this->Outer);
+    return total;
+  }
+
+private:
+  double GetFactor(const Vector& x) const
+  {
+    double sum = 0.0;
+    Vector from = this->Inner.Corners[this->Inner.Count - 1] - x;
+    for (int corner = 0; corner < this->Inner.Count; ++corner)
+    {
+      const Vector to = this->Inner.Corners[corner] - x;
+      const Vector normal = from.cross(to);
+      const double sine = normal.norm();
+      if (sine > 0.0)
+      {
+        sum -= std::atan2(sine, from.dot(to)) * normal.dot(this->Outer.Normal) / sine;
+      }
+      from = to;
+    }
+    return std::max(0.0, sum / (2.0 * Pi));
+  }
+
+  double IntegrateTriangle(const Polygon& triangle) const
+  {
+    constexpr int rule = vtkPolygonExchange::NumberOfRules - 1;
+    Vector points[TriangleRules[rule].Points];
+    double weights[TriangleRules[rule].Points];
+    vtkPolygonExchange::MakeRule(triangle, rule, points, weights);
+    double sum = 0.0;
+    for (int point = 0; point < TriangleRules[rule].Points; ++point)
+    {
+      sum += weights[point] * this->GetFactor(points[point]);
+    }
+    return sum;
+  }
+
+  Estimate Refine(const Polygon& triangle, double whole, double tolerance, int depth,
+    int& budget) const
+  {
+    Polygon parts[4];
+    double values[4];
+    double sum = 0.0;
+    for (int part = 0; part < 4; ++part)
+    {
+      parts[part] = GetQuarter(triangle, part);
+      values[part] = this->IntegrateTriangle(parts[part]);
+      sum += values[part];
+    }
+    budget -= 4;
+    const double error = std::abs(sum - whole);
+    if (error <= tolerance || depth == MaximumDepth || budget <= 0)
+    {
+      return { sum, error };
+    }
+    Estimate total;
+    for (int part = 0; part < 4; ++part)
+    {
+      const Estimate refined =
+        this->Refine(parts[part], values[part], 0.5 * tolerance, depth + 1, budget);
+      total.Value += refined.Value;
+      total.Error += refined.Error;
+    }
+    return total;
+  }
+
+  // Three at the corners and one in the middle.
+  static Polygon GetQuarter(const Polygon& triangle, int part)
+  {
+    Polygon quarter;
+    quarter.Count = 3;
+    quarter.Normal = triangle.Normal;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const int partner = part == 3 ? (corner + 1) % 3 : part;
+      quarter.Corners[corner] = 0.5 * (triangle.Corners[corner] + triangle.Corners[partner]);
+    }
+    return quarter;
+  }
+
+  const Polygon& Outer;
+  const Polygon& Inner;
+};
 } // namespace
 
 namespace vtkPolygonExchange
@@ -417,5 +527,25 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
   }
   const double unit = scale * scale / (2.0 * Pi);
   return { std::max(0.0, unit * total.Value), unit * total.Error };
+}
+
+//------------------------------------------------------------------------------
+Estimate IntegratePoints(const Polygon& a, const Polygon& b, double tolerance)
+{
+  const bool swap = GetArea(a) > GetArea(b);
+  const PointIntegral integral(swap ? b : a, swap ? a : b);
+  return integral.Integrate(tolerance);
+}
+
+//------------------------------------------------------------------------------
+Estimate Integrate(const Polygon& a, const Polygon& b, double tolerance)
+{
+  const Estimate contours = IntegrateContours(a, b, tolerance);
+  if (contours.Error <= tolerance)
+  {
+    return contours;
+  }
+  const Estimate points = IntegratePoints(a, b, tolerance);
+  return points.Error < contours.Error ? points : contours;
 }
 } // namespace vtkPolygonExchange

@@ -72,6 +72,8 @@ void MakeRule(const Polygon& polygon, int rule, Vector* points, double* weights)
 /// The same degree with fewer points for quadrilaterals: Gauss points in both of its parameters.
 /// Rule 0, the centroid, is one point for all: callers that know it need not ask.
 int GetNumberOfRulePoints(int rule, int corners);
+/// Most points of a triangle or a quadrilateral.
+constexpr int MaximumCompactPoints = 25;
 void MakeCompactRule(const Polygon& polygon, int rule, Vector* points, double* weights);
 
 /**
@@ -90,6 +92,16 @@ double IntegrateRules(const RulePoints& a, const Vector& normalA, const RulePoin
  * other: clip them first. `tolerance` is absolute, in units of area.
  */
 Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance);
+
+/**
+ * The exchange by a rule of degree 8 on triangles of the smaller polygon, cut until it settles, and
+ * the closed form for each of its points: its rounding is relative to the smaller polygon, where
+ * that of the contour integral grows with the ratio of the sizes. Clip the polygons first.
+ */
+Estimate IntegratePoints(const Polygon& a, const Polygon& b, double tolerance);
+
+/// The contour integral, or, where it misses the tolerance, the better of the two.
+Estimate Integrate(const Polygon& a, const Polygon& b, double tolerance);
 } // namespace vtkPolygonExchange
 
 #endif

@@ -1,0 +1,756 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOpenExchange.h"
+
+#include "vtkExchangeKernels.h"
+#include "vtkPatchTree.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace
+{
+using vtkPolygonExchange::Estimate;
+using vtkPolygonExchange::NumberOfRules;
+using vtkPolygonExchange::Polygon;
+using Vector = vtkPatchScene::Vector;
+using Node = vtkPatchTree::Node;
+
+constexpr double Pi = 3.14159265358979323846;
+// The shares of the tolerance, a bound on the error of a whole row: a rule's error on each side is
+// relative to area / (pi distance^2), which sums to a few over a row; contours are few per row (a
+// patch has a few dozen near ones).
+constexpr double RuleShare = 1.0 / 16.0;
+constexpr double ContourShare = 0.01;
+// Heights below this part of the extent of what is looked at are rounding: as in
+// vtkPolygonExchange::Clip.
+constexpr double PlaneTolerance = 1e-12;
+// Nodes of at most this many patches are not cut further: their pairs choose their own rules.
+constexpr vtkIdType RowSize = vtkExchangeKernels::Lanes;
+// Nodes of at most this many patches take one rule even where their far pairs could do with less.
+constexpr vtkIdType UniformSize = 32;
+
+// A rule on one polygon, the other polygon being a point y with a normal: the integrand is h g /
+// |y - x|^4, where the height h of y over the polygon's plane is the same for all x, and the height
+// g of x over the plane of y changes with the sine s of the angle between the planes. The error is
+// at most
+//
+//   C q^(p + 1) / (1 - q)^3 * (h / D) * (g / D + s) * area / D^2,  q = radius / D < LargestRatio,
+//
+// with D = |y - c| and g for the point c around which the radius is, p the degree. C is one and a
+// half times the largest seen in experiments with q from 0.05 to 0.7, all orientations (many of
+// them grazing or parallel) and aspect ratios to 100: 20,000 triangles for each q around their
+// centroid; and as many triangles around any point (the fans of clipped polygons), rectangles,
+// parallelograms and quadrilaterals.
+constexpr double LargestRatio = 0.7;
+constexpr double TriangleConstants[NumberOfRules] = { 1.8, 0.21, 0.13, 0.4, 0.018 };
+constexpr double PolygonConstants[NumberOfRules] = { 3.3, 0.7, 0.4, 0.45, 0.14 };
+constexpr int Degrees[NumberOfRules] = { 1, 2, 4, 5, 8 };
+
+//------------------------------------------------------------------------------
+// One side of a pair (or of all pairs of two nodes).
+struct Side
+{
+  double Radius;
+  double Distance; ///< D, at least
+  double Height;   ///< h, at most
+  double Facing;   ///< g + s D, at most
+  double Sum;      ///< over the other side's patches, of area_i area_j / pi
+
+  double GetRatio() const { return this->Radius / this->Distance; }
+};
+
+//------------------------------------------------------------------------------
+// The cheapest rule whose error, relative to area * area / (pi D^2), is below `tolerance`, or -1.
+int ChooseRule(const Side& side, const double* constants, double tolerance, double& error)
+{
+  if (!(side.Radius < LargestRatio * side.Distance))
+  {
+    return -1;
+  }
+  const double ratio = side.GetRatio();
+  const double rest = 1.0 - ratio;
+  const double common = std::min(1.0, side.Height / side.Distance) *
+    std::min(2.0, side.Facing / side.Distance) / (rest * rest * rest);
+  double power = ratio;
+  int degree = 0;
+  for (int rule = 0; rule < NumberOfRules; ++rule)
+  {
+    for (; degree < Degrees[rule]; ++degree)
+    {
+      power *= ratio;
+    }
+    error = constants[rule] * power * common;
+    if (error <= tolerance)
+    {
+      return rule;
+    }
+  }
+  return -1;
+}
+
+//------------------------------------------------------------------------------
+// Two nodes (or more exactly: all pairs of their patches) as seen from each other.
+struct View
+{
+  double Nearest = 0.0;  ///< between centroids, at least
+  double Furthest = 0.0; ///< between centroids, at most
+  // Heights of the points of one over the planes of the other, at most and at least.
+  double HighestOfI = 0.0;
+  double LowestOfI = 0.0;
+  double HighestOfJ = 0.0;
+  double LowestOfJ = 0.0;
+  double Rounding = 0.0; ///< heights below this are none
+  double Sine = 1.0;     ///< of the angle between planes, at most
+
+  bool MayFace() const
+  {
+    return this->HighestOfI > this->Rounding && this->HighestOfJ > this->Rounding;
+  }
+  bool NoHorizonCrosses() const
+  {
+    return this->LowestOfI >= -this->Rounding && this->LowestOfJ >= -this->Rounding;
+  }
+};
+
+// What a scene knows beyond vtkPatchTree::Node: how far normals leave the axis of the cone (whose
+// cosine cannot tell 1e-9 from 0), and the slab across the axis that holds all corners.
+struct Slab
+{
+  double Chord = 0.0;
+  double Sine = 0.0;
+  double Low = 0.0;
+  double High = 0.0;
+};
+
+struct Heights
+{
+  double Lowest;
+  double Highest;
+};
+} // namespace
+
+//------------------------------------------------------------------------------
+struct vtkOpenExchange::Internals
+{
+  const vtkPatchScene& Scene;
+  const double Tolerance;
+
+  Internals(const vtkPatchScene& scene, double tolerance);
+
+  // Structure of arrays, in the order of the patches.
+  void FillPatches();
+  void FillRule(int rule);
+  void FillSlabs();
+  vtkExchangeKernels::Patches GetPatches(int rule) const;
+  int GetRuleSize(int rule, vtkIdType first, vtkIdType last) const;
+  bool HasLargePolygons(vtkIdType first, vtkIdType last) const
+  {
+    return this->LargePolygons[last] > this->LargePolygons[first];
+  }
+  const double* GetConstants(vtkIdType first, vtkIdType last) const
+  {
+    const bool triangles = this->Quadrilaterals[last] == this->Quadrilaterals[first] &&
+      !this->HasLargePolygons(first, last);
+    return triangles ? TriangleConstants : PolygonConstants;
+  }
+
+  Heights GetHeights(int over, int of, double extent) const;
+  View GetView(int nodeI, int nodeJ) const;
+
+  bool NeedsClip(vtkIdType i, vtkIdType j) const;
+  bool Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const;
+  double IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j, int ruleJ) const;
+  Estimate IntegrateNear(vtkIdType i, vtkIdType j) const;
+  double Limit(vtkIdType i, vtkIdType j, double value) const
+  {
+    const std::vector<double>& areas = this->Scene.GetAreas();
+    return std::max(0.0, std::min(value, std::min(areas[i], areas[j])));
+  }
+
+  std::vector<double> Normals[3];
+  std::vector<double> Centroids[3];
+  std::vector<double> Radii;
+  struct RulePoints
+  {
+    std::vector<double> Points[3];
+    std::vector<double> Weights;
+  };
+  RulePoints Rules[NumberOfRules];
+  long Stride = 0;
+  // Sums over the patches before each: of quadrilaterals, and of polygons with more corners, which
+  // have no points in Rules but the one of rule 0.
+  std::vector<vtkIdType> Quadrilaterals;
+  std::vector<vtkIdType> LargePolygons;
+  std::vector<Slab> Slabs;
+};
+
+namespace
+{
+//------------------------------------------------------------------------------
+// One pair: what the bounds of the errors need.
+struct Pair
+{
+  Side SideI;
+  Side SideJ;
+  double Margin; ///< below 0 a horizon may cross
+  bool Facing;   ///< false is certain
+};
+
+//------------------------------------------------------------------------------
+Pair MakePair(const vtkPatchScene& scene, vtkIdType i, vtkIdType j)
+{
+  const Vector between = scene.GetCentroid(j) - scene.GetCentroid(i);
+  const Vector& normalI = scene.GetNormal(i);
+  const Vector& normalJ = scene.GetNormal(j);
+  const double radiusI = scene.GetRadius(i);
+  const double radiusJ = scene.GetRadius(j);
+  const double heightOfI = -between.dot(normalJ);
+  const double heightOfJ = between.dot(normalI);
+  const double sine = std::min(1.0, normalI.cross(normalJ).norm());
+  const double reachI = radiusI * sine;
+  const double reachJ = radiusJ * sine;
+  const double distance = between.norm();
+  const double distanceI = distance - radiusJ;
+  const double distanceJ = distance - radiusI;
+  const double sum = scene.GetAreas()[i] * scene.GetAreas()[j] / Pi;
+  Pair pair;
+  pair.SideI = { radiusI, distanceI, std::abs(heightOfJ) + reachJ,
+    std::abs(heightOfI) + sine * distanceI, sum };
+  pair.SideJ = { radiusJ, distanceJ, std::abs(heightOfI) + reachI,
+    std::abs(heightOfJ) + sine * distanceJ, sum };
+  pair.Margin = std::min(heightOfI - reachI, heightOfJ - reachJ);
+  pair.Facing = heightOfI > -reachI && heightOfJ > -reachJ;
+  return pair;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkOpenExchange::Internals::Internals(const vtkPatchScene& scene, double tolerance)
+  : Scene(scene), Tolerance(tolerance)
+{
+  const vtkIdType patches = scene.GetNumberOfPatches();
+  this->Quadrilaterals.assign(patches + 1, 0);
+  this->LargePolygons.assign(patches + 1, 0);
+  for (vtkIdType patch = 0; patch < patches; ++patch)
+  {
+    const int corners = scene.GetNumberOfCorners(patch);
+    this->Quadrilaterals[patch + 1] = this->Quadrilaterals[patch] + (corners == 4 ? 1 : 0);
+    this->LargePolygons[patch + 1] = this->LargePolygons[patch] + (corners > 4 ? 1 : 0);
+  }
+  this->Stride = static_cast<long>(patches) + vtkExchangeKernels::Lanes;
+  this->FillPatches();
+  for (int rule = 0; rule < NumberOfRules; ++rule)
+  {
+    this->FillRule(rule);
+  }
+  this->FillSlabs();
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenExchange::Internals::FillPatches()
+{
+  const vtkIdType patches = this->Scene.GetNumberOfPatches();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Normals[axis].assign(this->Stride, 0.0);
+    this->Centroids[axis].assign(this->Stride, 0.0);
+    for (vtkIdType patch = 0; patch < patches; ++patch)
+    {
+      this->Normals[axis][patch] = this->Scene.GetNormal(patch)[axis];
+      this->Centroids[axis][patch] = this->Scene.GetCentroid(patch)[axis];
+    }
+  }
+  this->Radii.assign(this->Stride, 1.0);
+  for (vtkIdType patch = 0; patch < patches; ++patch)
+  {
+    this->Radii[patch] = this->Scene.GetRadius(patch);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenExchange::Internals::FillRule(int rule)
+{
+  const vtkIdType patches = this->Scene.GetNumberOfPatches();
+  const int size = this->GetRuleSize(rule, 0, patches);
+  RulePoints& table = this->Rules[rule];
+  table.Weights.assign(size * this->Stride, 0.0);
+  for (std::vector<double>& coordinates : table.Points)
+  {
+    coordinates.assign(size * this->Stride, 0.0);
+  }
+  Polygon polygon;
+  Vector points[vtkPolygonExchange::MaximumCompactPoints];
+  double weights[vtkPolygonExchange::MaximumCompactPoints];
+  for (vtkIdType patch = 0; patch < patches; ++patch)
+  {
+    vtkPolygonExchange::MakePolygon(this->Scene, patch, polygon);
+    int count = 1;
+    points[0] = this->Scene.GetCentroid(patch);
+    weights[0] = rule == 0 ? this->Scene.GetAreas()[patch] : 0.0;
+    if (rule > 0 && polygon.Count <= 4)
+    {
+      count = vtkPolygonExchange::GetNumberOfRulePoints(rule, polygon.Count);
+      vtkPolygonExchange::MakeCompactRule(polygon, rule, points, weights);
+    }
+    for (int point = 0; point < size; ++point)
+    {
+      const std::size_t at = point * this->Stride + patch;
+      const int source = point < count ? point : 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        table.Points[axis][at] = points[source][axis];
+      }
+      table.Weights[at] = point < count ? weights[point] : 0.0;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenExchange::Internals::FillSlabs()
+{
+  const std::vector<Node>& nodes = this->Scene.GetTree().GetNodes();
+  this->Slabs.resize(nodes.size());
+  for (std::size_t index = 0; index < nodes.size(); ++index)
+  {
+    const Node& node = nodes[index];
+    Slab& slab = this->Slabs[index];
+    slab.Low = node.ConeAxis.dot(this->Scene.GetCorner(node.First, 0));
+    slab.High = slab.Low;
+    for (vtkIdType patch = node.First; patch < node.Last; ++patch)
+    {
+      slab.Chord = std::max(slab.Chord, (this->Scene.GetNormal(patch) - node.ConeAxis).norm());
+      for (int corner = 0; corner < this->Scene.GetNumberOfCorners(patch); ++corner)
+      {
+        const double height = node.ConeAxis.dot(this->Scene.GetCorner(patch, corner));
+        slab.Low = std::min(slab.Low, height);
+        slab.High = std::max(slab.High, height);
+      }
+    }
+    const double half = 0.25 * slab.Chord * slab.Chord;
+    slab.Sine = half < 0.5 ? slab.Chord * std::sqrt(1.0 - half) : 1.0;
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkExchangeKernels::Patches vtkOpenExchange::Internals::GetPatches(int rule) const
+{
+  const RulePoints& table = this->Rules[rule];
+  vtkExchangeKernels::Patches patches;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    patches.Normals[axis] = this->Normals[axis].data();
+    patches.Centroids[axis] = this->Centroids[axis].data();
+    patches.Points[axis] = table.Points[axis].data();
+  }
+  patches.Radii = this->Radii.data();
+  patches.Weights = table.Weights.data();
+  patches.Stride = this->Stride;
+  return patches;
+}
+
+//------------------------------------------------------------------------------
+int vtkOpenExchange::Internals::GetRuleSize(int rule, vtkIdType first, vtkIdType last) const
+{
+  const bool quadrilaterals = this->Quadrilaterals[last] > this->Quadrilaterals[first];
+  return vtkPolygonExchange::GetNumberOfRulePoints(rule, quadrilaterals ? 4 : 3);
+}
+
+//------------------------------------------------------------------------------
+// Heights of the points of one node over the planes of the other's patches, by the axis of the
+// other's cone. Points of a plane parallel to it are known better by their slab than by their box.
+Heights vtkOpenExchange::Internals::GetHeights(int over, int of, double extent) const
+{
+  const Node& nodeOver = this->Scene.GetTree().GetNode(over);
+  const Node& nodeOf = this->Scene.GetTree().GetNode(of);
+  const Slab& slabOver = this->Slabs[over];
+  const Slab& slabOf = this->Slabs[of];
+  const Vector& axis = nodeOver.ConeAxis;
+  const double center = axis.dot(nodeOf.Lower + nodeOf.Upper) / 2.0;
+  const double half = axis.cwiseAbs().dot(nodeOf.Upper - nodeOf.Lower) / 2.0;
+  double low = center - half;
+  double high = center + half;
+  const bool same = axis.dot(nodeOf.ConeAxis) > 0.0;
+  const Vector difference = same ? Vector(axis - nodeOf.ConeAxis) : Vector(axis + nodeOf.ConeAxis);
+  // Scene coordinates are below 1.
+  const double tilt = difference.norm();
+  low = std::max(low, (same ? slabOf.Low : -slabOf.High) - tilt);
+  high = std::min(high, (same ? slabOf.High : -slabOf.Low) + tilt);
+  const double spread = slabOver.Chord * extent;
+  return { low - slabOver.High - spread, high - slabOver.Low + slabOver.Sine * extent };
+}
+
+//------------------------------------------------------------------------------
+View vtkOpenExchange::Internals::GetView(int nodeI, int nodeJ) const
+{
+  const Node& a = this->Scene.GetTree().GetNode(nodeI);
+  const Node& b = this->Scene.GetTree().GetNode(nodeJ);
+  View view;
+  const Vector gap =
+    (a.CentroidLower - b.CentroidUpper).cwiseMax(b.CentroidLower - a.CentroidUpper);
+  view.Nearest = gap.cwiseMax(0.0).norm();
+  view.Furthest =
+    (a.CentroidUpper - b.CentroidLower).cwiseMax(b.CentroidUpper - a.CentroidLower).norm();
+  const double extent = (a.Upper - b.Lower).cwiseMax(b.Upper - a.Lower).norm();
+  const Heights ofI = this->GetHeights(nodeJ, nodeI, extent);
+  const Heights ofJ = this->GetHeights(nodeI, nodeJ, extent);
+  view.HighestOfI = ofI.Highest;
+  view.LowestOfI = ofI.Lowest;
+  view.HighestOfJ = ofJ.Highest;
+  view.LowestOfJ = ofJ.Lowest;
+  view.Rounding = PlaneTolerance * extent;
+  view.Sine = std::min(1.0,
+    a.ConeAxis.cross(b.ConeAxis).norm() + this->Slabs[nodeI].Chord + this->Slabs[nodeJ].Chord);
+  return view;
+}
+
+//------------------------------------------------------------------------------
+// Whether the plane of one patch passes through the other.
+bool vtkOpenExchange::Internals::NeedsClip(vtkIdType i, vtkIdType j) const
+{
+  const auto reaches = [this](vtkIdType over, vtkIdType of)
+  {
+    const Vector& normal = this->Scene.GetNormal(over);
+    const Vector& origin = this->Scene.GetCorner(over, 0);
+    for (int corner = 0; corner < this->Scene.GetNumberOfCorners(of); ++corner)
+    {
+      const Vector ray = this->Scene.GetCorner(of, corner) - origin;
+      const double height = ray.dot(normal);
+      if (height < 0.0 && height * height > PlaneTolerance * PlaneTolerance * ray.squaredNorm())
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  return reaches(i, j) || reaches(j, i);
+}
+
+//------------------------------------------------------------------------------
+bool vtkOpenExchange::Internals::Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const
+{
+  vtkPolygonExchange::MakePolygon(this->Scene, i, a);
+  vtkPolygonExchange::MakePolygon(this->Scene, j, b);
+  return vtkPolygonExchange::Clip(b, this->Scene.GetCorner(i, 0), a.Normal) &&
+    vtkPolygonExchange::Clip(a, this->Scene.GetCorner(j, 0), b.Normal);
+}
+
+//------------------------------------------------------------------------------
+double vtkOpenExchange::Internals::IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j,
+  int ruleJ) const
+{
+  Polygon a, b;
+  if (!this->Clip(i, j, a, b))
+  {
+    return 0.0;
+  }
+  constexpr int most = vtkPolygonExchange::MaximumRulePoints;
+  Vector pointsA[most], pointsB[most];
+  double weightsA[most], weightsB[most];
+  vtkPolygonExchange::MakeRule(a, ruleI, pointsA, weightsA);
+  vtkPolygonExchange::MakeRule(b, ruleJ, pointsB, weightsB);
+  const int countA = vtkPolygonExchange::GetNumberOfRulePoints(ruleI) * (a.Count - 2);
+  const int countB = vtkPolygonExchange::GetNumberOfRulePoints(ruleJ) * (b.Count - 2);
+  return vtkPolygonExchange::IntegrateRules({ countA, pointsA, weightsA }, a.Normal,
+    { countB, pointsB, weightsB }, b.Normal);
+}
+
+//------------------------------------------------------------------------------
+Estimate vtkOpenExchange::Internals::IntegrateNear(vtkIdType i, vtkIdType j) const
+{
+  Polygon a, b;
+  if (!this->Clip(i, j, a, b))
+  {
+    return {};
+  }
+  const double smaller = std::min(this->Scene.GetAreas()[i], this->Scene.GetAreas()[j]);
+  return vtkPolygonExchange::Integrate(a, b, ContourShare * this->Tolerance * smaller);
+}
+
+namespace
+{
+//------------------------------------------------------------------------------
+// One call of vtkOpenExchange::Fill.
+template <typename Internals>
+class Filler
+{
+public:
+  Filler(const Internals& self, int nodeI, int nodeJ, float* values, vtkIdType stride,
+    double* errorsI, double* errorsJ, vtkOpenExchange::Counters& counters)
+    : Self(self), Tree(self.Scene.GetTree()), FirstI(Tree.GetNode(nodeI).First),
+      FirstJ(Tree.GetNode(nodeJ).First), Values(values), Stride(stride), ErrorsI(errorsI),
+      ErrorsJ(errorsJ), Counters(counters)
+  {
+  }
+
+  void Fill(int nodeI, int nodeJ)
+  {
+    const Node& a = this->Tree.GetNode(nodeI);
+    const Node& b = this->Tree.GetNode(nodeJ);
+    const double pairs = nodeI == nodeJ ? 0.5 * a.GetSize() * (a.GetSize() - 1.0)
+                                        : static_cast<double>(a.GetSize()) * b.GetSize();
+    const View view = this->Self.GetView(nodeI, nodeJ);
+    if (!view.MayFace())
+    {
+      this->Counters.Examined += pairs;
+      this->Counters.BackFacing += pairs;
+      return;
+    }
+    if (nodeI != nodeJ && this->FillByOneRule(a, b, view))
+    {
+      this->Counters.Examined += pairs;
+    }
+    else if (a.GetSize() <= RowSize && b.GetSize() <= RowSize)
+    {
+      this->FillPairs(a, b, nodeI == nodeJ);
+    }
+    else
+    {
+      this->Split(nodeI, nodeJ);
+    }
+  }
+
+private:
+  void Split(int nodeI, int nodeJ)
+  {
+    const Node& a = this->Tree.GetNode(nodeI);
+    const Node& b = this->Tree.GetNode(nodeJ);
+    if (nodeI == nodeJ)
+    {
+      this->Fill(a.Left, a.Left);
+      this->Fill(a.Left, a.Left + 1);
+      this->Fill(a.Left + 1, a.Left + 1);
+    }
+    else if (b.GetSize() <= RowSize ||
+      (a.GetSize() > RowSize &&
+        (a.Upper - a.Lower).squaredNorm() > (b.Upper - b.Lower).squaredNorm()))
+    {
+      this->Fill(a.Left, nodeJ);
+      this->Fill(a.Left + 1, nodeJ);
+    }
+    else
+    {
+      this->Fill(nodeI, b.Left);
+      this->Fill(nodeI, b.Left + 1);
+    }
+  }
+
+  bool FillByOneRule(const Node& a, const Node& b, const View& view)
+  {
+    if (this->Self.HasLargePolygons(a.First, a.Last) ||
+      this->Self.HasLargePolygons(b.First, b.Last))
+    {
+      return false;
+    }
+    const double* constantsI = this->Self.GetConstants(a.First, a.Last);
+    const double* constantsJ = this->Self.GetConstants(b.First, b.Last);
+    const double tolerance = RuleShare * this->Self.Tolerance;
+    const auto sideOfI = [&](double distance) -> Side
+    {
+      const double d = distance - b.Radius;
+      return { a.Radius, d, view.HighestOfJ, view.HighestOfI + view.Sine * d, 0.0 };
+    };
+    const auto sideOfJ = [&](double distance) -> Side
+    {
+      const double d = distance - a.Radius;
+      return { b.Radius, d, view.HighestOfI, view.HighestOfJ + view.Sine * d, 0.0 };
+    };
+    double errorI = 0.0;
+    double errorJ = 0.0;
+    const Side sideI = sideOfI(view.Nearest);
+    const Side sideJ = sideOfJ(view.Nearest);
+    const int ruleI = ChooseRule(sideI, constantsI, tolerance, errorI);
+    const int ruleJ = ruleI < 0 ? -1 : ChooseRule(sideJ, constantsJ, tolerance, errorJ);
+    if (ruleJ < 0)
+    {
+      return false;
+    }
+    if (std::max(a.GetSize(), b.GetSize()) > UniformSize)
+    {
+      double ignored = 0.0;
+      const int farI = ChooseRule(sideOfI(view.Furthest), constantsI, tolerance, ignored);
+      const int farJ = ChooseRule(sideOfJ(view.Furthest), constantsJ, tolerance, ignored);
+      if (farI < ruleI || farJ < ruleJ)
+      {
+        return false;
+      }
+    }
+    const double error =
+      (errorI / (sideI.Distance * sideI.Distance) + errorJ / (sideJ.Distance * sideJ.Distance)) /
+      Pi;
+    this->AddErrors(a, b, error);
+    this->FillRows(a, b, ruleI, ruleJ, view.NoHorizonCrosses());
+    return true;
+  }
+
+  void AddErrors(const Node& a, const Node& b, double error)
+  {
+    const std::vector<double>& areas = this->Self.Scene.GetAreas();
+    for (vtkIdType i = a.First; i < a.Last; ++i)
+    {
+      this->ErrorsI[i - this->FirstI] += error * areas[i] * b.Area;
+    }
+    for (vtkIdType j = b.First; j < b.Last; ++j)
+    {
+      this->ErrorsJ[j - this->FirstJ] += error * areas[j] * a.Area;
+    }
+  }
+
+  void FillRows(const Node& a, const Node& b, int ruleI, int ruleJ, bool clear)
+  {
+    double sums[vtkPatchTree::BlockSize];
+    double margins[vtkPatchTree::BlockSize];
+    const vtkExchangeKernels::Patches rows = this->Self.GetPatches(ruleI);
+    const vtkExchangeKernels::Patches columns = this->Self.GetPatches(ruleJ);
+    const int columnCount = this->Self.GetRuleSize(ruleJ, b.First, b.Last);
+    const int size = static_cast<int>(b.GetSize());
+    double facing = 0.0;
+    for (vtkIdType i = a.First; i < a.Last; ++i)
+    {
+      const int rowCount = this->Self.GetRuleSize(ruleI, i, i + 1);
+      vtkExchangeKernels::IntegrateRow(rows, rowCount, i, columns, columnCount, b.First, size, sums,
+        clear ? nullptr : margins);
+      if (!clear)
+      {
+        this->CorrectRow(i, ruleI, b.First, ruleJ, size, sums, margins);
+      }
+      float* row = this->Values + (i - this->FirstI) * this->Stride + (b.First - this->FirstJ);
+      int count = 0;
+      for (int column = 0; column < size; ++column)
+      {
+        row[column] = static_cast<float>(sums[column] * (1.0 / Pi));
+        count += sums[column] > 0.0 ? 1 : 0;
+      }
+      facing += count;
+    }
+    this->Counters.Facing += facing;
+    this->Counters.Rules += facing;
+    this->Counters.BackFacing += static_cast<double>(a.GetSize()) * size - facing;
+  }
+
+  // Where a horizon crosses, the positive parts of cosines are no smooth functions: clip.
+  void CorrectRow(vtkIdType i, int ruleI, vtkIdType first, int ruleJ, int size, double* sums,
+    const double* margins)
+  {
+    for (int column = 0; column < size; ++column)
+    {
+      if (margins[column] < 1.0 && sums[column] > 0.0 && this->Self.NeedsClip(i, first + column))
+      {
+        sums[column] = Pi * this->Self.IntegrateClipped(i, ruleI, first + column, ruleJ);
+      }
+    }
+  }
+
+  void FillPairs(const Node& a, const Node& b, bool same)
+  {
+    for (vtkIdType i = a.First; i < a.Last; ++i)
+    {
+      for (vtkIdType j = same ? i + 1 : b.First; j < b.Last; ++j)
+      {
+        bool byRule = false;
+        const Estimate pair = ComputePair(this->Self, i, j, byRule);
+        this->Counters.Examined += 1.0;
+        if (pair.Value <= 0.0)
+        {
+          this->Counters.BackFacing += 1.0;
+          continue;
+        }
+        this->Counters.Facing += 1.0;
+        (byRule ? this->Counters.Rules : this->Counters.Contours) += 1.0;
+        this->ErrorsI[i - this->FirstI] += pair.Error;
+        this->ErrorsJ[j - this->FirstJ] += pair.Error;
+        this->Values[(i - this->FirstI) * this->Stride + (j - this->FirstJ)] =
+          static_cast<float>(pair.Value);
+      }
+    }
+  }
+
+public:
+  static Estimate ComputePair(const Internals& self, vtkIdType i, vtkIdType j, bool& byRule)
+  {
+    const Pair pair = MakePair(self.Scene, i, j);
+    if (!pair.Facing)
+    {
+      return {};
+    }
+    double errorI = 0.0;
+    double errorJ = 0.0;
+    const double tolerance = RuleShare * self.Tolerance;
+    const int ruleI = ChooseRule(pair.SideI, self.GetConstants(i, i + 1), tolerance, errorI);
+    const int ruleJ =
+      ruleI < 0 ? -1 : ChooseRule(pair.SideJ, self.GetConstants(j, j + 1), tolerance, errorJ);
+    byRule = ruleJ >= 0;
+    Estimate result;
+    if (!byRule)
+    {
+      result = self.IntegrateNear(i, j);
+    }
+    else
+    {
+      result.Error = pair.SideI.Sum *
+        (errorI / (pair.SideI.Distance * pair.SideI.Distance) +
+          errorJ / (pair.SideJ.Distance * pair.SideJ.Distance));
+      const bool crossing = pair.Margin < 0.0 && self.NeedsClip(i, j);
+      if (crossing || self.HasLargePolygons(i, i + 1) || self.HasLargePolygons(j, j + 1))
+      {
+        result.Value = self.IntegrateClipped(i, ruleI, j, ruleJ);
+      }
+      else
+      {
+        vtkExchangeKernels::IntegrateRow(self.GetPatches(ruleI), self.GetRuleSize(ruleI, i, i + 1),
+          i, self.GetPatches(ruleJ), self.GetRuleSize(ruleJ, j, j + 1), j, 1, &result.Value,
+          nullptr);
+        result.Value /= Pi;
+      }
+    }
+    result.Value = self.Limit(i, j, result.Value);
+    return result;
+  }
+
+private:
+  const Internals& Self;
+  const vtkPatchTree& Tree;
+  const vtkIdType FirstI;
+  const vtkIdType FirstJ;
+  float* const Values;
+  const vtkIdType Stride;
+  double* const ErrorsI;
+  double* const ErrorsJ;
+  vtkOpenExchange::Counters& Counters;
+};
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkOpenExchange::vtkOpenExchange(const vtkPatchScene& scene, double tolerance)
+  : Self(new Internals(scene, tolerance))
+{
+}
+
+//------------------------------------------------------------------------------
+vtkOpenExchange::~vtkOpenExchange() = default;
+
+//------------------------------------------------------------------------------
+bool vtkOpenExchange::MayFace(int nodeI, int nodeJ) const
+{
+  return this->Self->GetView(nodeI, nodeJ).MayFace();
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenExchange::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI,
+  double* errorsJ, Counters& counters) const
+{
+  Filler<Internals> filler(*this->Self, nodeI, nodeJ, values, stride, errorsI, errorsJ, counters);
+  filler.Fill(nodeI, nodeJ);
+}
+
+//------------------------------------------------------------------------------
+vtkPolygonExchange::Estimate vtkOpenExchange::Compute(vtkIdType i, vtkIdType j) const
+{
+  // In one order, so that exchanging the two changes not even the rounding.
+  bool byRule = false;
+  return Filler<Internals>::ComputePair(*this->Self, std::min(i, j), std::max(i, j), byRule);
+}

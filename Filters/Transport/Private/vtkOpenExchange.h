@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The exchange between the patches of two nodes of a scene's tree with nothing between them, a
+ * block at a time: what cannot face each other (boxes and cones of normals) costs nothing, far
+ * blocks take one product of Gauss rules for all their pairs in vector instructions, near pairs go
+ * one by one (vtkPolygonExchange). The rule of each block is the cheapest whose error bound keeps
+ * the tolerance.
+ */
+#ifndef vtkOpenExchange_h
+#define vtkOpenExchange_h
+
+#include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkPatchScene.h"
+#include "vtkPolygonExchange.h"
+
+#include <memory>
+
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkOpenExchange
+{
+public:
+  /// Pairs, each counted once. Examined = BackFacing + Facing.
+  struct Counters
+  {
+    double Examined = 0.0;
+    double BackFacing = 0.0; ///< of which no exchange: back to front, or in one plane
+    double Facing = 0.0;
+    double Rules = 0.0;    ///< facing pairs by Gauss rules
+    double Contours = 0.0; ///< facing pairs by contour integrals
+  };
+
+  /// `tolerance`: of the sum of the absolute errors of the view factors of a row.
+  vtkOpenExchange(const vtkPatchScene& scene, double tolerance);
+  ~vtkOpenExchange();
+
+  /// Whether any patch of one node may face any of the other; false is certain.
+  bool MayFace(int nodeI, int nodeJ) const;
+
+  /**
+   * The exchange of all pairs of two nodes of at most vtkPatchTree::BlockSize patches:
+   * values[(i - first of I) * stride + (j - first of J)], in scene units (lengths where the scene's
+   * diagonal is 1). Where the nodes are the same only pairs i < j are written. `values` must be
+   * zero before. Bounds of the errors are added to errorsI[i - first of I] and errorsJ[j - first of
+   * J]. May be called from several threads.
+   */
+  void Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI, double* errorsJ,
+    Counters& counters) const;
+
+  /// The exchange of one pair in double precision.
+  vtkPolygonExchange::Estimate Compute(vtkIdType i, vtkIdType j) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Self;
+};
+
+#endif
