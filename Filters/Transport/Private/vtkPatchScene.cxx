@@ -476,7 +476,7 @@ bool vtkPatchScene::GatherCellArray(vtkDataObject* input, const std::string& nam
   if (missing && components == 0)
   {
     values.clear();
-    error = "The input has no cell array \"" + name + "\".";
+    error = required ? "The input has no cell array \"" + name + "\"." : "";
     return !required;
   }
   if (missing || !ok)
@@ -485,14 +485,33 @@ bool vtkPatchScene::GatherCellArray(vtkDataObject* input, const std::string& nam
       "\" is missing or has another number of components in some blocks: give it to all of them.";
     return false;
   }
-  mine = AllGather(this->Controller, mine);
-  values.resize(mine.size());
+  values = this->GatherTuples(mine, components);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkPatchScene::GatherBlockValues(const std::vector<double>& blockValues) const
+{
+  std::vector<double> mine;
+  for (const LocalCell& local : this->LocalCells)
+  {
+    mine.push_back(blockValues[local.Block]);
+  }
+  return this->GatherTuples(mine, 1);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkPatchScene::GatherTuples(const std::vector<double>& mine,
+  int components) const
+{
+  const std::vector<double> all = AllGather(this->Controller, mine);
+  std::vector<double> values(all.size());
   for (std::size_t polygon = 0; polygon < this->Patches.size(); ++polygon)
   {
-    std::copy_n(mine.begin() + polygon * components, components,
+    std::copy_n(all.begin() + polygon * components, components,
       values.begin() + this->Patches[polygon] * components);
   }
-  return true;
+  return values;
 }
 
 //------------------------------------------------------------------------------

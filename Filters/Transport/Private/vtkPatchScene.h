@@ -96,6 +96,13 @@ public:
     std::vector<double>& values, int& components, std::string& error) const;
 
   /**
+   * A value per block of this rank's input, spread over the patches: one value for all patches of
+   * all ranks. Blocks are what a vtkCompositeDataIterator visits (empty ones are passed over); an
+   * input that is not composite is one block. Collective.
+   */
+  std::vector<double> GatherBlockValues(const std::vector<double>& blockValues) const;
+
+  /**
    * Group the corners of patches into smooth points: at each merged point, patches that meet there
    * with normals closer than `featureAngle` (degrees) and equal `materials` (materialComponents
    * values per patch, may be empty) form one group.
@@ -151,6 +158,8 @@ private:
   bool ComputePatchGeometry(std::string& error);
   const char* ComputeOnePatch(vtkIdType patch);
   const char* CheckShape(vtkIdType patch) const;
+  /// Tuples of this rank's polygons in, those of all patches out.
+  std::vector<double> GatherTuples(const std::vector<double>& mine, int components) const;
   bool ReadLocalArray(vtkDataObject* input, const std::string& name, std::vector<double>& values,
     int& components, std::string& error) const;
   vtkDataArray* FindArray(vtkPolyData* data, const std::string& name, std::string& error) const;
