@@ -1,0 +1,432 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// View factors against values that are known: catalogue configurations (Howell, A Catalog of
+// Radiation Heat Transfer Configuration Factors) on meshes of several levels, scenes of rectangles
+// of which every single factor is known. There Tolerance must bound the sum of the absolute errors
+// of each row, and ViewFactorError must cover that sum.
+#include "ViewFactorTesting.h"
+
+#include <algorithm>
+#include <sstream>
+
+using namespace LightTransportTesting;
+
+namespace
+{
+// The matrix is single precision: no factor, and no sum of factors, can be better than this.
+constexpr double Single = 2e-7;
+
+//------------------------------------------------------------------------------
+template <typename... Values>
+std::string Text(const Values&... values)
+{
+  std::ostringstream stream;
+  (stream << ... << values);
+  return stream.str();
+}
+
+//------------------------------------------------------------------------------
+/// `errors`: of the first rows, sums of absolute errors.
+void CheckRows(vtkViewFactors* factors, const std::vector<double>& errors, const std::string& what)
+{
+  const std::vector<double> estimates = GetCellValues(factors, "ViewFactorError");
+  double worst = 0.0, lack = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+  {
+    worst = std::max(worst, errors[i]);
+    lack = std::max(lack, errors[i] - estimates[i]);
+  }
+  Check(worst <= factors->GetTolerance() + Single,
+    Text(what, ": the error ", worst, " of a row keeps Tolerance ", factors->GetTolerance()));
+  Check(lack <= Single, Text(what, ": the error of a row is ", lack, " above its estimate"));
+}
+
+//------------------------------------------------------------------------------
+// Rectangles: every factor is known
+//------------------------------------------------------------------------------
+
+/// An axis-parallel rectangle.
+struct Rectangle
+{
+  int Axis;
+  Point Low;
+  Point High;
+};
+
+//------------------------------------------------------------------------------
+std::vector<Rectangle> GetRectangles(vtkPolyData* data)
+{
+  std::vector<Rectangle> rectangles(data->GetNumberOfCells());
+  for (std::size_t cell = 0; cell < rectangles.size(); ++cell)
+  {
+    double bounds[6];
+    data->GetCellBounds(static_cast<vtkIdType>(cell), bounds);
+    Rectangle& rectangle = rectangles[cell];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rectangle.Low[axis] = bounds[2 * axis];
+      rectangle.High[axis] = bounds[2 * axis + 1];
+      rectangle.Axis = bounds[2 * axis] == bounds[2 * axis + 1] ? axis : rectangle.Axis;
+    }
+  }
+  return rectangles;
+}
+
+//------------------------------------------------------------------------------
+/// The sum over all ends of four ranges with alternating signs.
+double SumCorners(const std::array<std::array<double, 2>, 4>& ranges,
+  const std::function<double(double, double, double, double)>& term)
+{
+  double sum = 0.0;
+  for (int k = 0; k < 16; ++k)
+  {
+    const int a = k & 1, b = k >> 1 & 1, c = k >> 2 & 1, d = k >> 3;
+    sum += ((a + b + c + d) % 2 ? -1.0 : 1.0) *
+      term(ranges[0][a], ranges[1][b], ranges[2][c], ranges[3][d]);
+  }
+  return sum / (2.0 * vtkMath::Pi());
+}
+
+//------------------------------------------------------------------------------
+/// t atan(t / u) u, also where u = 0.
+double AtanTerm(double t, double u)
+{
+  return u > 0.0 ? t * u * std::atan(t / u) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+/// The exchange A F of two parallel or perpendicular rectangles in front of each other (Howell C-13
+/// and C-15, as sums over corners).
+double GetRectangleExchange(const Rectangle& p, const Rectangle& q)
+{
+  const auto range = [](const Rectangle& r, int axis) {
+    return std::array<double, 2>{ r.Low[axis], r.High[axis] };
+  };
+  if (p.Axis == q.Axis)
+  {
+    const int x = (p.Axis + 1) % 3, y = (p.Axis + 2) % 3;
+    const double z = std::abs(p.Low[p.Axis] - q.Low[p.Axis]);
+    return z == 0.0 ? 0.0
+                    : std::abs(SumCorners({ range(p, x), range(q, x), range(p, y), range(q, y) },
+                        [z](double x1, double x2, double y1, double y2)
+                        {
+                          const double u = x1 - x2, v = y1 - y2;
+                          return AtanTerm(v, std::hypot(u, z)) + AtanTerm(u, std::hypot(v, z)) -
+                            0.5 * z * z * std::log(u * u + v * v + z * z);
+                        }));
+  }
+  const int common = 3 - p.Axis - q.Axis;
+  const double offsetX = q.Low[q.Axis], offsetXi = p.Low[p.Axis];
+  return std::abs(
+    SumCorners({ range(p, q.Axis), range(q, p.Axis), range(p, common), range(q, common) },
+      [=](double x, double xi, double y, double eta)
+      {
+        const double c = std::hypot(x - offsetX, xi - offsetXi), d = y - eta;
+        const double square = c * c + d * d;
+        return square > 0.0 ? AtanTerm(d, c) - 0.25 * (c * c - d * d) * std::log(square) : 0.0;
+      }));
+}
+
+//------------------------------------------------------------------------------
+double GetArea(const Rectangle& r)
+{
+  return (r.High[(r.Axis + 1) % 3] - r.Low[(r.Axis + 1) % 3]) *
+    (r.High[(r.Axis + 2) % 3] - r.Low[(r.Axis + 2) % 3]);
+}
+
+//------------------------------------------------------------------------------
+/// Compare every factor of a scene of rectangles with what `exchange` says.
+void CheckRectangles(vtkPolyData* data, double tolerance, const std::string& what,
+  const std::function<double(const Rectangle&, const Rectangle&)>& exchange)
+{
+  auto factors = ComputeViewFactors(data, tolerance);
+  const std::vector<Rectangle> rectangles = GetRectangles(data);
+  const vtkIdType patches = data->GetNumberOfCells();
+  std::vector<double> errors(patches);
+  for (vtkIdType i = 0; i < patches; ++i)
+  {
+    for (vtkIdType j = 0; j < patches; ++j)
+    {
+      const double exact = exchange(rectangles[i], rectangles[j]) / GetArea(rectangles[i]);
+      errors[i] += std::abs(factors->GetViewFactor(i, j) - exact);
+    }
+  }
+  CheckRows(factors, errors, Text(what, ", Tolerance ", tolerance));
+}
+
+//------------------------------------------------------------------------------
+void TestParallelPlates()
+{
+  const double rows[][4] = { { 1, 1, 1, 0.199824895698387 }, { 1, 1, 0.1, 0.826994522397257 },
+    { 1, 1, 0.01, 0.980416602925973 }, { 1, 1, 0.001, 0.99800563190758 },
+    { 0.1, 10, 1, 0.046708353330323 }, { 1, 1, 10, 0.0031620568387576 },
+    { 1, 1, 100, 3.18288667328292e-5 }, { 2, 1, 1, 0.285875384850715 },
+    { 1, 10, 1, 0.386382489266135 }, { 0.1, 0.1, 0.05, 0.415253283576 } };
+  for (const auto& row : rows)
+  {
+    for (const int n : { 1, 3, 8 })
+    {
+      const double a = row[0], b = row[1], c = row[2];
+      Surface plates;
+      plates.AddGrid({ 0, 0, 0 }, { a, 0, 0 }, { 0, b, 0 }, n, n);
+      plates.AddGrid({ 0, 0, c }, { 0, b, 0 }, { a, 0, 0 }, n, n);
+      auto data = plates.Get();
+      auto factors = ComputeViewFactors(data, 1e-8);
+      const double factor =
+        GetGroupFactor(factors, GetAreas(data), { 0, n * n }, { n * n, 2 * n * n });
+      CheckClose(factor, row[3], Single,
+        Text("parallel plates ", a, " x ", b, ", gap ", c, ", ", n, " x ", n));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestPerpendicularPlates()
+{
+  const double rows[][4] = { { 1, 1, 1, 0.200043776075403 }, { 1, 2, 1, 0.116426301397681 },
+    { 2, 1, 1, 0.232852602795362 }, { 0.1, 1, 1, 0.0432513694006859 },
+    { 1, 0.1, 1, 0.432513694006859 }, { 0.01, 1, 1, 0.00489584926850668 },
+    { 1, 0.01, 1, 0.489584926850668 }, { 10, 1, 1, 0.249209485790311 },
+    { 1, 1, 10, 0.281887806787901 }, { 1, 1, 100, 0.291790067336922 } };
+  for (const auto& row : rows)
+  {
+    for (const int n : { 1, 3, 8 })
+    {
+      const double h = row[0], w = row[1], l = row[2];
+      // The second wall reaches as far below the floor as above it: what is below must not count.
+      for (const double below : { 0.0, h })
+      {
+        Surface plates;
+        plates.AddGrid({ 0, 0, 0 }, { w, 0, 0 }, { 0, l, 0 }, n, n);
+        plates.AddGrid({ 0, 0, -below }, { 0, l, 0 }, { 0, 0, h + below }, n, n);
+        auto data = plates.Get();
+        auto factors = ComputeViewFactors(data, 1e-8);
+        const double factor =
+          GetGroupFactor(factors, GetAreas(data), { 0, n * n }, { n * n, 2 * n * n });
+        CheckClose(factor, row[3], Single,
+          Text("perpendicular plates h ", h, ", w ", w, ", l ", l, ", below ", below, ", ", n,
+            " x ", n));
+      }
+    }
+  }
+  // Both a tenth away from the edge that their planes have in common.
+  Surface apart;
+  apart.AddGrid({ 0.1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+  apart.AddGrid({ 0, 0, 0.1 }, { 0, 1, 0 }, { 0, 0, 1 }, 1, 1);
+  CheckClose(ComputeViewFactors(apart.Get(), 1e-8)->GetViewFactor(0, 1), 0.154206868494109, Single,
+    "perpendicular plates that do not touch");
+}
+
+//------------------------------------------------------------------------------
+// Every pair of patches of a room and of a corridor, near, far and along edges, is known.
+void TestRooms()
+{
+  for (const double tolerance : { 1e-2, 1e-3, 1e-4, 1e-6, 1e-8 })
+  {
+    CheckRectangles(MakeRoom(4), tolerance, "room", GetRectangleExchange);
+    Surface corridor;
+    AddBox(corridor, { 0, 0, 0 }, { 20, 1, 0.25 }, 1.0, true);
+    CheckRectangles(corridor.Get(), tolerance, "corridor", GetRectangleExchange);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Round bodies: as meshes get finer
+//------------------------------------------------------------------------------
+
+/// The radius of the corners of a polygon that has the area of a circle.
+double GetEqualAreaRadius(double radius, int corners)
+{
+  const double angle = 2.0 * vtkMath::Pi() / corners;
+  return radius * std::sqrt(angle / std::sin(angle));
+}
+
+//------------------------------------------------------------------------------
+/// As large as the disc it stands for, so that the error falls with the fourth power of the edge.
+void AddDisc(Surface& surface, double radius, double height, int sectors, bool up)
+{
+  const double corner = GetEqualAreaRadius(radius, sectors);
+  const auto at = [=](int k)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * (k % sectors) / sectors;
+    return Point{ corner * std::cos(angle), corner * std::sin(angle), height };
+  };
+  const Point center{ 0, 0, height };
+  for (int k = 0; k < sectors; ++k)
+  {
+    up ? surface.AddPolygon({ center, at(k), at(k + 1) })
+       : surface.AddPolygon({ center, at(k + 1), at(k) });
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestDiscs()
+{
+  const double rows[][4] = { { 1, 1, 1, 0.381966011250105 }, { 1, 1, 0.1, 0.904875078027496 },
+    { 1, 2, 1, 0.76393202250021 }, { 2, 1, 1, 0.190983005625053 }, { 1, 1, 3, 0.0916730868040161 },
+    { 1, 1, 10, 0.0098048640721517 }, { 0.5, 1, 1, 0.468871125850725 } };
+  for (const auto& row : rows)
+  {
+    for (const int sectors : { 24, 48, 96 })
+    {
+      Surface discs;
+      AddDisc(discs, row[0], 0.0, sectors, true);
+      AddDisc(discs, row[1], row[2], sectors, false);
+      auto data = discs.Get();
+      auto factors = ComputeViewFactors(data, 1e-6);
+      const double factor =
+        GetGroupFactor(factors, GetAreas(data), { 0, sectors }, { sectors, 2 * sectors });
+      CheckClose(factor, row[3], 3e-6 * std::pow(96.0 / sectors, 4),
+        Text("coaxial discs ", row[0], ", ", row[1], ", distance ", row[2], ", ", sectors));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// What values of a mesh and of one of half its edges, whose errors fall with the square of the
+/// edges, tend to.
+double Extrapolate(double coarse, double fine)
+{
+  return fine + (fine - coarse) / 3.0;
+}
+
+//------------------------------------------------------------------------------
+// From a sphere of any radius to a disc that looks at it.
+void TestSphereToDisc()
+{
+  const double rows[][4] = { { 0.5, 1, 1, 0.146446609406726 }, { 0.9, 1, 2, 0.276393202250021 },
+    { 1.0, 2, 1, 0.0527864045000421 } };
+  for (const auto& row : rows)
+  {
+    double values[2];
+    for (int level = 0; level < 2; ++level)
+    {
+      Surface surface;
+      AddSphere(surface, row[0], level + 2, false);
+      AddDisc(surface, row[2], row[1], 64, false);
+      auto data = surface.Get();
+      const vtkIdType cells = data->GetNumberOfCells();
+      auto factors = ComputeViewFactors(data, 1e-8);
+      values[level] =
+        GetGroupFactor(factors, GetAreas(data), { 0, cells - 64 }, { cells - 64, cells });
+    }
+    CheckClose(Extrapolate(values[0], values[1]), row[3], 3e-5,
+      Text("sphere ", row[0], " to disc ", row[2], " at ", row[1]));
+  }
+}
+
+//------------------------------------------------------------------------------
+// What a crater misses of itself leaves through the opening: 1 - A_opening / A_crater for any mesh,
+// (1 - cos b) / 2 in the limit.
+void TestSphericalCaps()
+{
+  for (const double degrees : { 30.0, 45.0, 60.0, 90.0 })
+  {
+    double values[2];
+    for (int level = 0; level < 2; ++level)
+    {
+      const int sectors = level ? 32 : 16, rings = level ? 12 : 6;
+      const double half = vtkMath::RadiansFromDegrees(degrees);
+      const auto at = [=](int ring, int k)
+      {
+        const double polar = half * ring / rings;
+        const double angle = 2.0 * vtkMath::Pi() * (k % sectors) / sectors;
+        return Point{ std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle),
+          -std::cos(polar) };
+      };
+      Surface surface;
+      for (int k = 0; k < sectors; ++k)
+      {
+        surface.AddPolygon({ at(0, 0), at(1, k), at(1, k + 1) });
+        for (int ring = 1; ring < rings; ++ring)
+        {
+          surface.AddPolygon(
+            { at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1) });
+        }
+      }
+      auto data = surface.Get();
+      const std::vector<double> areas = GetAreas(data);
+      double area = 0.0;
+      for (double part : areas)
+      {
+        area += part;
+      }
+      const double opening =
+        0.5 * sectors * std::sin(2.0 * vtkMath::Pi() / sectors) * std::pow(std::sin(half), 2);
+      const Group all{ 0, data->GetNumberOfCells() };
+      values[level] = GetGroupFactor(ComputeViewFactors(data, 1e-7), areas, all, all);
+      CheckClose(values[level], 1.0 - opening / area, 5e-7, Text("crater, ", degrees, " degrees"));
+    }
+    CheckClose(Extrapolate(values[0], values[1]),
+      0.5 * (1.0 - std::cos(vtkMath::RadiansFromDegrees(degrees))), 2e-4,
+      Text("smooth crater, ", degrees, " degrees"));
+  }
+}
+
+//------------------------------------------------------------------------------
+// In the middle of two strips of width 1 that are 20,000 long: what is missing at the ends is 1e-8.
+void TestStrips()
+{
+  const double rows[][2] = { { 30, 0.741180954897479 }, { 60, 0.5 }, { 90, 0.292893218813452 },
+    { 120, 0.133974596215561 } };
+  for (const auto& row : rows)
+  {
+    const double angle = vtkMath::RadiansFromDegrees(row[0]);
+    Surface strips;
+    strips.AddGrid({ 0, -0.5, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 2);
+    strips.AddGrid({ 0, -1e4, 0 }, { 0, 2e4, 0 }, { std::cos(angle), 0, std::sin(angle) }, 1, 3);
+    auto data = strips.Get();
+    auto factors = ComputeViewFactors(data, 1e-8);
+    CheckClose(GetGroupFactor(factors, GetAreas(data), { 0, 6 }, { 6, 9 }), row[1], Single,
+      Text("strips at ", row[0], " degrees"));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Neither the unit nor the place of a scene changes a factor, also where something is in between.
+void TestInvariance()
+{
+  const auto make = [](double scale, double shift)
+  {
+    Surface scene;
+    const auto at = [&](double x, double y, double z) {
+      return Point{ scale * (x + shift), scale * (y + shift), scale * (z + shift) };
+    };
+    scene.AddPolygon({ at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0) });
+    scene.AddPolygon({ at(0, 0, 0), at(0, 1, 0), at(0, 1, 1) });
+    scene.AddPolygon({ at(0.25, 0.25, 1), at(0.25, 0.75, 1), at(0.75, 0.5, 1) });
+    scene.AddPolygon({ at(0.375, 0.375, 0.5), at(0.625, 0.375, 0.5), at(0.5, 0.625, 0.5) });
+    return ComputeViewFactors(scene.Get(), 1e-6);
+  };
+  auto reference = make(1.0, 0.0);
+  // All coordinates are eighths: no shift rounds them.
+  const double settings[][2] = { { 1e-9, 0 }, { 1e-3, 0 }, { 1e9, 0 }, { 1.0, 1e9 }, { 1.0, -1e9 },
+    { 0x1p-30, 1e9 }, { 1e6, -64.0 } };
+  for (const auto& setting : settings)
+  {
+    auto factors = make(setting[0], setting[1]);
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < 4; ++j)
+      {
+        CheckClose(factors->GetViewFactor(i, j), reference->GetViewFactor(i, j), Single,
+          Text("factor ", i, ", ", j, ", scale ", setting[0], ", place ", setting[1]));
+      }
+    }
+  }
+}
+} // end of anonymous namespace
+
+//------------------------------------------------------------------------------
+int TestViewFactorCatalogue(int, char*[])
+{
+  TestParallelPlates();
+  TestPerpendicularPlates();
+  TestRooms();
+  TestDiscs();
+  TestSphereToDisc();
+  TestSphericalCaps();
+  TestStrips();
+  TestInvariance();
+  return Result();
+}
