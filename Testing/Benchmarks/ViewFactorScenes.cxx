@@ -111,7 +111,7 @@ std::vector<std::array<Point, 3>> TriangulateDisc(int count)
   auto interior = SpreadPoints((count + 2 - corners) / 2);
   for (auto& point : interior)
   {
-    const double radius = (1.0 - 2.0 / corners * vtkMath::Pi() * 0.5) * std::sqrt(point[0]);
+    const double radius = (1.0 - vtkMath::Pi() / corners) * std::sqrt(point[0]);
     const double angle = 2.0 * vtkMath::Pi() * point[1];
     point = { radius * std::cos(angle), radius * std::sin(angle) };
   }

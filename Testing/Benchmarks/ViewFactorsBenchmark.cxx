@@ -4,6 +4,9 @@
  * View factors: error against run time, before any closure, on scenes with known answers and on
  * real ones, beside what other tools were measured to reach on the same or equal meshes.
  *
+ * Numbers in the names of cases: for spheres, cylinders and real scenes the patches of the whole
+ * scene, for plates and discs the triangles of each of the two, which is how the other tools count.
+ *
  * Not a test: timings depend on the machine and on what else it does. "seconds" is the wall time of
  * vtkViewFactors::Update with all threads, "cpu s" the processor time of all threads together (the
  * other tools ran on one thread, python-flux was timed by the wall). A run that takes less than
