@@ -32,6 +32,20 @@ vtkIdType CountTileRows(vtkIdType numberOfPatches)
 {
   return (numberOfPatches + vtkExchangeMatrix::TileSize - 1) / vtkExchangeMatrix::TileSize;
 }
+
+//------------------------------------------------------------------------------
+// Tiles of all parts, stored or not.
+double CountTiles(vtkIdType numberOfPatches)
+{
+  const double rows = static_cast<double>(CountTileRows(numberOfPatches));
+  return rows * (rows + 1.0) / 2.0;
+}
+
+//------------------------------------------------------------------------------
+double GetTileBytes(int numberOfKernels)
+{
+  return static_cast<double>(TileValues) * sizeof(float) * numberOfKernels;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -152,9 +166,15 @@ void vtkExchangeMatrix::ReleaseTile(Tile& tile)
 double vtkExchangeMatrix::GetEstimatedBytes(vtkIdType numberOfPatches, int numberOfKernels,
   int numberOfParts)
 {
-  const double rows = static_cast<double>(CountTileRows(numberOfPatches));
-  const double tiles = rows * (rows + 1.0) / 2.0;
-  return tiles * TileValues * sizeof(float) * numberOfKernels / numberOfParts;
+  return CountTiles(numberOfPatches) * GetTileBytes(numberOfKernels) / numberOfParts;
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeMatrix::GetEstimatedSparseBytes(vtkIdType numberOfPatches, int numberOfKernels,
+  vtkIdType numberOfTiles, int numberOfParts)
+{
+  return static_cast<double>(numberOfTiles) * GetTileBytes(numberOfKernels) +
+    CountTiles(numberOfPatches) * sizeof(Tile) / numberOfParts;
 }
 
 //------------------------------------------------------------------------------
@@ -206,8 +226,7 @@ vtkIdType vtkExchangeMatrix::GetNumberOfStoredTiles() const
 //------------------------------------------------------------------------------
 double vtkExchangeMatrix::GetNumberOfBytes() const
 {
-  return static_cast<double>(this->GetNumberOfStoredTiles()) * TileValues * sizeof(float) *
-    this->NumberOfKernels;
+  return static_cast<double>(this->GetNumberOfStoredTiles()) * GetTileBytes(this->NumberOfKernels);
 }
 
 //------------------------------------------------------------------------------

@@ -78,6 +78,10 @@ public:
   static double GetEstimatedBytes(vtkIdType numberOfPatches, int numberOfKernels,
     int numberOfParts = 1);
 
+  /// Bytes that one part takes with `numberOfTiles` tiles stored: they and the list of all tiles.
+  static double GetEstimatedSparseBytes(vtkIdType numberOfPatches, int numberOfKernels,
+    vtkIdType numberOfTiles, int numberOfParts = 1);
+
   vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
   int GetNumberOfKernels() const { return this->NumberOfKernels; }
   int GetNumberOfParts() const { return this->NumberOfParts; }

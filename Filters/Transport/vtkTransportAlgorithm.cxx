@@ -16,12 +16,9 @@
 #include "vtkPatchScene.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
-
-#include <vtksys/SystemInformation.hxx>
+#include "vtkTransportMemory.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
 
 namespace
 {
@@ -37,14 +34,6 @@ template <typename Algorithm>
 bool IsAborted(Algorithm* algorithm, long)
 {
   return algorithm->GetAbortExecute() != 0;
-}
-
-//------------------------------------------------------------------------------
-std::string Gigabytes(double bytes)
-{
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << bytes / 1e9 << " GB";
-  return text.str();
 }
 } // namespace
 
@@ -132,26 +121,28 @@ bool vtkTransportAlgorithm::ReportProgress(double fraction)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeExchange(
-  const std::vector<double>& areas, int numberOfKernels)
+int vtkTransportAlgorithm::GetRank() const
 {
-  const int ranks = this->GetNumberOfRanks();
-  const int rank = ranks > 1 ? this->Controller->GetLocalProcessId() : 0;
-  const double bytes = vtkExchangeMatrix::GetEstimatedBytes(static_cast<vtkIdType>(areas.size()),
-    numberOfKernels, ranks);
-  vtksys::SystemInformation system;
-  system.RunMemoryCheck();
-  const double available =
-    1024.0 * 1024.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
+  return this->Controller ? this->Controller->GetLocalProcessId() : 0;
+}
 
+//------------------------------------------------------------------------------
+// A matrix that `allocate` returns true for, where `bytes` are there on every rank.
+template <typename Allocation>
+vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::AllocateExchange(
+  std::size_t numberOfPatches, double bytes, Allocation&& allocate)
+{
+  const double available = vtkTransportMemory::GetAvailableBytes();
   vtkSmartPointer<vtkExchangeMatrix> exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
-  // Asked first: a system that overcommits grants any amount and ends the process later.
   std::string error;
-  if (bytes > available || !exchange->Allocate(areas, numberOfKernels, rank, ranks))
+  if (bytes > available || !allocate(exchange))
   {
-    error = "The links between " + std::to_string(areas.size()) + " patches need " +
-      Gigabytes(bytes) + " of memory and " + Gigabytes(available) +
-      " are free: use fewer patches (a larger TargetEdgeLength in vtkPatchMesher).";
+    error = "The links between " + std::to_string(numberOfPatches) + " patches need " +
+      vtkTransportMemory::Format(bytes) + " of memory" +
+      (this->GetNumberOfRanks() > 1 ? " in one process" : "") + " and " +
+      vtkTransportMemory::Format(available) +
+      " are free: use fewer patches (a larger TargetEdgeLength in vtkPatchMesher) or "
+      "processes on more machines (each holds a part).";
   }
   if (!vtkPatchScene::Agree(this->Controller, error.empty(), error))
   {
@@ -159,6 +150,33 @@ vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeExchange(
     return nullptr;
   }
   return exchange;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeExchange(
+  const std::vector<double>& areas, int numberOfKernels)
+{
+  const int ranks = this->GetNumberOfRanks();
+  const double bytes = vtkExchangeMatrix::GetEstimatedBytes(static_cast<vtkIdType>(areas.size()),
+    numberOfKernels, ranks);
+  return this->AllocateExchange(areas.size(), bytes,
+    [&](vtkExchangeMatrix* exchange)
+    { return exchange->Allocate(areas, numberOfKernels, this->GetRank(), ranks); });
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeSparseExchange(
+  const std::vector<double>& areas, vtkIdType numberOfTiles)
+{
+  const int ranks = this->GetNumberOfRanks();
+  const double bytes = vtkExchangeMatrix::GetEstimatedSparseBytes(
+    static_cast<vtkIdType>(areas.size()), 1, numberOfTiles, ranks);
+  return this->AllocateExchange(areas.size(), bytes,
+    [&](vtkExchangeMatrix* exchange)
+    {
+      exchange->AllocateSparse(areas, 1, this->GetRank(), ranks);
+      return true;
+    });
 }
 
 //------------------------------------------------------------------------------

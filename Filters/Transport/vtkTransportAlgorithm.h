@@ -92,6 +92,13 @@ protected:
     int numberOfKernels);
 
   /**
+   * Likewise with one kernel and no tile stored yet. `numberOfTiles` is the most that this rank
+   * will store; the memory for them must be there.
+   */
+  vtkSmartPointer<vtkExchangeMatrix> MakeSparseExchange(const std::vector<double>& areas,
+    vtkIdType numberOfTiles);
+
+  /**
    * False, after reporting why, when the device is DEVICE_OPENGL and cannot be had. Asked before
    * any work starts: a user who insists on a device does not want to wait for the links to hear
    * that it is not there.
@@ -120,6 +127,10 @@ private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
 
+  int GetRank() const;
+  template <typename Allocation>
+  vtkSmartPointer<vtkExchangeMatrix> AllocateExchange(std::size_t numberOfPatches, double bytes,
+    Allocation&& allocate);
   vtkSmartPointer<vtkDeviceLinkOperator> OpenDevice(int device, std::string& reason);
 
   double StageBegin = 0.0;

@@ -360,9 +360,9 @@ bool Reader::CheckSizes()
   {
     return this->FailDamaged();
   }
-  const double rows = static_cast<double>((patches + N - 1) / N);
-  const double bytes = static_cast<double>(patches * BytesPerPatch + tiles * BytesPerTile) +
-    rows * (rows + 1.0) / 2.0 * sizeof(Tile);
+  const double bytes = static_cast<double>(patches * BytesPerPatch) +
+    vtkExchangeMatrix::GetEstimatedSparseBytes(static_cast<vtkIdType>(patches), 1,
+      static_cast<vtkIdType>(tiles));
   const double available = vtkTransportMemory::GetAvailableBytes();
   return bytes <= available ||
     this->Fail("it needs " + vtkTransportMemory::Format(bytes) + " of memory and " +

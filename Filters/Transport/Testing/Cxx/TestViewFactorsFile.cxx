@@ -239,10 +239,10 @@ void TestFlippedBytes(const Folder& folder, const std::string& bytes)
 {
   const std::string name = folder.Get("flipped");
   std::mt19937_64 generator(5);
-  for (std::size_t k = 0; k < 2500; ++k)
+  for (std::size_t k = 0; k < 900; ++k)
   {
     const std::size_t offset = k < Areas + 16 ? k
-      : k < 1500                              ? generator() % (Areas + 48 * 300 + 100)
+      : k < 600                               ? generator() % (Areas + 48 * 300 + 100)
                                               : generator() % bytes.size();
     std::string damaged = bytes;
     damaged[offset] = static_cast<char>(damaged[offset] ^ (1 << (generator() % 8)));

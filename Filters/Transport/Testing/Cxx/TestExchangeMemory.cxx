@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The check for memory before an exchange matrix is made: on one rank and on several.
+#include "LightTransportTesting.h"
+#include "RanksInThreads.h"
+#include "vtkExchangeMatrix.h"
+#include "vtkTestErrorObserver.h"
+#include "vtkTransportAlgorithm.h"
+
+using namespace LightTransportTesting;
+
+namespace
+{
+/// More tiles than any memory holds.
+constexpr vtkIdType TooMany = vtkIdType(1) << 40;
+
+/// A filter that makes matrices for whoever asks.
+class Maker : public vtkTransportAlgorithm
+{
+public:
+  static Maker* New() { VTK_STANDARD_NEW_BODY(Maker); }
+  vtkTypeMacro(Maker, vtkTransportAlgorithm);
+  using vtkTransportAlgorithm::MakeExchange;
+  using vtkTransportAlgorithm::MakeSparseExchange;
+};
+
+//------------------------------------------------------------------------------
+void TestOneRank()
+{
+  constexpr vtkIdType n = 1000;
+  const std::vector<double> areas(n, 1.0);
+  vtkNew<Maker> maker;
+  vtkNew<vtkTest::ErrorObserver> errors;
+  maker->AddObserver(vtkCommand::ErrorEvent, errors);
+  auto sparse = maker->MakeSparseExchange(areas, 10);
+  Check(sparse && sparse->GetNumberOfStoredTiles() == 0 && sparse->GetTiles().size() == 10 &&
+      sparse->GetNumberOfKernels() == 1 && sparse->GetAreas() == areas,
+    "a sparse matrix");
+  auto dense = maker->MakeExchange(areas, 3);
+  Check(dense && dense->GetNumberOfStoredTiles() == 10 && dense->GetNumberOfKernels() == 3,
+    "a dense matrix");
+  Check(!errors->GetError(), "no error");
+
+  Check(!maker->MakeSparseExchange(areas, TooMany), "too many tiles");
+  const std::string message = errors->GetErrorMessage();
+  for (const char* part : { "1000 patches", "288230376.15 GB of memory", "are free",
+         "TargetEdgeLength", "more machines" })
+  {
+    Check(message.find(part) != std::string::npos, std::string(part) + " in: " + message);
+  }
+}
+
+//------------------------------------------------------------------------------
+// One rank that cannot is enough for all of them to refuse, with the same words.
+void TestSeveralRanks()
+{
+  constexpr int ranks = 3;
+  const std::vector<double> areas(1000, 1.0);
+  std::string messages[ranks];
+  vtkIdType tiles[ranks] = {};
+  bool refused[ranks] = {};
+  RunRanks(ranks,
+    [&](vtkMultiProcessController* controller, int rank)
+    {
+      vtkNew<Maker> maker;
+      vtkNew<vtkTest::ErrorObserver> errors;
+      maker->AddObserver(vtkCommand::ErrorEvent, errors);
+      maker->SetController(controller);
+      auto part = maker->MakeSparseExchange(areas, 4);
+      tiles[rank] = part ? static_cast<vtkIdType>(part->GetTiles().size()) : 0;
+      refused[rank] = !maker->MakeSparseExchange(areas, rank == 1 ? TooMany : 4);
+      const std::string all = errors->GetErrorMessage();
+      messages[rank] = all.substr(std::min(all.find("The links"), all.size()));
+      maker->SetController(nullptr);
+    });
+  Check(tiles[0] == 4 && tiles[1] == 3 && tiles[2] == 3, "each rank has its part");
+  Check(refused[0] && refused[1] && refused[2], "all ranks refuse");
+  Check(messages[0].find("in one process") != std::string::npos && messages[0] == messages[1] &&
+      messages[0] == messages[2],
+    "the same message everywhere: " + messages[0]);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestExchangeMemory(int, char*[])
+{
+  CheckClose(vtkExchangeMatrix::GetEstimatedSparseBytes(1000, 2, 7, 2),
+    7 * 2 * 262144.0 + 5 * sizeof(vtkExchangeMatrix::Tile), 0.0, "bytes of a sparse matrix");
+  TestOneRank();
+  TestSeveralRanks();
+  return Result();
+}
