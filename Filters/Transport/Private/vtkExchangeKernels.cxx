@@ -17,8 +17,6 @@
 
 namespace
 {
-using vtkExchangeKernels::KronrodPoints;
-using vtkExchangeKernels::KronrodSums;
 using vtkExchangeKernels::Lanes;
 using vtkExchangeKernels::Patches;
 using vtkExchangeKernels::Segments;
@@ -59,11 +57,14 @@ LT_INLINE void Store(double* target, const Wide& values, int count)
   }
 }
 
+// Heights over a plane below this are the rounding of coordinates (the scene's diagonal is 1).
+constexpr double HeightRounding = 1e-15;
+
 //------------------------------------------------------------------------------
-LT_INLINE void Clamp(Wide& values)
+LT_INLINE void Clamp(Wide& heights)
 {
   const Wide zero = {};
-  values = values > zero ? values : zero;
+  heights = heights > HeightRounding - zero ? heights : zero;
 }
 
 //------------------------------------------------------------------------------
@@ -218,8 +219,9 @@ LT_DEFINE_COUNT(25)
 #undef LT_DEFINE_COUNT
 
 //------------------------------------------------------------------------------
-// Gauss-Kronrod 7/15 on [-1, 1] (Kronrod 1965; the nodes of Piessens et al., QUADPACK, 1983), and
-// one node of no weight.
+// The Kronrod rule of 15 points on [-1, 1] (Kronrod 1965; the nodes of Piessens et al., QUADPACK,
+// 1983), and one node of no weight.
+constexpr int KronrodPoints = 16;
 constexpr double Nodes[KronrodPoints] = { -0.991455371120812639206854697526329,
   -0.949107912342758524526189684047851, -0.864864423359769072789712788640926,
   -0.741531185599394439863864773280788, -0.586087235467691130294144691693013,
@@ -236,11 +238,6 @@ constexpr double KronrodWeights[KronrodPoints] = { 0.022935322010529224963732008
   0.190350578064785409913256402421014, 0.169004726639267902826583426598550,
   0.140653259715525918745189590510238, 0.104790010322250183839876322541518,
   0.063092092629978553290700663189204, 0.022935322010529224963732008058970, 0.0 };
-constexpr double GaussWeights[KronrodPoints] = { 0.0, 0.129484966168869693270611432679082, 0.0,
-  0.279705391489276667901467771423780, 0.0, 0.381830050505118944950369775488975, 0.0,
-  0.417959183673469387755102040816327, 0.0, 0.381830050505118944950369775488975, 0.0,
-  0.279705391489276667901467771423780, 0.0, 0.129484966168869693270611432679082, 0.0, 0.0 };
-
 //------------------------------------------------------------------------------
 LT_INLINE void SquareRoot(const Wide& x, Wide& result)
 {
@@ -320,17 +317,11 @@ LT_INLINE void TimesLogarithm(const Wide& x, const Wide& squared, Wide& result)
 }
 
 //------------------------------------------------------------------------------
-LT_INLINE void IntegrateLogarithm(const Segments& segments, const Wide& s, Wide& result)
+LT_INLINE void IntegrateLogarithm(const Wide& along, const Wide& squared, const Wide& length,
+  Wide& result)
 {
-  const Wide along = segments.Along[0] + s * segments.Along[1];
-  Wide squared = {};
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const Wide across = segments.Across[axis][0] + s * segments.Across[axis][1];
-    squared += across * across;
-  }
   const Wide first = -along;
-  const Wide last = segments.Length - along;
+  const Wide last = length - along;
   Wide height;
   SquareRoot(squared, height);
   Wide upper;
@@ -338,8 +329,8 @@ LT_INLINE void IntegrateLogarithm(const Segments& segments, const Wide& s, Wide&
   Wide angle;
   TimesLogarithm(last, last * last + squared, upper);
   TimesLogarithm(first, first * first + squared, lower);
-  Angle(height * segments.Length, squared + first * last, angle);
-  result = upper - lower - segments.Length + height * angle;
+  Angle(height * length, squared + first * last, angle);
+  result = upper - lower - length + height * angle;
 }
 
 //------------------------------------------------------------------------------
@@ -354,36 +345,48 @@ LT_INLINE double Sum(const Wide& values)
 }
 
 //------------------------------------------------------------------------------
-LT_CLONES void Kronrod(const Segments& segments, double begin, double end, KronrodSums& sums)
+LT_CLONES double Kronrod(const Segments& segments, double begin, double end)
 {
   const double center = 0.5 * (begin + end);
   const double half = 0.5 * (end - begin);
-  Wide values[2];
-  Wide weights[2];
-  Wide kronrod = {};
-  Wide gauss = {};
-  for (int part = 0; part < 2; ++part)
+  Wide sum = {};
+  for (int node = 0; node < KronrodPoints; node += Lanes)
   {
     Wide nodes;
-    Wide gaussWeights;
-    Load(Nodes + part * Lanes, nodes);
-    Load(KronrodWeights + part * Lanes, weights[part]);
-    Load(GaussWeights + part * Lanes, gaussWeights);
-    IntegrateLogarithm(segments, center + half * nodes, values[part]);
-    kronrod += weights[part] * values[part];
-    gauss += gaussWeights * values[part];
+    Wide weights;
+    Load(Nodes + node, nodes);
+    Load(KronrodWeights + node, weights);
+    const Wide s = center + half * nodes;
+    const Wide along = segments.Along[0] + s * segments.Along[1];
+    Wide squared = {};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Wide across = segments.Across[axis][0] + s * segments.Across[axis][1];
+      squared += across * across;
+    }
+    Wide value;
+    IntegrateLogarithm(along, squared, segments.Length - Wide{}, value);
+    sum += weights * value;
   }
-  const double total = Sum(kronrod);
-  const Wide zero = {};
-  Wide variation = {};
-  for (int part = 0; part < 2; ++part)
+  return half * Sum(sum);
+}
+
+//------------------------------------------------------------------------------
+LT_CLONES void Logarithms(const double* along, const double* squared, const double* lengths,
+  int count, double* results)
+{
+  for (int first = 0; first < count; first += Lanes)
   {
-    const Wide deviation = values[part] - 0.5 * total;
-    variation += weights[part] * (deviation < zero ? -deviation : deviation);
+    Wide x;
+    Wide y;
+    Wide length;
+    Wide result;
+    Load(along + first, x);
+    Load(squared + first, y);
+    Load(lengths + first, length);
+    IntegrateLogarithm(x, y, length, result);
+    Store(results + first, result, Lanes);
   }
-  sums.Kronrod = half * total;
-  sums.Gauss = half * Sum(gauss);
-  sums.Variation = half * Sum(variation);
 }
 } // namespace
 
@@ -415,10 +418,15 @@ void IntegrateRow(const Patches& rows, int rowCount, long row, const Patches& co
 }
 
 //------------------------------------------------------------------------------
-KronrodSums IntegrateKronrod(const Segments& segments, double begin, double end)
+double IntegrateKronrod(const Segments& segments, double begin, double end)
 {
-  KronrodSums sums;
-  Kronrod(segments, begin, end, sums);
-  return sums;
+  return Kronrod(segments, begin, end);
+}
+
+//------------------------------------------------------------------------------
+void IntegrateLogarithms(const double* along, const double* squared, const double* lengths,
+  int count, double* results)
+{
+  Logarithms(along, squared, lengths, count, results);
 }
 } // namespace vtkExchangeKernels

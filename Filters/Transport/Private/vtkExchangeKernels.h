@@ -56,18 +56,17 @@ struct Segments
   double Length;
 };
 
-/// Nodes of the Gauss-Kronrod rule, as they come from IntegrateKronrod: the last one is not used.
-constexpr int KronrodPoints = 16;
+/// The integral over s in [begin, end] of the integral of ln |x(s) - y| over the segment, by the
+/// 15-point Gauss-Kronrod rule.
+double IntegrateKronrod(const Segments& segments, double begin, double end);
 
-/// The integral over s in [begin, end] of the integral of ln |x(s) - y| over the segment: by 15
-/// points, by 7 of them, and the 15-point integral of the absolute deviation from the mean.
-struct KronrodSums
-{
-  double Kronrod;
-  double Gauss;
-  double Variation;
-};
-KronrodSums IntegrateKronrod(const Segments& segments, double begin, double end);
+/**
+ * The integrals of ln |x - y| over `count` segments (at most 2 * Lanes; all arrays have room for as
+ * many): x is along[k] from the start of segment k in its direction, and the root of squared[k]
+ * from its line.
+ */
+void IntegrateLogarithms(const double* along, const double* squared, const double* lengths,
+  int count, double* results);
 } // namespace vtkExchangeKernels
 
 #endif

@@ -29,6 +29,8 @@ constexpr double ContourShare = 0.01;
 // Heights below this part of the extent of what is looked at are rounding: as in
 // vtkPolygonExchange::Clip.
 constexpr double PlaneTolerance = 1e-12;
+// And below this they are the rounding of coordinates: the scene's diagonal is 1.
+constexpr double CoordinateRounding = 1e-15;
 // Nodes of at most this many patches are not cut further: their pairs choose their own rules.
 constexpr vtkIdType RowSize = vtkExchangeKernels::Lanes;
 // Nodes of at most this many patches take one rule even where their far pairs could do with less.
@@ -132,6 +134,21 @@ struct Heights
   double Lowest;
   double Highest;
 };
+
+// How one pair is to be computed.
+struct Plan
+{
+  enum
+  {
+    None,    ///< certainly nothing
+    Rules,   ///< by the points of both patches
+    Clipped, ///< by rules on what is in front of the other's plane
+    Contours
+  } Method = None;
+  int RuleI = -1;
+  int RuleJ = -1;
+  double Error = 0.0;
+};
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -162,6 +179,10 @@ struct vtkOpenExchange::Internals
   Heights GetHeights(int over, int of, double extent) const;
   View GetView(int nodeI, int nodeJ) const;
 
+  void IntegrateRow(vtkIdType i, int ruleI, vtkIdType first, int count, int ruleJ, double* sums,
+    double* margins) const;
+  Plan MakePlan(vtkIdType i, vtkIdType j) const;
+  Estimate Follow(vtkIdType i, vtkIdType j, const Plan& plan) const;
   bool NeedsClip(vtkIdType i, vtkIdType j) const;
   bool Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const;
   double IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j, int ruleJ) const;
@@ -402,10 +423,75 @@ View vtkOpenExchange::Internals::GetView(int nodeI, int nodeJ) const
   view.LowestOfI = ofI.Lowest;
   view.HighestOfJ = ofJ.Highest;
   view.LowestOfJ = ofJ.Lowest;
-  view.Rounding = PlaneTolerance * extent;
+  view.Rounding = PlaneTolerance * extent + CoordinateRounding;
   view.Sine = std::min(1.0,
     a.ConeAxis.cross(b.ConeAxis).norm() + this->Slabs[nodeI].Chord + this->Slabs[nodeJ].Chord);
   return view;
+}
+
+//------------------------------------------------------------------------------
+// One patch with a run of others, the points of all of them as they are.
+void vtkOpenExchange::Internals::IntegrateRow(vtkIdType i, int ruleI, vtkIdType first, int count,
+  int ruleJ, double* sums, double* margins) const
+{
+  vtkExchangeKernels::IntegrateRow(this->GetPatches(ruleI), this->GetRuleSize(ruleI, i, i + 1), i,
+    this->GetPatches(ruleJ), this->GetRuleSize(ruleJ, first, first + count), first, count, sums,
+    margins);
+  for (int column = 0; column < count; ++column)
+  {
+    sums[column] *= 1.0 / Pi;
+  }
+}
+
+//------------------------------------------------------------------------------
+Plan vtkOpenExchange::Internals::MakePlan(vtkIdType i, vtkIdType j) const
+{
+  Plan plan;
+  const Pair pair = MakePair(this->Scene, i, j);
+  if (!pair.Facing)
+  {
+    return plan;
+  }
+  double errorI = 0.0;
+  double errorJ = 0.0;
+  const double tolerance = RuleShare * this->Tolerance;
+  plan.RuleI = ChooseRule(pair.SideI, this->GetConstants(i, i + 1), tolerance, errorI);
+  plan.RuleJ =
+    plan.RuleI < 0 ? -1 : ChooseRule(pair.SideJ, this->GetConstants(j, j + 1), tolerance, errorJ);
+  if (plan.RuleJ < 0)
+  {
+    plan.Method = Plan::Contours;
+    return plan;
+  }
+  const bool large = this->HasLargePolygons(i, i + 1) || this->HasLargePolygons(j, j + 1);
+  const bool crossing = pair.Margin < 0.0 && this->NeedsClip(i, j);
+  plan.Method = large || crossing ? Plan::Clipped : Plan::Rules;
+  plan.Error = pair.SideI.Sum *
+    (errorI / (pair.SideI.Distance * pair.SideI.Distance) +
+      errorJ / (pair.SideJ.Distance * pair.SideJ.Distance));
+  return plan;
+}
+
+//------------------------------------------------------------------------------
+Estimate vtkOpenExchange::Internals::Follow(vtkIdType i, vtkIdType j, const Plan& plan) const
+{
+  Estimate pair{ 0.0, plan.Error };
+  switch (plan.Method)
+  {
+    case Plan::None:
+      break;
+    case Plan::Rules:
+      this->IntegrateRow(i, plan.RuleI, j, 1, plan.RuleJ, &pair.Value, nullptr);
+      break;
+    case Plan::Clipped:
+      pair.Value = this->IntegrateClipped(i, plan.RuleI, j, plan.RuleJ);
+      break;
+    case Plan::Contours:
+      pair = this->IntegrateNear(i, j);
+      break;
+  }
+  pair.Value = this->Limit(i, j, pair.Value);
+  return pair;
 }
 
 //------------------------------------------------------------------------------
@@ -604,16 +690,11 @@ private:
   {
     double sums[vtkPatchTree::BlockSize];
     double margins[vtkPatchTree::BlockSize];
-    const vtkExchangeKernels::Patches rows = this->Self.GetPatches(ruleI);
-    const vtkExchangeKernels::Patches columns = this->Self.GetPatches(ruleJ);
-    const int columnCount = this->Self.GetRuleSize(ruleJ, b.First, b.Last);
     const int size = static_cast<int>(b.GetSize());
     double facing = 0.0;
     for (vtkIdType i = a.First; i < a.Last; ++i)
     {
-      const int rowCount = this->Self.GetRuleSize(ruleI, i, i + 1);
-      vtkExchangeKernels::IntegrateRow(rows, rowCount, i, columns, columnCount, b.First, size, sums,
-        clear ? nullptr : margins);
+      this->Self.IntegrateRow(i, ruleI, b.First, size, ruleJ, sums, clear ? nullptr : margins);
       if (!clear)
       {
         this->CorrectRow(i, ruleI, b.First, ruleJ, size, sums, margins);
@@ -622,7 +703,7 @@ private:
       int count = 0;
       for (int column = 0; column < size; ++column)
       {
-        row[column] = static_cast<float>(sums[column] * (1.0 / Pi));
+        row[column] = static_cast<float>(sums[column]);
         count += sums[column] > 0.0 ? 1 : 0;
       }
       facing += count;
@@ -638,77 +719,63 @@ private:
   {
     for (int column = 0; column < size; ++column)
     {
-      if (margins[column] < 1.0 && sums[column] > 0.0 && this->Self.NeedsClip(i, first + column))
+      if (std::abs(margins[column]) < 1.0 && this->Self.NeedsClip(i, first + column))
       {
-        sums[column] = Pi * this->Self.IntegrateClipped(i, ruleI, first + column, ruleJ);
+        sums[column] = this->Self.IntegrateClipped(i, ruleI, first + column, ruleJ);
       }
     }
   }
 
+  // Each pair by rules of its own, or by contours; a row of them at once where rules do.
   void FillPairs(const Node& a, const Node& b, bool same)
   {
+    std::array<Plan, RowSize> plans;
+    std::array<double, RowSize> sums;
     for (vtkIdType i = a.First; i < a.Last; ++i)
     {
-      for (vtkIdType j = same ? i + 1 : b.First; j < b.Last; ++j)
+      const vtkIdType first = same ? i + 1 : b.First;
+      const int size = static_cast<int>(b.Last - first);
+      int ruleI = -1;
+      int ruleJ = -1;
+      for (int column = 0; column < size; ++column)
       {
-        bool byRule = false;
-        const Estimate pair = ComputePair(this->Self, i, j, byRule);
-        this->Counters.Examined += 1.0;
-        if (pair.Value <= 0.0)
+        Plan& plan = plans[column];
+        plan = this->Self.MakePlan(i, first + column);
+        if (plan.Method == Plan::Rules)
         {
-          this->Counters.BackFacing += 1.0;
-          continue;
+          ruleI = std::max(ruleI, plan.RuleI);
+          ruleJ = std::max(ruleJ, plan.RuleJ);
         }
-        this->Counters.Facing += 1.0;
-        (byRule ? this->Counters.Rules : this->Counters.Contours) += 1.0;
-        this->ErrorsI[i - this->FirstI] += pair.Error;
-        this->ErrorsJ[j - this->FirstJ] += pair.Error;
-        this->Values[(i - this->FirstI) * this->Stride + (j - this->FirstJ)] =
-          static_cast<float>(pair.Value);
+      }
+      if (ruleI >= 0)
+      {
+        this->Self.IntegrateRow(i, ruleI, first, size, ruleJ, sums.data(), nullptr);
+      }
+      for (int column = 0; column < size; ++column)
+      {
+        const Plan& plan = plans[column];
+        const vtkIdType j = first + column;
+        this->AddPair(i, j, plan,
+          plan.Method == Plan::Rules ? Estimate{ sums[column], plan.Error }
+                                     : this->Self.Follow(i, j, plan));
       }
     }
   }
 
-public:
-  static Estimate ComputePair(const Internals& self, vtkIdType i, vtkIdType j, bool& byRule)
+  void AddPair(vtkIdType i, vtkIdType j, const Plan& plan, const Estimate& pair)
   {
-    const Pair pair = MakePair(self.Scene, i, j);
-    if (!pair.Facing)
+    this->Counters.Examined += 1.0;
+    if (!(pair.Value > 0.0))
     {
-      return {};
+      this->Counters.BackFacing += 1.0;
+      return;
     }
-    double errorI = 0.0;
-    double errorJ = 0.0;
-    const double tolerance = RuleShare * self.Tolerance;
-    const int ruleI = ChooseRule(pair.SideI, self.GetConstants(i, i + 1), tolerance, errorI);
-    const int ruleJ =
-      ruleI < 0 ? -1 : ChooseRule(pair.SideJ, self.GetConstants(j, j + 1), tolerance, errorJ);
-    byRule = ruleJ >= 0;
-    Estimate result;
-    if (!byRule)
-    {
-      result = self.IntegrateNear(i, j);
-    }
-    else
-    {
-      result.Error = pair.SideI.Sum *
-        (errorI / (pair.SideI.Distance * pair.SideI.Distance) +
-          errorJ / (pair.SideJ.Distance * pair.SideJ.Distance));
-      const bool crossing = pair.Margin < 0.0 && self.NeedsClip(i, j);
-      if (crossing || self.HasLargePolygons(i, i + 1) || self.HasLargePolygons(j, j + 1))
-      {
-        result.Value = self.IntegrateClipped(i, ruleI, j, ruleJ);
-      }
-      else
-      {
-        vtkExchangeKernels::IntegrateRow(self.GetPatches(ruleI), self.GetRuleSize(ruleI, i, i + 1),
-          i, self.GetPatches(ruleJ), self.GetRuleSize(ruleJ, j, j + 1), j, 1, &result.Value,
-          nullptr);
-        result.Value /= Pi;
-      }
-    }
-    result.Value = self.Limit(i, j, result.Value);
-    return result;
+    this->Counters.Facing += 1.0;
+    (plan.Method == Plan::Contours ? this->Counters.Contours : this->Counters.Rules) += 1.0;
+    this->ErrorsI[i - this->FirstI] += pair.Error;
+    this->ErrorsJ[j - this->FirstJ] += pair.Error;
+    this->Values[(i - this->FirstI) * this->Stride + (j - this->FirstJ)] =
+      static_cast<float>(this->Self.Limit(i, j, pair.Value));
   }
 
 private:
@@ -751,6 +818,7 @@ void vtkOpenExchange::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride
 vtkPolygonExchange::Estimate vtkOpenExchange::Compute(vtkIdType i, vtkIdType j) const
 {
   // In one order, so that exchanging the two changes not even the rounding.
-  bool byRule = false;
-  return Filler<Internals>::ComputePair(*this->Self, std::min(i, j), std::max(i, j), byRule);
+  const vtkIdType first = std::min(i, j);
+  const vtkIdType second = std::max(i, j);
+  return this->Self->Follow(first, second, this->Self->MakePlan(first, second));
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace
 {
@@ -20,8 +21,11 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr double ClipTolerance = 1e-12;
 // Bisections of an edge: enough to resolve the logarithm at a shared corner to rounding.
 constexpr int MaximumDepth = 24;
+// The halves of a part may each have this much of its tolerance: not half, since as a rule only one
+// of them holds the singularity. Down one path these sum to 1 / (1 - DepthFactor).
+constexpr double DepthFactor = 0.7;
 // Triangles that an integral over points may take.
-constexpr int MaximumTriangles = 4000;
+constexpr int MaximumTriangles = 1000;
 // Relative error of a double integral over two edges by rounding, lengths being of order one.
 constexpr double Rounding = 4e-16;
 
@@ -98,8 +102,20 @@ struct Edge
 };
 
 //------------------------------------------------------------------------------
-// The double integral over two edges: a Gauss-Kronrod rule along one, the closed form along the
-// other.
+// The double integral over two edges: a Gauss-Kronrod rule along one, in parts, and the closed form
+// along the other.
+//
+// How far the difference of two rules is off is a matter of luck close to a singularity, so parts
+// are cut by bounds known beforehand. As a function of complex s the integrand is singular where
+// |x(s) - y|^2 = 0 for an end y of the inner edge, and where x(s) passes through the inside of the
+// inner edge. Over a part of half length h the rule, exact for degree 22, is off by at most
+//
+//   SingularConstant h^2,  and by  AnalyticConstant h min(h, L) rho^-22 / (rho - 1)
+//
+// where the ellipse with the part's ends as foci and half-axes that sum to rho h goes through the
+// nearest singularity (Trefethen, Approximation Theory and Approximation Practice, theorem 8.2).
+// The constants are one and a half times the largest seen for 200,000 random edges of 0.01 to 100
+// half lengths, meeting the part, nearly (gaps down to 1e-6, angles down to 1e-4) or not.
 class EdgePair
 {
 public:
@@ -117,55 +133,157 @@ public:
       this->Segments.Across[axis][1] = slope[axis];
     }
     this->Segments.Length = inner.Length;
+    this->AddEnd(outer, inner.Origin);
+    this->AddEnd(outer, inner.End);
+    this->AddCrossing(outer, across, slope);
   }
 
   Estimate Integrate(double begin, double end, double tolerance, int depth = 0) const
   {
-    const Estimate whole = this->IntegratePart(begin, end);
-    if (whole.Error <= tolerance || depth == MaximumDepth)
+    const double error = this->GetBound(begin, end);
+    if (error <= tolerance || depth == MaximumDepth)
     {
-      return whole;
+      return { vtkExchangeKernels::IntegrateKronrod(this->Segments, begin, end), error };
     }
     const double center = 0.5 * (begin + end);
-    // Not halved: the singularity sits in one of the two halves, the other one then needs next to
-    // nothing.
-    const Estimate first = this->Integrate(begin, center, 0.7 * tolerance, depth + 1);
-    const Estimate second = this->Integrate(center, end, 0.7 * tolerance, depth + 1);
+    const double part = DepthFactor * tolerance;
+    const Estimate first = this->Integrate(begin, center, part, depth + 1);
+    const Estimate second = this->Integrate(center, end, part, depth + 1);
     return { first.Value + second.Value, first.Error + second.Error };
   }
 
 private:
-  Estimate IntegratePart(double begin, double end) const
+  double GetBound(double begin, double end) const
   {
-    const vtkExchangeKernels::KronrodSums sums =
-      vtkExchangeKernels::IntegrateKronrod(this->Segments, begin, end);
-    // The difference of the two rules is the error of the poorer one; QUADPACK's scaling by the
-    // variation gives that of the better.
-    double error = std::abs(sums.Kronrod - sums.Gauss);
-    if (sums.Variation > 0.0)
+    const double half = 0.5 * (end - begin);
+    const double singular = SingularConstant * half * half;
+    double sum = std::numeric_limits<double>::max();
+    for (int point = 0; point < this->NumberOfPoints; ++point)
     {
-      const double ratio = 200.0 * error / sums.Variation;
-      error = sums.Variation * std::min(1.0, ratio * std::sqrt(ratio));
+      const double squared = this->Imaginary[point] * this->Imaginary[point];
+      const double fromBegin = this->Real[point] - begin;
+      const double fromEnd = this->Real[point] - end;
+      sum = std::min(sum,
+        std::sqrt(fromBegin * fromBegin + squared) + std::sqrt(fromEnd * fromEnd + squared));
     }
-    return { sums.Kronrod, error };
+    const double axis = std::max(1.0, 0.5 * sum / half);
+    const double rho = axis + std::sqrt(axis * axis - 1.0);
+    const double rho2 = rho * rho;
+    const double rho4 = rho2 * rho2;
+    const double rho8 = rho4 * rho4;
+    const double rho22 = rho8 * rho8 * rho4 * rho2;
+    const double analytic = AnalyticConstant * half * std::min(half, this->Segments.Length);
+    return singular * rho22 * (rho - 1.0) > analytic ? analytic / (rho22 * (rho - 1.0)) : singular;
   }
 
+  void AddEnd(const Edge& outer, const Vector& end)
+  {
+    const Vector offset = end - outer.Origin;
+    this->AddPoint(offset.dot(outer.Axis), offset.cross(outer.Axis).norm());
+  }
+
+  // Where the distance from the inner edge's line is zero: across + s slope = 0, s complex.
+  void AddCrossing(const Edge& outer, const Vector& across, const Vector& slope)
+  {
+    const double squared = slope.squaredNorm();
+    if (squared < 1e-30)
+    {
+      return;
+    }
+    const double real = -across.dot(slope) / squared;
+    const double imaginary = across.cross(slope).norm() / squared;
+    const double along = this->Segments.Along[0] + real * this->Segments.Along[1];
+    const double reach = std::abs(imaginary * this->Segments.Along[1]);
+    if (along >= -reach && along <= this->Segments.Length + reach && real > -outer.Length &&
+      real < 2.0 * outer.Length)
+    {
+      this->AddPoint(real, imaginary);
+    }
+  }
+
+  void AddPoint(double real, double imaginary)
+  {
+    this->Real[this->NumberOfPoints] = real;
+    this->Imaginary[this->NumberOfPoints] = imaginary;
+    ++this->NumberOfPoints;
+  }
+
+  static constexpr double SingularConstant = 0.034;
+  static constexpr double AnalyticConstant = 0.016;
+
   vtkExchangeKernels::Segments Segments;
+  // Singularities in the upper half of the plane of s.
+  int NumberOfPoints = 0;
+  double Real[3];
+  double Imaginary[3];
 };
 
 //------------------------------------------------------------------------------
-// An edge with itself, in either direction, in closed form.
-bool IntegrateSame(const Edge& a, const Edge& b, double& value)
+// The double integrals over pairs of edges that share a corner, which are singular there. With both
+// edges from that corner r(s, t) is homogeneous, div((s, t) ln r) = 2 ln r + 1, so that the double
+// integral over [0, a] x [0, b] is half of a * (integral over one edge as seen from the end of the
+// other) + b * (the other way round) - a b. An edge with itself is a pair of this kind, too.
+class CornerPairs
 {
-  const bool same = a.Origin == b.Origin && a.Axis == b.Axis;
-  const bool opposite = a.Origin == b.End && a.End == b.Origin;
-  if (!(same && a.Length == b.Length) && !opposite)
+public:
+  /// Returns false where the edges share no corner.
+  bool Add(const Edge& a, const Edge& b, double cosine)
   {
-    return false;
+    const bool atStartOfA = a.Origin == b.Origin || a.Origin == b.End;
+    const bool atEndOfA = a.End == b.Origin || a.End == b.End;
+    if (!atStartOfA && !atEndOfA)
+    {
+      return false;
+    }
+    const Vector& corner = atStartOfA ? a.Origin : a.End;
+    this->AddTerm(atStartOfA ? a.End : a.Origin, b, cosine * a.Length);
+    this->AddTerm(corner == b.Origin ? b.End : b.Origin, a, cosine * b.Length);
+    this->Sum -= 0.5 * cosine * a.Length * b.Length;
+    return true;
   }
-  value = a.Length * a.Length * (std::log(a.Length) - 1.5);
-  return true;
-}
+
+  double GetSum()
+  {
+    this->Flush();
+    return this->Sum;
+  }
+
+private:
+  static constexpr int Most = 2 * vtkExchangeKernels::Lanes;
+
+  void AddTerm(const Vector& x, const Edge& edge, double factor)
+  {
+    if (this->Count == Most)
+    {
+      this->Flush();
+    }
+    const Vector offset = x - edge.Origin;
+    this->Along[this->Count] = offset.dot(edge.Axis);
+    this->Squared[this->Count] = offset.cross(edge.Axis).squaredNorm();
+    this->Lengths[this->Count] = edge.Length;
+    this->Factors[this->Count] = 0.5 * factor;
+    ++this->Count;
+  }
+
+  void Flush()
+  {
+    double results[Most];
+    vtkExchangeKernels::IntegrateLogarithms(this->Along, this->Squared, this->Lengths, this->Count,
+      results);
+    for (int term = 0; term < this->Count; ++term)
+    {
+      this->Sum += this->Factors[term] * results[term];
+    }
+    this->Count = 0;
+  }
+
+  double Along[Most];
+  double Squared[Most];
+  double Lengths[Most];
+  double Factors[Most];
+  int Count = 0;
+  double Sum = 0.0;
+};
 
 //------------------------------------------------------------------------------
 int MakeEdges(const Polygon& polygon, const Vector& origin, double scale, Edge* edges)
@@ -497,6 +615,7 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
   const int countA = MakeEdges(a, middleA, scale, edgesA.data());
   const int countB = MakeEdges(b, middleA, scale, edgesB.data());
   const double share = 2.0 * Pi * tolerance / (scale * scale * countA * countB);
+  CornerPairs corners;
   Estimate total;
   for (int i = 0; i < countA; ++i)
   {
@@ -507,10 +626,9 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
       {
         continue;
       }
-      double same = 0.0;
-      if (IntegrateSame(edgesA[i], edgesB[j], same))
+      if (corners.Add(edgesA[i], edgesB[j], cosine))
       {
-        total.Value += cosine * same;
+        total.Error += Rounding * std::abs(cosine) * edgesA[i].Length * edgesB[j].Length;
         continue;
       }
       // The adaptive rule runs along the shorter edge: the closed form takes the longer one.
@@ -520,11 +638,13 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
       // Rounding alone leaves this much: asking for less would cut the edge for ever.
       const double rounding = Rounding * outer.Length * inner.Length;
       const Estimate part =
-        EdgePair(outer, inner).Integrate(0.0, outer.Length, std::max(share, rounding));
+        EdgePair(outer, inner)
+          .Integrate(0.0, outer.Length, std::max((1.0 - DepthFactor) * share, rounding));
       total.Value += cosine * part.Value;
       total.Error += std::abs(cosine) * (part.Error + rounding);
     }
   }
+  total.Value += corners.GetSum();
   const double unit = scale * scale / (2.0 * Pi);
   return { std::max(0.0, unit * total.Value), unit * total.Error };
 }
