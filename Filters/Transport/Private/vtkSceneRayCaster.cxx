@@ -8,27 +8,141 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <vector>
 
 namespace
 {
+using Vector = vtkPatchScene::Vector;
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
 using QueryContext = RTCRayQueryContext;
 #else
 using QueryContext = RTCIntersectContext;
 #endif
 
-// What a filter function needs to know of its ray; Embree hands the first member back.
-struct OwnPatches
+// Several times what the coordinates of boxes and rays lose in single precision, and what Embree's
+// arithmetic adds, in a scene whose diagonal is 1: a ray that meets a patch meets its box.
+constexpr float BoxMargin = 1e-6f;
+// Rounding in double precision in such a scene: of heights over a plane, whose normal comes from
+// rounded corners, and of the side on which an edge passes (a bound of its arithmetic).
+constexpr double HeightRounding = 32.0 * std::numeric_limits<double>::epsilon();
+constexpr double SideRounding = 4.0 * std::numeric_limits<double>::epsilon();
+// Longer than the scene.
+constexpr double OutOfScene = 2.0;
+
+//------------------------------------------------------------------------------
+// A primitive of Embree: what tells that most of them are not in the way lies side by side.
+struct Candidate
+{
+  Vector Normal;
+  double Offset; // Normal . p in the plane of the patch
+  vtkIdType Patch;
+  vtkIdType Place;
+
+  double GetHeight(const Vector& point) const { return this->Normal.dot(point) - this->Offset; }
+};
+
+//------------------------------------------------------------------------------
+// A segment on its way through the scene and the nearest patch that it has met. Embree hands the
+// first member back to the functions that test candidates.
+struct Segment
 {
   QueryContext Context;
-  const std::vector<vtkIdType>* PatchOfTriangle;
-  const std::vector<vtkIdType>* Places;
-  vtkIdType From;
+  const vtkPatchScene* Scene;
+  const Candidate* Candidates;
+  vtkIdType From; // places that do not stop it
   vtkIdType To;
+  Vector Origin;
+  Vector Target;
+  Vector Direction;
+  double LargestSideRounding; // over the length of the edge
+
+  double HitFraction = std::numeric_limits<double>::infinity();
+  vtkIdType HitPatch = -1;
+  bool HitFront = false;
+
+  Segment(const Vector& origin, const Vector& target)
+    : Origin(origin), Target(target), Direction(target - origin),
+      LargestSideRounding(SideRounding * this->Direction.lpNorm<1>())
+  {
+  }
+
+  // On which side of the segment's line an edge passes: 0 where rounding decides. The edge comes
+  // from its ends: a difference of vectors from the origin would lose the digits of a short one.
+  double GetSide(const Vector& a, const Vector& b) const
+  {
+    const Vector edge = b - a;
+    const double side = this->Direction.dot((a - this->Origin).cross(edge));
+    return std::abs(side) <= this->LargestSideRounding * edge.lpNorm<1>() ? 0.0 : side;
+  }
+
+  // Whether the segment's line meets a patch or its border. Triangles of a fan, because corners
+  // within the tolerance of vtkPatchScene may be a little concave.
+  bool Meets(vtkIdType patch) const
+  {
+    const Vector& first = this->Scene->GetCorner(patch, 0);
+    double begin = this->GetSide(first, this->Scene->GetCorner(patch, 1));
+    for (int corner = 2; corner < this->Scene->GetNumberOfCorners(patch); ++corner)
+    {
+      const Vector& last = this->Scene->GetCorner(patch, corner);
+      const double outer = this->GetSide(this->Scene->GetCorner(patch, corner - 1), last);
+      const double end = this->GetSide(last, first);
+      if ((begin >= 0.0 && outer >= 0.0 && end >= 0.0) ||
+        (begin <= 0.0 && outer <= 0.0 && end <= 0.0))
+      {
+        return true;
+      }
+      begin = -end;
+    }
+    return false;
+  }
+
+  // Whether a patch is in the way; also the heights of both ends over its plane.
+  bool Crosses(const Candidate& candidate, double& from, double& to) const
+  {
+    from = candidate.GetHeight(this->Origin);
+    to = candidate.GetHeight(this->Target);
+    // What an end lies on, or continues in the same plane, is not between the ends.
+    const bool through = (from > HeightRounding && to < -HeightRounding) ||
+      (from < -HeightRounding && to > HeightRounding);
+    return through && candidate.Place != this->From && candidate.Place != this->To &&
+      this->Meets(candidate.Patch);
+  }
+
+  void AddHit(vtkIdType patch, double from, double to)
+  {
+    const double fraction = from / (from - to);
+    const double rounding = HeightRounding / std::abs(from - to);
+    const bool front = from > 0.0;
+    const bool same = std::abs(fraction - this->HitFraction) <= rounding;
+    if (same ? front && !this->HitFront : fraction < this->HitFraction)
+    {
+      this->HitFraction = fraction;
+      this->HitPatch = patch;
+      this->HitFront = front;
+    }
+  }
+
+  void SetRay(RTCRay& ray) const
+  {
+    ray.org_x = static_cast<float>(this->Origin.x());
+    ray.org_y = static_cast<float>(this->Origin.y());
+    ray.org_z = static_cast<float>(this->Origin.z());
+    ray.dir_x = static_cast<float>(this->Direction.x());
+    ray.dir_y = static_cast<float>(this->Direction.y());
+    ray.dir_z = static_cast<float>(this->Direction.z());
+    ray.tnear = 0.0f;
+    ray.tfar = 1.0f;
+    ray.time = 0.0f;
+    ray.mask = std::numeric_limits<unsigned int>::max();
+    ray.id = 0;
+    ray.flags = 0;
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -49,141 +163,122 @@ std::vector<vtkIdType> FindPlaces(const vtkPatchScene& scene)
 }
 
 //------------------------------------------------------------------------------
-void RejectOwnPatches(const RTCFilterFunctionNArguments* arguments)
+void TestOccluded(const RTCOccludedFunctionNArguments* arguments)
 {
-  const auto* own = reinterpret_cast<const OwnPatches*>(arguments->context);
-  for (unsigned int ray = 0; ray < arguments->N; ++ray)
+  const auto* segment = reinterpret_cast<const Segment*>(arguments->context);
+  double from, to;
+  if (segment->Crosses(segment->Candidates[arguments->primID], from, to))
   {
-    const unsigned int triangle = RTCHitN_primID(arguments->hit, arguments->N, ray);
-    const vtkIdType place = (*own->Places)[(*own->PatchOfTriangle)[triangle]];
-    if (place == own->From || place == own->To)
-    {
-      arguments->valid[ray] = 0;
-    }
+    RTCRayN_tfar(arguments->ray, 1, 0) = -std::numeric_limits<float>::infinity();
   }
 }
 
 //------------------------------------------------------------------------------
-void SetRay(RTCRay& ray, const vtkPatchScene::Vector& origin,
-  const vtkPatchScene::Vector& direction, float length)
+void TestIntersected(const RTCIntersectFunctionNArguments* arguments)
 {
-  ray.org_x = static_cast<float>(origin.x());
-  ray.org_y = static_cast<float>(origin.y());
-  ray.org_z = static_cast<float>(origin.z());
-  ray.dir_x = static_cast<float>(direction.x());
-  ray.dir_y = static_cast<float>(direction.y());
-  ray.dir_z = static_cast<float>(direction.z());
-  ray.tnear = 0.0f;
-  ray.tfar = length;
-  ray.time = 0.0f;
-  ray.mask = std::numeric_limits<unsigned int>::max();
-  ray.id = 0;
-  ray.flags = 0;
+  auto* segment = reinterpret_cast<Segment*>(arguments->context);
+  const Candidate& candidate = segment->Candidates[arguments->primID];
+  double from, to;
+  if (segment->Crosses(candidate, from, to))
+  {
+    segment->AddHit(candidate.Patch, from, to);
+    // Embree may leave out what is certainly further away.
+    RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, 1), 1, 0) =
+      static_cast<float>(segment->HitFraction) + BoxMargin;
+  }
 }
 } // namespace
 
 struct vtkSceneRayCaster::Internals
 {
   RTCDevice Device = nullptr;
-  RTCScene Scene = nullptr;
-  std::vector<vtkIdType> PatchOfTriangle;
+  RTCScene Tree = nullptr;
+  const vtkPatchScene* Scene = nullptr;
   std::vector<vtkIdType> Places;
-  /// For each place: whether fronts look both ways.
-  std::vector<bool> TwoSided;
+  std::vector<Candidate> Candidates;
 
   ~Internals() { this->Close(); }
 
   void Close()
   {
-    if (this->Scene)
+    if (this->Tree)
     {
-      rtcReleaseScene(this->Scene);
+      rtcReleaseScene(this->Tree);
     }
     if (this->Device)
     {
       rtcReleaseDevice(this->Device);
     }
-    this->Scene = nullptr;
+    this->Tree = nullptr;
     this->Device = nullptr;
-    this->PatchOfTriangle.clear();
+    this->Candidates.clear();
   }
 
-  OwnPatches MakeContext(vtkIdType from, vtkIdType to) const
+  Segment MakeSegment(const Vector& origin, const Vector& target, vtkIdType from,
+    vtkIdType to) const
   {
-    OwnPatches own;
+    Segment segment(origin, target);
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
-    rtcInitRayQueryContext(&own.Context);
+    rtcInitRayQueryContext(&segment.Context);
 #else
-    rtcInitIntersectContext(&own.Context);
+    rtcInitIntersectContext(&segment.Context);
 #endif
-    own.PatchOfTriangle = &this->PatchOfTriangle;
-    own.Places = &this->Places;
-    own.From = this->Places[from];
-    own.To = to < 0 ? to : this->Places[to];
-    return own;
+    segment.Scene = this->Scene;
+    segment.Candidates = this->Candidates.data();
+    segment.From = this->Places[from];
+    segment.To = to < 0 ? to : this->Places[to];
+    return segment;
   }
 
-  void FindThinWalls(const vtkPatchScene& scene);
-  bool AddTriangles(const vtkPatchScene& scene, const std::vector<bool>* subset);
+  void AddPatches(const vtkPatchScene& scene, const std::vector<bool>* subset);
+  static void FindBox(const RTCBoundsFunctionArguments* arguments);
 };
 
 //------------------------------------------------------------------------------
-void vtkSceneRayCaster::Internals::FindThinWalls(const vtkPatchScene& scene)
+void vtkSceneRayCaster::Internals::AddPatches(const vtkPatchScene& scene,
+  const std::vector<bool>* subset)
 {
+  this->Scene = &scene;
   this->Places = FindPlaces(scene);
-  this->TwoSided.assign(this->Places.size(), false);
   for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
   {
-    const vtkIdType place = this->Places[patch];
-    if (scene.GetNormal(patch).dot(scene.GetNormal(place)) < 0.0)
+    if (!subset || (*subset)[patch])
     {
-      this->TwoSided[place] = true;
+      const Vector& normal = scene.GetNormal(patch);
+      const double offset = normal.dot(scene.GetCentroid(patch));
+      this->Candidates.push_back({ normal, offset, patch, this->Places[patch] });
     }
   }
+  RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(this->Candidates.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(geometry, FindBox, nullptr);
+  rtcSetGeometryOccludedFunction(geometry, TestOccluded);
+  rtcSetGeometryIntersectFunction(geometry, TestIntersected);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(this->Tree, geometry);
+  rtcReleaseGeometry(geometry);
 }
 
 //------------------------------------------------------------------------------
-bool vtkSceneRayCaster::Internals::AddTriangles(const vtkPatchScene& scene,
-  const std::vector<bool>* subset)
+void vtkSceneRayCaster::Internals::FindBox(const RTCBoundsFunctionArguments* arguments)
 {
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  const auto* self = static_cast<const Internals*>(arguments->geometryUserPtr);
+  const vtkIdType patch = self->Candidates[arguments->primID].Patch;
+  Vector low = self->Scene->GetCorner(patch, 0);
+  Vector high = low;
+  for (int corner = 1; corner < self->Scene->GetNumberOfCorners(patch); ++corner)
   {
-    const int triangles = !subset || (*subset)[patch] ? scene.GetNumberOfCorners(patch) - 2 : 0;
-    this->PatchOfTriangle.insert(this->PatchOfTriangle.end(), triangles, patch);
+    low = low.cwiseMin(self->Scene->GetCorner(patch, corner));
+    high = high.cwiseMax(self->Scene->GetCorner(patch, corner));
   }
-  RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-    RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.GetPoints().size()));
-  auto* index = static_cast<unsigned int*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX,
-    0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned int), this->PatchOfTriangle.size()));
-  if (!vertex || !index)
-  {
-    rtcReleaseGeometry(geometry);
-    return false;
-  }
-  for (const vtkPatchScene::Vector& point : scene.GetPoints())
-  {
-    *vertex++ = static_cast<float>(point.x());
-    *vertex++ = static_cast<float>(point.y());
-    *vertex++ = static_cast<float>(point.z());
-  }
-  for (std::size_t triangle = 0; triangle < this->PatchOfTriangle.size();)
-  {
-    const vtkIdType patch = this->PatchOfTriangle[triangle];
-    const vtkIdType* corners = scene.GetCorners(patch);
-    for (int corner = 1; corner + 1 < scene.GetNumberOfCorners(patch); ++corner, ++triangle)
-    {
-      *index++ = static_cast<unsigned int>(corners[0]);
-      *index++ = static_cast<unsigned int>(corners[corner]);
-      *index++ = static_cast<unsigned int>(corners[corner + 1]);
-    }
-  }
-  rtcSetGeometryOccludedFilterFunction(geometry, RejectOwnPatches);
-  rtcSetGeometryIntersectFilterFunction(geometry, RejectOwnPatches);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(this->Scene, geometry);
-  rtcReleaseGeometry(geometry);
-  return true;
+  RTCBounds* box = arguments->bounds_o;
+  box->lower_x = static_cast<float>(low.x()) - BoxMargin;
+  box->lower_y = static_cast<float>(low.y()) - BoxMargin;
+  box->lower_z = static_cast<float>(low.z()) - BoxMargin;
+  box->upper_x = static_cast<float>(high.x()) + BoxMargin;
+  box->upper_y = static_cast<float>(high.y()) + BoxMargin;
+  box->upper_z = static_cast<float>(high.z()) + BoxMargin;
 }
 
 //------------------------------------------------------------------------------
@@ -202,15 +297,9 @@ bool vtkSceneRayCaster::Build(const vtkPatchScene& scene, std::string& error,
   bool ok = this->Self->Device != nullptr;
   if (ok)
   {
-    this->Self->Scene = rtcNewScene(this->Self->Device);
-    // Robust: no ray slips through the common edge of two triangles.
-    rtcSetSceneFlags(this->Self->Scene, RTC_SCENE_FLAG_ROBUST);
-    this->Self->FindThinWalls(scene);
-    ok = this->Self->AddTriangles(scene, subset);
-  }
-  if (ok)
-  {
-    rtcCommitScene(this->Self->Scene);
+    this->Self->Tree = rtcNewScene(this->Self->Device);
+    this->Self->AddPatches(scene, subset);
+    rtcCommitScene(this->Self->Tree);
     ok = rtcGetDeviceError(this->Self->Device) == RTC_ERROR_NONE;
   }
   if (!ok)
@@ -223,46 +312,41 @@ bool vtkSceneRayCaster::Build(const vtkPatchScene& scene, std::string& error,
 }
 
 //------------------------------------------------------------------------------
-bool vtkSceneRayCaster::IsOccluded(const vtkPatchScene::Vector& origin,
-  const vtkPatchScene::Vector& target, vtkIdType from, vtkIdType to) const
+bool vtkSceneRayCaster::IsOccluded(const Vector& origin, const Vector& target, vtkIdType from,
+  vtkIdType to) const
 {
-  OwnPatches own = this->Self->MakeContext(from, to);
+  Segment segment = this->Self->MakeSegment(origin, target, from, to);
   RTCRay ray;
-  SetRay(ray, origin, target - origin, 1.0f);
+  segment.SetRay(ray);
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
-  arguments.context = &own.Context;
-  rtcOccluded1(this->Self->Scene, &ray, &arguments);
+  arguments.context = &segment.Context;
+  rtcOccluded1(this->Self->Tree, &ray, &arguments);
 #else
-  rtcOccluded1(this->Self->Scene, &own.Context, &ray);
+  rtcOccluded1(this->Self->Tree, &segment.Context, &ray);
 #endif
   return ray.tfar < 0.0f;
 }
 
 //------------------------------------------------------------------------------
-vtkIdType vtkSceneRayCaster::FindHit(const vtkPatchScene::Vector& origin,
-  const vtkPatchScene::Vector& direction, vtkIdType from, bool& front) const
+vtkIdType vtkSceneRayCaster::FindHit(const Vector& origin, const Vector& direction, vtkIdType from,
+  bool& front) const
 {
-  OwnPatches own = this->Self->MakeContext(from, from);
+  Segment segment =
+    this->Self->MakeSegment(origin, origin + OutOfScene * direction.normalized(), from, -1);
   RTCRayHit hit;
-  SetRay(hit.ray, origin, direction, std::numeric_limits<float>::infinity());
+  segment.SetRay(hit.ray);
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
-  arguments.context = &own.Context;
-  rtcIntersect1(this->Self->Scene, &hit, &arguments);
+  arguments.context = &segment.Context;
+  rtcIntersect1(this->Self->Tree, &hit, &arguments);
 #else
-  rtcIntersect1(this->Self->Scene, &own.Context, &hit);
+  rtcIntersect1(this->Self->Tree, &segment.Context, &hit);
 #endif
-  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-  {
-    return -1;
-  }
-  const vtkIdType patch = this->Self->PatchOfTriangle[hit.hit.primID];
-  const vtkPatchScene::Vector normal(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
-  front = this->Self->TwoSided[this->Self->Places[patch]] || normal.dot(direction) < 0.0;
-  return patch;
+  front = segment.HitFront;
+  return segment.HitPatch;
 }

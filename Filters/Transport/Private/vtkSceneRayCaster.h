@@ -1,20 +1,28 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Rays through a vtkPatchScene, by Embree. Patches named as a ray's own never stop it, nor do
- * others with the same corners (the other side of a thin wall), so no ray needs an offset to leave
- * the patch where it starts or to arrive where it ends. Thread-safe after Build.
+ * Rays through a vtkPatchScene. Embree's single precision finds candidates (patches whose box,
+ * enlarged by what single precision loses, is met), double precision decides: a patch is hit where
+ * the ray crosses its plane between its ends, neither of them in the plane, and passes all edges on
+ * the same side or touches them. What counts as touching is rounding in double precision, so
+ * neighbors leave no gap between them and a patch a millionth as large as the scene keeps its
+ * shape.
+ *
+ * Patches named as a ray's own never stop it, nor do others with the same corners (the other side
+ * of a thin wall), so no ray needs an offset to leave the patch where it starts or to arrive where
+ * it ends. Origins must be in the bounding box of the scene. Thread-safe after Build.
  */
 #ifndef vtkSceneRayCaster_h
 #define vtkSceneRayCaster_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkPatchScene.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
-class vtkSceneRayCaster
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkSceneRayCaster
 {
 public:
   vtkSceneRayCaster();
@@ -30,13 +38,14 @@ public:
     const std::vector<bool>* subset = nullptr);
 
   /// True when a patch other than `from` and `to` lies between the two points (scene coordinates).
-  /// Both sides of a patch block.
+  /// Both sides of a patch block. `to` is -1 where the target is on no patch.
   bool IsOccluded(const vtkPatchScene::Vector& origin, const vtkPatchScene::Vector& target,
     vtkIdType from, vtkIdType to) const;
 
   /**
-   * The first patch other than `from` along a ray, or -1; `front` tells whether a front side was
-   * hit, its own or that of a patch with the same corners. `direction` need not be normalised.
+   * The first patch other than `from` along a ray, or -1; `front` tells whether its front was hit.
+   * Of two patches in one place the one that faces the ray is first. `direction` need not be
+   * normalised.
    */
   vtkIdType FindHit(const vtkPatchScene::Vector& origin, const vtkPatchScene::Vector& direction,
     vtkIdType from, bool& front) const;
