@@ -85,12 +85,19 @@ struct Segment
   // within the tolerance of vtkPatchScene may be a little concave.
   bool Meets(vtkIdType patch) const
   {
-    const Vector& first = this->Scene->GetCorner(patch, 0);
-    double begin = this->GetSide(first, this->Scene->GetCorner(patch, 1));
-    for (int corner = 2; corner < this->Scene->GetNumberOfCorners(patch); ++corner)
+    const vtkIdType* corners = this->Scene->GetCorners(patch);
+    const int count = this->Scene->GetNumberOfCorners(patch);
+    const Vector* points = this->Scene->GetPoints().data();
+    const Vector& first = points[corners[0]];
+    double begin = this->GetSide(first, points[corners[1]]);
+    for (int corner = 2; corner < count; ++corner)
     {
-      const Vector& last = this->Scene->GetCorner(patch, corner);
-      const double outer = this->GetSide(this->Scene->GetCorner(patch, corner - 1), last);
+      const Vector& last = points[corners[corner]];
+      const double outer = this->GetSide(points[corners[corner - 1]], last);
+      if (corner + 1 == count && begin * outer < 0.0)
+      {
+        return false; // as most candidates: the last side need not be known
+      }
       const double end = this->GetSide(last, first);
       if ((begin >= 0.0 && outer >= 0.0 && end >= 0.0) ||
         (begin <= 0.0 && outer <= 0.0 && end <= 0.0))
