@@ -3,6 +3,7 @@
 // The tree over a scene against its definition, and that the order of the tree stays inside:
 // arrays and numbers that users see are those of the input.
 #include "LightTransportTesting.h"
+#include "RanksInThreads.h"
 #include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPatchScene.h"
@@ -324,6 +325,58 @@ void TestBlocks()
     CheckArrays(vtkPolyData::SafeDownCast(output->GetBlock(k)), 1e-12);
   }
 }
+
+//------------------------------------------------------------------------------
+// The pieces of one surface on three ranks, one of them empty: all hold the scene of the whole.
+void TestRanks()
+{
+  auto whole = Shuffle(MakeRoom(8), 5);
+  AddTags(whole);
+  const vtkPatchScene serial = Build(whole);
+  vtkSmartPointer<vtkPolyData> pieces[3];
+  const vtkIdType starts[4] = { 0, 150, 150, whole->GetNumberOfCells() };
+  for (int rank = 0; rank < 3; ++rank)
+  {
+    vtkNew<vtkCellArray> polygons;
+    vtkNew<vtkIdList> corners;
+    for (vtkIdType cell = starts[rank]; cell < starts[rank + 1]; ++cell)
+    {
+      whole->GetCellPoints(cell, corners);
+      polygons->InsertNextCell(corners);
+    }
+    pieces[rank] = vtkSmartPointer<vtkPolyData>::New();
+    pieces[rank]->SetPoints(whole->GetPoints());
+    pieces[rank]->SetPolys(polygons);
+    AddTags(pieces[rank]);
+  }
+  bool equal[3] = {};
+  vtkNew<vtkPolyData> outputs[3];
+  RunRanks(3,
+    [&](vtkMultiProcessController* controller, int rank)
+    {
+      vtkPatchScene scene;
+      std::string error;
+      std::vector<double> values;
+      int components = 0;
+      equal[rank] = scene.Build(pieces[rank], controller, error) &&
+        scene.GatherCellArray(pieces[rank], "Tag", true, values, components, error) &&
+        scene.GetFingerprint() == serial.GetFingerprint() && scene.GetAreas() == serial.GetAreas();
+      for (vtkIdType cell = starts[rank]; equal[rank] && cell < starts[rank + 1]; ++cell)
+      {
+        equal[rank] = scene.GetPatch(cell) == serial.GetPatch(cell) &&
+          scene.GetLocalPatches()[cell - starts[rank]] == serial.GetPatch(cell);
+      }
+      scene.BuildSmoothPoints(60.0, {}, 0);
+      scene.CopyStructure(pieces[rank], outputs[rank]);
+      scene.AddArray(outputs[rank], "Copy", values, components);
+      scene.AddArray(outputs[rank], "Wall", GetWalls(scene), 1);
+    });
+  for (int rank = 0; rank < 3; ++rank)
+  {
+    Check(equal[rank], "the scene of rank " + std::to_string(rank));
+    CheckArrays(outputs[rank], 1e-12);
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -334,5 +387,6 @@ int TestPatchTree(int, char*[])
   TestOrder();
   TestArrays();
   TestBlocks();
+  TestRanks();
   return Result();
 }
