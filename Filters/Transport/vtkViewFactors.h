@@ -10,36 +10,54 @@
  *
  * How a pair is computed: both patches are clipped to the half-space in front of the other; near
  * pairs use the contour integral (Sparrow 1963; the inner integral in closed form, the outer one by
- * adaptive Gauss quadrature), pairs further apart a product of Gauss rules, far pairs one point,
- * each where its error bound allows it. Where something may stand between the two patches, rays
- * (Embree) between stratified points decide which part of the exchange is visible, more rays only
- * where they disagree.
+ * adaptive Gauss quadrature), pairs further apart products of Gauss rules, each where its error
+ * bound allows it. What may stand between two patches is found by shaft culling (Haines and Wallace
+ * 1991): where nothing does, that is certain. Otherwise the visible part is integrated over one
+ * patch, from each of whose points the shadows of the occluders on the other are drawn as
+ * intervals of many lines (vtkPairVisibility), until the row keeps its Tolerance.
  *
- * Output (port 0): the input with the cell arrays
+ * Input cell array (SetInputArrayToProcess 0 ["Group"], optional): integers that divide the patches
+ * into groups. Without it the blocks of composite input are the groups.
+ *
+ * Output port 0: the input with the cell arrays
  *   - "ViewFactorSum" (1 component): sum_j F_ij as computed, before any closure. 1 in a closed
  * scene.
- *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|. It does not know of an occluder
- * that the first rays of a pair all miss.
+ *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|.
  *   - "SkyFraction" (1): the part of the missing 1 - ViewFactorSum that leaves the scene.
- *   - "BackFaceFraction" (1): the part of it that meets back faces.
- * and field data: PairsExamined, PairsFacing, PairsPartlyVisible, RaysCast, ViewFactorSeconds,
- * ClosureChange, MatrixBytes.
+ *   - "BackFaceFraction" (1): the part of it that meets back faces. Where less is missing than
+ * "ViewFactorError" both are 0; how more divides is sampled with 128 rays (Embree).
+ * and field data:
+ *   - PairsExamined = PairsBackFacing (also those in one plane) + PairsFacing; PairsNotSending were
+ * not examined (vtkRadiosity only).
+ *   - of the facing ones PairsUnobstructed (nothing reaches into the shaft between them),
+ * PairsHidden and PairsPartlyVisible; the rest has something near that hides nothing.
+ *   - RaysCast, ViewFactorSeconds, MatrixBytes (tiles of 256 x 256 pairs that are all zero are not
+ * stored), DenseMatrixBytes.
+ *   - ClosureChange (largest sum of the absolute changes of a row of F), ClosureGap (largest
+ * |1 - sum| left in a row that should be closed).
  *
- * Errors: see vtkTransportAlgorithm; in addition the memory for n (n + 1) / 2 values of 4 bytes
- * must be there.
+ * Output port 1: vtkTable, view factors between groups: columns "Group", "Area" (input unit
+ * squared), one per receiving group, "Sky" and "BackFace".
+ *
+ * Errors: see vtkTransportAlgorithm; in addition the memory for the tiles that may be needed, at
+ * most n (n + 1) / 2 values of 4 bytes, must be there; "Group" must have integers.
  */
 #ifndef vtkViewFactors_h
 #define vtkViewFactors_h
 
 #include "vtkLightTransportFiltersModule.h" // for export macro
-#include "vtkSmartPointer.h"                // for vtkSmartPointer
 #include "vtkTransportAlgorithm.h"
 
 #include <functional> // for std::function
+#include <memory>     // for std::unique_ptr
+#include <string>     // for std::string
 #include <vector>     // for std::vector
 
 class vtkExchangeMatrix;
 class vtkPatchScene;
+class vtkTable;
+class vtkViewFactorAssembly;
+struct vtkViewFactorsResult;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkViewFactors : public vtkTransportAlgorithm
 {
@@ -50,32 +68,41 @@ public:
 
   ///@{
   /**
-   * Bounds the sum over j of the absolute errors of F_ij of each row. The integration of unoccluded
-   * pairs keeps it; where patches are partly visible the number of rays per pair is limited
-   * (MaximumNumberOfRays), and "ViewFactorError" tells what was reached. Default 1e-4, range 1e-12
-   * to 0.1.
+   * Bounds the sum over j of the absolute errors of F_ij of each row. Default 1e-4, range 1e-12 to
+   * 0.1. Unoccluded pairs reach any of it, but for the storage in single precision (6e-8 of each
+   * F_ij); what partly visible pairs have reached when their work is used up "ViewFactorError"
+   * tells.
    */
   vtkSetClampMacro(Tolerance, double, 1e-12, 0.1);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// Most rays for one partly visible pair. Default 64, range 16 to 65536.
-  vtkSetClampMacro(MaximumNumberOfRays, int, 16, 65536);
-  vtkGetMacro(MaximumNumberOfRays, int);
-  ///@}
-
-  ///@{
   /**
-   * Make the rows of patches that see no opening sum to 1, moving the exchange as little as
-   * possible (least squares weighted with 1/G: van Leersum 1989) and keeping it symmetric. Rows
-   * that see the sky or back faces stay as they are. Default off; the field data array
-   * ClosureChange tells how far a row sum was moved at most.
+   * Make the rows of patches that see no opening sum to 1 and keep the matrix symmetric, moving
+   * each entry in proportion to its error estimate (least squares: van Leersum 1989), never below
+   * 0 or above its value with nothing in between. Rows that see the sky or back faces stay as they
+   * are. Default off; the field data arrays ClosureChange and ClosureGap tell how far it went.
    */
   vtkSetMacro(EnforceClosure, bool);
   vtkGetMacro(EnforceClosure, bool);
   vtkBooleanMacro(EnforceClosure, bool);
   ///@}
+
+  ///@{
+  /**
+   * Save the view factors that the last update computed, with the fingerprint of the geometry. Load
+   * takes them from a file: updates then compute nothing, and fail for any other geometry, until
+   * Load(nullptr) or another file. One process only. Both return false after an error, which they
+   * report: nothing computed yet, a file that cannot be written or read, is damaged or is no file
+   * of view factors.
+   */
+  bool Save(const char* fileName);
+  bool Load(const char* fileName);
+  ///@}
+
+  /// The table of port 1.
+  vtkTable* GetGroupTable();
 
   /// F_ij after Update, patches counted as the input's polygons (all blocks, all ranks, ghosts left
   /// out). 0 where out of range and, on several ranks, where another rank holds the pair.
@@ -85,13 +112,16 @@ public:
   /**
    * For filters that work on view factors: bring them up to date for a scene, computing only when
    * the geometry or a property has changed. `progress` is called with fractions and returns false
-   * to abort. Returns false after an error or an abort.
+   * to abort. `senders` (one per patch of the scene; null for all) tells which patches send
+   * anything: pairs of which neither does are left out. Returns false after an error or an abort.
    */
   using ProgressFunction = std::function<bool(double)>;
-  bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress);
+  bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
+    const std::vector<bool>* senders = nullptr);
+  /// Rows are in the order of the scene's patches, not of the input's polygons.
   vtkExchangeMatrix* GetExchange();
-  const std::vector<double>& GetRowSums() const { return this->RowSums; }
-  const std::vector<double>& GetRowErrors() const { return this->RowErrors; }
+  const std::vector<double>& GetRowSums() const;
+  const std::vector<double>& GetRowErrors() const;
   /// Field data arrays that summarise the last computation.
   void AddSummaries(vtkFieldData* fields) const;
   ///@}
@@ -107,33 +137,27 @@ private:
   vtkViewFactors(const vtkViewFactors&) = delete;
   void operator=(const vtkViewFactors&) = delete;
 
-  struct Assembly;
-  bool Assemble(const vtkPatchScene& scene, const ProgressFunction& progress);
-  void CollectCounters(const Assembly& assembly);
+  bool IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const;
+  bool CheckLoaded(const vtkPatchScene& scene);
+  bool Compute(const vtkPatchScene& scene, const ProgressFunction& progress,
+    const std::vector<bool>* senders);
+  bool Assemble(const vtkPatchScene& scene, const ProgressFunction& progress,
+    vtkViewFactorAssembly& assembly);
+  bool RunStages(const ProgressFunction& progress, vtkViewFactorAssembly& assembly);
+  vtkIdType GetMostOfAllRanks(vtkIdType count) const;
+  void Summarize(const vtkViewFactorAssembly& assembly);
   bool SumRows();
-  bool CloseRows();
   bool FindOpenings(const vtkPatchScene& scene);
+  bool CloseRows(const vtkViewFactorAssembly& assembly);
 
   double Tolerance = 1e-4;
-  int MaximumNumberOfRays = 64;
   bool EnforceClosure = false;
 
-  vtkSmartPointer<vtkExchangeMatrix> Exchange;
+  std::unique_ptr<vtkViewFactorsResult> Result;
+  std::vector<bool> Senders;      ///< that the result was computed for; empty for all
   std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons
-  std::vector<double> RawRowSums; ///< before closure
-  std::vector<double> RowSums;    ///< of the exchange as it is
-  std::vector<double> RowErrors;
-  std::vector<double> SkyFractions;
-  std::vector<double> BackFaceFractions;
-  unsigned long long Fingerprint = 0;
+  std::string LoadedFile;         ///< empty when the result was not loaded
   vtkTimeStamp BuildTime;
-
-  double PairsExamined = 0.0;
-  double PairsFacing = 0.0;
-  double PairsPartlyVisible = 0.0;
-  double RaysCast = 0.0;
-  double Seconds = 0.0;
-  double ClosureChange = 0.0;
 };
 
 #endif

@@ -77,14 +77,13 @@ void TestHalfOccluded()
   plates.AddGrid({ -4, -4, 1 }, { 4.5, 0, 0 }, { 0, 9, 0 }, 1, 1);
   vtkNew<vtkViewFactors> factors;
   factors->SetInputData(plates.Get());
-  for (const auto& setting :
-    std::map<int, double>{ { 256, 0.03 }, { 4096, 0.006 }, { 65536, 2e-3 } })
+  for (const double tolerance : { 1e-2, 1e-3, 1e-4, 1e-5 })
   {
-    factors->SetMaximumNumberOfRays(setting.first);
+    factors->SetTolerance(tolerance);
     factors->Update();
-    CheckClose(factors->GetViewFactor(0, 1), 0.5 * open, setting.second, "half occluded pair");
     const double error = GetCell(factors, "ViewFactorError", 0);
-    Check(error > 0.0 && error < 0.1 * open, "the error estimate knows of the sampling");
+    Check(error > 0.0 && error <= tolerance, "the row keeps its tolerance");
+    CheckClose(factors->GetViewFactor(0, 1), 0.5 * open, error / open, "half occluded pair");
   }
   Check(GetSummary(factors->GetPolyDataOutput(), "PairsPartlyVisible") >= 1.0,
     "partly visible pairs are counted");
@@ -162,7 +161,8 @@ void TestSlanted()
   for (vtkIdType i = 0; i < 24; ++i)
   {
     CheckClose(GetCell(factors, "ViewFactorSum", i), 1.0, Single, "row of a slanted room");
-    Check(GetCell(factors, "ViewFactorError", i) < 1e-11,
+    // Nothing but the storage in single precision is left of it.
+    Check(GetCell(factors, "ViewFactorError", i) < 6e-8 + 1e-11,
       "error estimate of a slanted room: " +
         std::to_string(GetCell(factors, "ViewFactorError", i)));
   }

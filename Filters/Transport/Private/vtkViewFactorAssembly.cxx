@@ -1,0 +1,494 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkViewFactorAssembly.h"
+
+#include "vtkCommunicator.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPatchTree.h"
+#include "vtkTransportThreads.h"
+
+#include <algorithm>
+#include <set>
+
+namespace
+{
+//------------------------------------------------------------------------------
+std::uint64_t GetKey(vtkIdType i, vtkIdType j)
+{
+  return static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::Counters::Add(const Counters& other)
+{
+  this->Open.Examined += other.Open.Examined;
+  this->Open.BackFacing += other.Open.BackFacing;
+  this->Open.Facing += other.Open.Facing;
+  this->Open.Rules += other.Open.Rules;
+  this->Open.Contours += other.Open.Contours;
+  this->NotSending += other.NotSending;
+  this->Free += other.Free;
+  this->Visible += other.Visible;
+  this->Hidden += other.Hidden;
+  this->PartlyVisible += other.PartlyVisible;
+}
+
+//------------------------------------------------------------------------------
+struct vtkViewFactorAssembly::UnitResult
+{
+  double ErrorsI[UnitSize] = {};
+  double ErrorsJ[UnitSize] = {};
+  std::vector<vtkPartlyVisiblePair> Pairs;
+  Counters Count;
+};
+
+//------------------------------------------------------------------------------
+// Stage 1 for units [First, First + Results.size()).
+struct vtkViewFactorAssembly::Looker
+{
+  const vtkViewFactorAssembly& Self;
+  vtkExchangeMatrix* Exchange;
+  vtkIdType First;
+  std::vector<UnitResult> Results;
+
+  // One unit at work: what all steps of the descent share.
+  struct Work
+  {
+    const vtkPatchTree& Tree;
+    vtkIdType FirstI, FirstJ;
+    float* Values; ///< of the pair (FirstI, FirstJ)
+    UnitResult& Result;
+    std::vector<vtkShaftCuller::Patches> Lists;
+    vtkPairVisibility Visibility;
+
+    float& GetValue(vtkIdType i, vtkIdType j) const
+    {
+      return this->Values[(i - this->FirstI) * vtkExchangeMatrix::TileSize + (j - this->FirstJ)];
+    }
+    // A list of the descent; a reference stays good only until the next call.
+    vtkShaftCuller::Patches& GetList(std::size_t depth)
+    {
+      if (this->Lists.size() <= depth)
+      {
+        this->Lists.resize(depth + 1);
+      }
+      return this->Lists[depth];
+    }
+  };
+
+  void operator()(vtkIdType begin, vtkIdType end)
+  {
+    constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+    const vtkPatchTree& tree = this->Self.Scene.GetTree();
+    for (vtkIdType index = begin; index < end; ++index)
+    {
+      const Unit& unit = this->Self.Units[index];
+      vtkExchangeMatrix::Tile& tile = this->Exchange->GetTiles()[unit.Tile];
+      const vtkIdType firstI = tree.GetNode(unit.I).First;
+      const vtkIdType firstJ = tree.GetNode(unit.J).First;
+      Work work{ tree, firstI, firstJ,
+        tile.Values + (firstI - tile.Row * N) * N + (firstJ - tile.Column * N),
+        this->Results[index - this->First], {}, {} };
+      this->Fill(unit.I, unit.J, work);
+      if (this->Self.Culler.HasOccluders())
+      {
+        this->Self.Culler.Find(unit.I, unit.J, work.GetList(0));
+        this->Descend(unit.I, unit.J, 0, work);
+      }
+      else
+      {
+        work.Result.Count.Free += work.Result.Count.Open.Facing;
+      }
+      if (tile.Row == tile.Column)
+      {
+        this->Mirror(unit, tile, work);
+      }
+    }
+  }
+
+  // The exchange with nothing in between, where at least one of two patches sends.
+  void Fill(int nodeI, int nodeJ, Work& work)
+  {
+    const vtkPatchTree::Node& i = work.Tree.GetNode(nodeI);
+    const vtkPatchTree::Node& j = work.Tree.GetNode(nodeJ);
+    const vtkIdType pairs =
+      nodeI == nodeJ ? i.GetSize() * (i.GetSize() - 1) / 2 : i.GetSize() * j.GetSize();
+    const vtkIdType sendersI = this->Self.NodeSenders[nodeI];
+    const vtkIdType sendersJ = this->Self.NodeSenders[nodeJ];
+    if (sendersI == 0 && sendersJ == 0)
+    {
+      work.Result.Count.NotSending += pairs;
+      return;
+    }
+    if (sendersI == i.GetSize() || sendersJ == j.GetSize() || (i.IsLeaf() && j.IsLeaf()))
+    {
+      this->Self.Open.Fill(nodeI, nodeJ, &work.GetValue(i.First, j.First),
+        vtkExchangeMatrix::TileSize, work.Result.ErrorsI + (i.First - work.FirstI),
+        work.Result.ErrorsJ + (j.First - work.FirstJ), work.Result.Count.Open);
+      return;
+    }
+    this->VisitChildren(nodeI, nodeJ, work.Tree,
+      [&](int childI, int childJ) { this->Fill(childI, childJ, work); });
+  }
+
+  // Calls visit for the pairs of nodes below a pair of nodes.
+  template <typename Visit>
+  static void VisitChildren(int nodeI, int nodeJ, const vtkPatchTree& tree, const Visit& visit)
+  {
+    const vtkPatchTree::Node& i = tree.GetNode(nodeI);
+    const vtkPatchTree::Node& j = tree.GetNode(nodeJ);
+    if (nodeI == nodeJ)
+    {
+      visit(i.Left, i.Left);
+      visit(i.Left, i.Left + 1);
+      visit(i.Left + 1, i.Left + 1);
+    }
+    else if (j.IsLeaf() || (!i.IsLeaf() && i.GetSize() >= j.GetSize()))
+    {
+      visit(i.Left, nodeJ);
+      visit(i.Left + 1, nodeJ);
+    }
+    else
+    {
+      visit(nodeI, j.Left);
+      visit(nodeI, j.Left + 1);
+    }
+  }
+
+  // List `depth` holds what reaches into the shaft between the two nodes.
+  void Descend(int nodeI, int nodeJ, std::size_t depth, Work& work)
+  {
+    const vtkPatchTree::Node& i = work.Tree.GetNode(nodeI);
+    const vtkPatchTree::Node& j = work.Tree.GetNode(nodeJ);
+    if (work.GetList(depth).empty())
+    {
+      this->CountFree(nodeI, nodeJ, work);
+      return;
+    }
+    if (i.IsLeaf() && j.IsLeaf())
+    {
+      for (vtkIdType row = i.First; row < i.Last; ++row)
+      {
+        for (vtkIdType column = nodeI == nodeJ ? row + 1 : j.First; column < j.Last; ++column)
+        {
+          this->LookAtPair(row, column, depth, work);
+        }
+      }
+      return;
+    }
+    this->VisitChildren(nodeI, nodeJ, work.Tree,
+      [&](int childI, int childJ)
+      {
+        work.GetList(depth + 1);
+        this->Self.Culler.Narrow(childI, childJ, work.GetList(depth), work.GetList(depth + 1));
+        this->Descend(childI, childJ, depth + 1, work);
+      });
+  }
+
+  void CountFree(int nodeI, int nodeJ, Work& work) const
+  {
+    const vtkPatchTree::Node& i = work.Tree.GetNode(nodeI);
+    const vtkPatchTree::Node& j = work.Tree.GetNode(nodeJ);
+    for (vtkIdType row = i.First; row < i.Last; ++row)
+    {
+      for (vtkIdType column = nodeI == nodeJ ? row + 1 : j.First; column < j.Last; ++column)
+      {
+        work.Result.Count.Free += work.GetValue(row, column) > 0.0f ? 1.0 : 0.0;
+      }
+    }
+  }
+
+  void LookAtPair(vtkIdType i, vtkIdType j, std::size_t depth, Work& work)
+  {
+    float& value = work.GetValue(i, j);
+    if (value <= 0.0f)
+    {
+      return;
+    }
+    Counters& count = work.Result.Count;
+    work.GetList(depth + 1);
+    vtkShaftCuller::Patches& between = work.GetList(depth + 1);
+    this->Self.Culler.NarrowBetween(i, j, work.GetList(depth), between);
+    vtkPolygonExchange::Polygon a, b;
+    if (between.empty())
+    {
+      ++count.Free;
+      return;
+    }
+    this->Self.ClipPair(i, j, a, b);
+    if (!work.Visibility.SetPair(a, b, this->Self.Scene, between, GetKey(i, j)))
+    {
+      ++count.Free;
+      return;
+    }
+    const vtkPairVisibility::Share share = work.Visibility.Look();
+    if (share.Error > 0.0)
+    {
+      ++count.PartlyVisible;
+      work.Result.Pairs.push_back(
+        { i, j, value, share.Value * value, share.Error * static_cast<double>(value) });
+    }
+    else
+    {
+      ++(share.Value > 0.0 ? count.Visible : count.Hidden);
+    }
+    value *= static_cast<float>(share.Value);
+  }
+
+  // Diagonal tiles hold both triangles.
+  void Mirror(const Unit& unit, const vtkExchangeMatrix::Tile& tile, const Work& work) const
+  {
+    constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+    const vtkPatchTree::Node& i = work.Tree.GetNode(unit.I);
+    const vtkPatchTree::Node& j = work.Tree.GetNode(unit.J);
+    for (vtkIdType row = i.First; row < i.Last; ++row)
+    {
+      for (vtkIdType column = unit.I == unit.J ? row + 1 : j.First; column < j.Last; ++column)
+      {
+        tile.Values[(column - tile.Column * N) * N + row - tile.Row * N] =
+          work.GetValue(row, column);
+      }
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+// Stage 2.
+struct vtkViewFactorAssembly::Refiner
+{
+  vtkViewFactorAssembly& Self;
+  vtkExchangeMatrix* Exchange;
+
+  void operator()(vtkIdType begin, vtkIdType end) const
+  {
+    constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+    const std::vector<double>& areas = this->Self.Scene.GetAreas();
+    vtkPairVisibility visibility;
+    vtkShaftCuller::Patches between;
+    for (vtkIdType index = begin; index < end; ++index)
+    {
+      vtkPartlyVisiblePair& pair = this->Self.Pairs[index];
+      const double allowed = VisibilityShare * this->Self.Tolerance *
+        std::min(areas[pair.I] / this->Self.PairsOfRow[pair.I],
+          areas[pair.J] / this->Self.PairsOfRow[pair.J]);
+      if (pair.Error <= allowed)
+      {
+        continue;
+      }
+      this->Self.Culler.FindBetween(pair.I, pair.J, between);
+      vtkPolygonExchange::Polygon a, b;
+      this->Self.ClipPair(pair.I, pair.J, a, b);
+      if (visibility.SetPair(a, b, this->Self.Scene, between, GetKey(pair.I, pair.J)))
+      {
+        const vtkPairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
+        pair.Value = share.Value * pair.Open;
+        pair.Error = share.Error * pair.Open;
+      }
+      const vtkIdType tile = this->Exchange->GetTileIndex(pair.I / N, pair.J / N);
+      vtkExchangeMatrix::SetValue(
+        this->Exchange->GetTiles()[tile / this->Exchange->GetNumberOfParts()],
+        static_cast<int>(pair.I % N), static_cast<int>(pair.J % N), 0, pair.Value);
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+vtkViewFactorAssembly::vtkViewFactorAssembly(const vtkPatchScene& scene, double tolerance,
+  const std::vector<bool>* senders)
+  : Scene(scene), Tolerance(tolerance), Senders(senders), Open(scene, OpenShare * tolerance),
+    Culler(scene), RowErrors(scene.GetNumberOfPatches(), 0.0)
+{
+  this->CountSenders();
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::CountSenders()
+{
+  const auto& nodes = this->Scene.GetTree().GetNodes();
+  this->NodeSenders.resize(nodes.size());
+  std::transform(nodes.begin(), nodes.end(), this->NodeSenders.begin(),
+    [this](const vtkPatchTree::Node& node)
+    {
+      return this->Senders ? static_cast<vtkIdType>(std::count(this->Senders->begin() + node.First,
+                               this->Senders->begin() + node.Last, true))
+                           : node.GetSize();
+    });
+}
+
+//------------------------------------------------------------------------------
+// The nodes of a block with at most UnitSize patches.
+std::vector<int> vtkViewFactorAssembly::GetQuarters(vtkIdType block) const
+{
+  const vtkPatchTree& tree = this->Scene.GetTree();
+  std::vector<int> quarters;
+  std::vector<int> open(1, tree.GetBlock(block));
+  while (!open.empty())
+  {
+    const int node = open.back();
+    open.pop_back();
+    if (tree.GetNode(node).GetSize() <= UnitSize)
+    {
+      quarters.push_back(node);
+      continue;
+    }
+    open.push_back(tree.GetNode(node).Left + 1);
+    open.push_back(tree.GetNode(node).Left);
+  }
+  return quarters;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkViewFactorAssembly::Plan(const vtkExchangeMatrix& structure)
+{
+  const auto& tiles = structure.GetTiles();
+  this->Units.clear();
+  this->TilesWithPairs.assign(tiles.size(), false);
+  vtkIdType count = 0;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+  {
+    const std::size_t before = this->Units.size();
+    this->AddUnits(static_cast<vtkIdType>(tile), tiles[tile]);
+    count += this->Units.size() > before ? 1 : 0;
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::AddUnits(vtkIdType tileIndex, const vtkExchangeMatrix::Tile& tile)
+{
+  const auto& nodes = this->Scene.GetTree().GetNodes();
+  const std::vector<int> columns = this->GetQuarters(tile.Column);
+  for (const int i : this->GetQuarters(tile.Row))
+  {
+    for (const int j : columns)
+    {
+      if (nodes[j].First < nodes[i].First)
+      {
+        continue;
+      }
+      const double pairs =
+        static_cast<double>(i == j ? nodes[i].GetSize() * (nodes[i].GetSize() - 1) / 2
+                                   : nodes[i].GetSize() * nodes[j].GetSize());
+      if (this->NodeSenders[i] == 0 && this->NodeSenders[j] == 0)
+      {
+        this->Total.NotSending += pairs;
+      }
+      else if (this->Open.MayFace(i, j))
+      {
+        this->Units.push_back({ tileIndex, i, j });
+      }
+      else
+      {
+        this->Total.Open.Examined += pairs;
+        this->Total.Open.BackFacing += pairs;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactorAssembly::Look(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end)
+{
+  for (vtkIdType unit = begin; unit < end; ++unit)
+  {
+    if (!exchange->AllocateTile(exchange->GetTiles()[this->Units[unit].Tile]))
+    {
+      return false;
+    }
+  }
+  Looker looker{ *this, exchange, begin, std::vector<UnitResult>(end - begin) };
+  vtkTransportThreads::For(begin, end, 1, looker);
+  // In the order of the units: sums then do not depend on the threads.
+  for (vtkIdType unit = begin; unit < end; ++unit)
+  {
+    this->Collect(this->Units[unit], looker.Results[unit - begin]);
+  }
+  this->ReleaseTiles(exchange, begin, end);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::Collect(const Unit& unit, const UnitResult& result)
+{
+  this->Total.Add(result.Count);
+  const auto& nodes = this->Scene.GetTree().GetNodes();
+  for (vtkIdType k = 0; k < nodes[unit.I].GetSize(); ++k)
+  {
+    this->RowErrors[nodes[unit.I].First + k] += result.ErrorsI[k];
+  }
+  for (vtkIdType k = 0; k < nodes[unit.J].GetSize(); ++k)
+  {
+    this->RowErrors[nodes[unit.J].First + k] += result.ErrorsJ[k];
+  }
+  this->Pairs.insert(this->Pairs.end(), result.Pairs.begin(), result.Pairs.end());
+  if (!result.Pairs.empty())
+  {
+    this->TilesWithPairs[unit.Tile] = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Tiles whose last unit is among these and that have come out as zero.
+void vtkViewFactorAssembly::ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin,
+  vtkIdType end)
+{
+  constexpr int values = vtkExchangeMatrix::TileSize * vtkExchangeMatrix::TileSize;
+  for (vtkIdType unit = begin; unit < end; ++unit)
+  {
+    const vtkIdType index = this->Units[unit].Tile;
+    const bool isLast = unit + 1 == this->GetNumberOfUnits() || this->Units[unit + 1].Tile != index;
+    vtkExchangeMatrix::Tile& tile = exchange->GetTiles()[index];
+    if (isLast && !this->TilesWithPairs[index] &&
+      std::all_of(tile.Values, tile.Values + values, [](float value) { return value == 0.0f; }))
+    {
+      exchange->ReleaseTile(tile);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::PrepareRefinement(vtkMultiProcessController* controller)
+{
+  std::vector<double> mine(this->Scene.GetNumberOfPatches(), 0.0);
+  for (const vtkPartlyVisiblePair& pair : this->Pairs)
+  {
+    mine[pair.I] += 1.0;
+    mine[pair.J] += 1.0;
+  }
+  this->PairsOfRow = mine;
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    controller->AllReduce(mine.data(), this->PairsOfRow.data(), static_cast<vtkIdType>(mine.size()),
+      vtkCommunicator::SUM_OP);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end)
+{
+  Refiner refiner{ *this, exchange };
+  vtkTransportThreads::For(begin, end, 1, refiner);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkViewFactorAssembly::GetRowErrors() const
+{
+  std::vector<double> errors = this->RowErrors;
+  for (const vtkPartlyVisiblePair& pair : this->Pairs)
+  {
+    errors[pair.I] += pair.Error;
+    errors[pair.J] += pair.Error;
+  }
+  return errors;
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactorAssembly::ClipPair(vtkIdType i, vtkIdType j, vtkPolygonExchange::Polygon& a,
+  vtkPolygonExchange::Polygon& b) const
+{
+  vtkPolygonExchange::MakePolygon(this->Scene, i, a);
+  vtkPolygonExchange::MakePolygon(this->Scene, j, b);
+  vtkPolygonExchange::Clip(b, this->Scene.GetCorner(i, 0), a.Normal);
+  vtkPolygonExchange::Clip(a, this->Scene.GetCorner(j, 0), b.Normal);
+}

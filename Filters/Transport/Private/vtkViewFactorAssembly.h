@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Fills this rank's part of an exchange matrix with the exchange between all patches of a scene, in
+ * two stages:
+ *
+ *   1. *Look*: for each pair of blocks the exchange with nothing in between (vtkOpenExchange); then
+ *      down both nodes of the tree with the list of patches that reach into the shaft between them
+ *      (vtkShaftCuller): where it becomes empty all pairs below are visible, whatever remains at a
+ *      pair is looked past from a few points (vtkPairVisibility). Pairs that are then neither
+ *      visible nor hidden for certain are put down.
+ *   2. *Refine*: how many such pairs a row has says how exact each of them must be; those that are
+ *      not yet are integrated until they are.
+ */
+#ifndef vtkViewFactorAssembly_h
+#define vtkViewFactorAssembly_h
+
+#include "vtkExchangeMatrix.h"
+#include "vtkOpenExchange.h"
+#include "vtkPairVisibility.h"
+#include "vtkShaftCuller.h"
+#include "vtkViewFactorsResult.h"
+
+#include <vector>
+
+class vtkMultiProcessController;
+
+class vtkViewFactorAssembly
+{
+public:
+  ///@{ The shares of the tolerance, which bounds the error of a whole row.
+  static constexpr double OpenShare = 0.2;
+  static constexpr double VisibilityShare = 0.8;
+  ///@}
+
+  /// Pairs, each counted once. Open.Examined = Open.BackFacing + Open.Facing; the facing ones are
+  /// Free, Visible, Hidden or PartlyVisible.
+  struct Counters
+  {
+    vtkOpenExchange::Counters Open;
+    double NotSending = 0.0;    ///< not examined, since neither sends anything
+    double Free = 0.0;          ///< nothing reaches into the shaft between them
+    double Visible = 0.0;       ///< something does, and hides nothing
+    double Hidden = 0.0;        ///< completely
+    double PartlyVisible = 0.0; ///< or not certain
+    void Add(const Counters& other);
+  };
+
+  /// `senders`: which patches send anything; null where all do.
+  vtkViewFactorAssembly(const vtkPatchScene& scene, double tolerance,
+    const std::vector<bool>* senders);
+
+  /// Make the plan for the tiles of a part. Returns how many may be other than zero.
+  vtkIdType Plan(const vtkExchangeMatrix& structure);
+
+  ///@{
+  /**
+   * Stage 1, in units of work: call it for all of them, in order, any number at a time. Returns
+   * false when the memory for a tile is not there.
+   */
+  vtkIdType GetNumberOfUnits() const { return static_cast<vtkIdType>(this->Units.size()); }
+  bool Look(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
+  ///@}
+
+  ///@{
+  /// Stage 2. Prepare is collective: it counts the pairs of a row over all ranks.
+  void PrepareRefinement(vtkMultiProcessController* controller);
+  vtkIdType GetNumberOfPairs() const { return static_cast<vtkIdType>(this->Pairs.size()); }
+  void Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
+  ///@}
+
+  /// After both stages, of this rank. Errors of rows in units of exchange.
+  const std::vector<vtkPartlyVisiblePair>& GetPairs() const { return this->Pairs; }
+  const Counters& GetCounters() const { return this->Total; }
+  std::vector<double> GetRowErrors() const;
+
+private:
+  /// Two nodes of at most UnitSize patches, and the tile that holds their exchange.
+  struct Unit
+  {
+    vtkIdType Tile; ///< index among the tiles of the part
+    int I, J;
+  };
+  static constexpr int UnitSize = 64;
+  struct UnitResult;
+  struct Looker;
+  struct Refiner;
+
+  void CountSenders();
+  std::vector<int> GetQuarters(vtkIdType block) const;
+  void AddUnits(vtkIdType tileIndex, const vtkExchangeMatrix::Tile& tile);
+  bool AllocateTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
+  void Collect(const Unit& unit, const UnitResult& result);
+  void ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
+  void ClipPair(vtkIdType i, vtkIdType j, vtkPolygonExchange::Polygon& a,
+    vtkPolygonExchange::Polygon& b) const;
+
+  const vtkPatchScene& Scene;
+  double Tolerance;
+  const std::vector<bool>* Senders;
+  std::vector<vtkIdType> NodeSenders;
+  vtkOpenExchange Open;
+  vtkShaftCuller Culler;
+  std::vector<Unit> Units;
+  std::vector<bool> TilesWithPairs;
+  std::vector<double> RowErrors; ///< of the exchange with nothing in between
+  std::vector<double> PairsOfRow;
+  std::vector<vtkPartlyVisiblePair> Pairs;
+  Counters Total;
+};
+
+#endif
