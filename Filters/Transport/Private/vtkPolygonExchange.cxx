@@ -319,7 +319,12 @@ Vector GetMiddle(const Polygon& polygon)
 class PointIntegral
 {
 public:
-  PointIntegral(const Polygon& outer, const Polygon& inner) : Outer(outer), Inner(inner) {}
+  PointIntegral(const Polygon& outer, const Polygon& inner) : Outer(outer), Inner(inner)
+  {
+    // Points of a small polygon would lose digits far from zero.
+    Move(this->Outer, outer.Corners[0]);
+    Move(this->Inner, outer.Corners[0]);
+  }
 
   Estimate Integrate(double tolerance) const
   {
@@ -417,8 +422,16 @@ private:
     return quarter;
   }
 
-  const Polygon& Outer;
-  const Polygon& Inner;
+  static void Move(Polygon& polygon, const Vector& origin)
+  {
+    for (int corner = 0; corner < polygon.Count; ++corner)
+    {
+      polygon.Corners[corner] -= origin;
+    }
+  }
+
+  Polygon Outer;
+  Polygon Inner;
 };
 } // namespace
 
