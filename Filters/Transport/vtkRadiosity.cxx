@@ -113,6 +113,8 @@ struct vtkRadiosity::Problem
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
+
+  std::vector<bool> FindSenders() const;
 };
 
 //------------------------------------------------------------------------------
@@ -167,7 +169,7 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
   {
     return 0;
   }
-  vtkViewFactors* viewFactors = this->UpdateViewFactors(scene);
+  vtkViewFactors* viewFactors = this->UpdateViewFactors(scene, problem);
   if (!viewFactors || !this->Solve(viewFactors, problem, vtkTable::GetData(outputs, 1)))
   {
     return 0;
@@ -318,9 +320,26 @@ bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const vtkPatchScene& scen
 }
 
 //------------------------------------------------------------------------------
-vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene)
+// Others only receive: what they would send to each other is nothing.
+std::vector<bool> vtkRadiosity::Problem::FindSenders() const
+{
+  std::vector<bool> senders(this->Reflectance.size() / this->Bands, false);
+  for (std::size_t k = 0; k < this->Reflectance.size(); ++k)
+  {
+    if (this->Reflectance[k] > 0.0 || this->Emission[k] > 0.0)
+    {
+      senders[k / this->Bands] = true;
+    }
+  }
+  return senders;
+}
+
+//------------------------------------------------------------------------------
+vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem)
 {
   vtkViewFactors* viewFactors = this->ViewFactors;
+  const std::vector<bool> senders = problem.FindSenders();
+  const bool needsAll = viewFactors || this->EnforceClosure;
   if (!viewFactors)
   {
     viewFactors = this->InternalViewFactors;
@@ -330,7 +349,8 @@ vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene)
   }
   this->SetProgressStage(0.0, ViewFactorsDone);
   const auto progress = [this](double done) { return this->ReportProgress(done); };
-  return viewFactors->UpdateExchange(scene, progress) ? viewFactors : nullptr;
+  return viewFactors->UpdateExchange(scene, progress, needsAll ? nullptr : &senders) ? viewFactors
+                                                                                     : nullptr;
 }
 
 //------------------------------------------------------------------------------

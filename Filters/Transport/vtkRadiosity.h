@@ -123,7 +123,9 @@ public:
   /**
    * View factors to share with other filters. Default nullptr: an internal one. Either keeps its
    * result while the geometry stays the same, so that new emissions or reflectances only cost a
-   * solution.
+   * solution. The internal one leaves out the pairs of patches of which neither sends anything
+   * (unless EnforceClosure, which needs whole rows), so it computes again when patches that did not
+   * send begin to.
    */
   virtual void SetViewFactors(vtkViewFactors* viewFactors);
   vtkGetObjectMacro(ViewFactors, vtkViewFactors);
@@ -151,7 +153,7 @@ private:
   bool ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   static std::string CheckArrays(const vtkPatchScene& scene, const Problem& problem);
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
-  vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene);
+  vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem);
   bool Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence);
   void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
   bool Finish(vtkDenseLinkOperator* links, Problem& problem);

@@ -359,6 +359,134 @@ void TestMirrors()
     CheckClose(Get(radiosity, "Radiosity", cell), 3.0, 1e-3, "mirrors around a lamp");
   }
 }
+
+//------------------------------------------------------------------------------
+// The largest difference between two results, all three arrays.
+double Compare(vtkRadiosity* a, vtkRadiosity* b)
+{
+  double worst = 0.0;
+  for (const char* name : { "Radiosity", "Irradiance", "NetFlux" })
+  {
+    vtkDataArray* first = a->GetPolyDataOutput()->GetCellData()->GetArray(name);
+    vtkDataArray* second = b->GetPolyDataOutput()->GetCellData()->GetArray(name);
+    Check(first && second && first->GetNumberOfValues() == second->GetNumberOfValues(), name);
+    for (vtkIdType k = 0; k < first->GetNumberOfTuples(); ++k)
+    {
+      for (int band = 0; band < first->GetNumberOfComponents(); ++band)
+      {
+        worst =
+          std::max(worst, std::abs(first->GetComponent(k, band) - second->GetComponent(k, band)));
+      }
+    }
+  }
+  return worst;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkRadiosity> MakeTightRadiosity(vtkPolyData* data, vtkViewFactors* factors,
+  double tolerance)
+{
+  auto radiosity = vtkSmartPointer<vtkRadiosity>::New();
+  radiosity->SetInputData(data);
+  radiosity->SetViewFactors(factors);
+  radiosity->SetTolerance(1e-13);
+  radiosity->SetViewFactorTolerance(tolerance);
+  radiosity->Update();
+  return radiosity;
+}
+
+//------------------------------------------------------------------------------
+// Half of a room is black and cold: nothing is computed between those patches (but where leaves of
+// the tree hold both sorts), all else is as with the whole matrix, what they receive included.
+// Patches that send in one band only are senders.
+void TestSenders()
+{
+  // Single precision view factors.
+  constexpr double Single = 2e-7;
+  auto room = MakeRoom(4);
+  const vtkIdType patches = room->GetNumberOfCells(), receivers = patches / 2;
+  const double pairs = static_cast<double>(patches * (patches - 1) / 2);
+  const double skipped = static_cast<double>(receivers * (receivers - 1) / 2);
+  vtkDoubleArray* reflectance = AddArray(room, "Reflectance", { 0.0, 0.0 });
+  vtkDoubleArray* emission = AddArray(room, "Emission", { 0.0, 0.0 });
+  AddArray(room, "DirectIrradiance", { 0.25 });
+  for (vtkIdType cell = receivers; cell < patches; ++cell)
+  {
+    // Either band alone makes a sender, and so does emission alone.
+    reflectance->SetComponent(cell, static_cast<int>(cell % 2), cell % 3 == 0 ? 0.0 : 0.5);
+    emission->SetComponent(cell, static_cast<int>(cell % 2), cell % 3 == 0 ? 1.0 : 0.0);
+  }
+  vtkNew<vtkViewFactors> all;
+  all->SetTolerance(1e-9);
+  auto whole = MakeTightRadiosity(room, all, 1e-9);
+  auto part = MakeTightRadiosity(room, nullptr, 1e-9);
+  vtkPolyData* output = part->GetPolyDataOutput();
+  CheckClose(Compare(whole, part), 0.0, Single, "with and without pairs that do not send");
+  const double notSending = GetSummary(output, "PairsNotSending");
+  Check(notSending <= skipped && notSending > 0.25 * skipped,
+    "pairs not sending: " + std::to_string(notSending) + " of " + std::to_string(skipped));
+  CheckClose(GetSummary(output, "PairsExamined"), pairs - notSending, 0.0, "pairs examined");
+  vtkPolyData* wholeOutput = whole->GetPolyDataOutput();
+  CheckClose(GetSummary(wholeOutput, "PairsNotSending"), 0.0, 0.0, "shared view factors: all");
+  CheckClose(GetSummary(wholeOutput, "PairsExamined"), pairs, 0.0, "shared view factors: pairs");
+  for (vtkIdType cell = 0; cell < receivers; ++cell)
+  {
+    const double irradiance = Get(part, "Irradiance", cell);
+    Check(irradiance > 0.3, "black patches receive");
+    CheckClose(Get(part, "Radiosity", cell), 0.0, 0.0, "black patches send nothing");
+    CheckClose(Get(part, "NetFlux", cell), -irradiance, 1e-15, "black patches absorb all");
+  }
+
+  // Fewer senders need nothing new, more of them do, and closing needs whole rows.
+  emission->SetComponent(patches - 1, 0, 0.0);
+  emission->SetComponent(patches - 1, 1, 0.0);
+  reflectance->SetComponent(patches - 1, 0, 0.0);
+  reflectance->SetComponent(patches - 1, 1, 0.0);
+  room->Modified();
+  part->Update();
+  whole->Update();
+  CheckClose(GetSummary(output, "PairsNotSending"), notSending, 0.0, "a sender less");
+  CheckClose(Compare(whole, part), 0.0, Single, "a sender less: result");
+  reflectance->FillComponent(0, 0.3);
+  room->Modified();
+  part->Update();
+  whole->Update();
+  CheckClose(GetSummary(output, "PairsNotSending"), 0.0, 0.0, "all are senders");
+  CheckClose(Compare(whole, part), 0.0, Single, "all are senders: result");
+  reflectance->FillComponent(0, 0.0);
+  reflectance->FillComponent(1, 0.0);
+  vtkNew<vtkRadiosity> closed;
+  closed->SetInputData(room);
+  closed->EnforceClosureOn();
+  closed->Update();
+  CheckClose(GetSummary(closed->GetPolyDataOutput(), "PairsNotSending"), 0.0, 0.0,
+    "closing needs all pairs");
+}
+
+//------------------------------------------------------------------------------
+// Occluders count whether they send or not.
+void TestBlackOccluder()
+{
+  Surface spheres;
+  AddSphere(spheres, 1.0, 1, true);
+  AddSphere(spheres, 0.5, 0, false);
+  auto data = spheres.Get();
+  vtkDoubleArray* reflectance = AddArray(data, "Reflectance", { 0.0 });
+  vtkDoubleArray* emission = AddArray(data, "Emission", { 0.0 });
+  for (vtkIdType cell = 0; cell < 32; ++cell)
+  {
+    reflectance->SetValue(cell, 0.5);
+    emission->SetValue(cell, cell % 2 == 0 ? 1.0 : 0.0);
+  }
+  vtkNew<vtkViewFactors> all;
+  all->SetTolerance(1e-4);
+  auto whole = MakeTightRadiosity(data, all, 1e-4);
+  auto part = MakeTightRadiosity(data, nullptr, 1e-4);
+  const double notSending = GetSummary(part->GetPolyDataOutput(), "PairsNotSending");
+  Check(notSending > 0.0, "pairs not sending around an occluder");
+  // Both have the error of their view factors.
+  CheckClose(Compare(whole, part), 0.0, 3e-4, "a black occluder");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -374,5 +502,7 @@ int TestRadiosity(int, char*[])
   TestStructures();
   TestUnequalBands();
   TestMirrors();
+  TestSenders();
+  TestBlackOccluder();
   return Result();
 }
