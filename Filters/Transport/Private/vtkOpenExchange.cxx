@@ -24,7 +24,7 @@ constexpr double Pi = 3.14159265358979323846;
 // The shares of the tolerance, a bound on the error of a whole row: a rule's error on each side is
 // relative to area / (pi distance^2), which sums to a few over a row; contours are few per row (a
 // patch has a few dozen near ones).
-constexpr double RuleShare = 1.0 / 16.0;
+constexpr double RuleShare = 1.0 / 32.0;
 constexpr double ContourShare = 0.01;
 // Heights below this part of the extent of what is looked at are rounding: as in
 // vtkPolygonExchange::Clip.
@@ -51,6 +51,8 @@ constexpr vtkIdType UniformSize = 32;
 constexpr double LargestRatio = 0.7;
 constexpr double TriangleConstants[NumberOfRules] = { 1.8, 0.21, 0.13, 0.4, 0.018 };
 constexpr double PolygonConstants[NumberOfRules] = { 3.3, 0.7, 0.4, 0.45, 0.14 };
+// The largest quotient of the two, for triangles whose bound turns out to be that of a fan.
+constexpr double ClippedFactor = 8.0;
 constexpr int Degrees[NumberOfRules] = { 1, 2, 4, 5, 8 };
 
 //------------------------------------------------------------------------------
@@ -465,8 +467,9 @@ Plan vtkOpenExchange::Internals::MakePlan(vtkIdType i, vtkIdType j) const
   }
   const bool large = this->HasLargePolygons(i, i + 1) || this->HasLargePolygons(j, j + 1);
   const bool crossing = pair.Margin < 0.0 && this->NeedsClip(i, j);
+  const double factor = crossing ? ClippedFactor : 1.0;
   plan.Method = large || crossing ? Plan::Clipped : Plan::Rules;
-  plan.Error = pair.SideI.Sum *
+  plan.Error = factor * pair.SideI.Sum *
     (errorI / (pair.SideI.Distance * pair.SideI.Distance) +
       errorJ / (pair.SideJ.Distance * pair.SideJ.Distance));
   return plan;
@@ -669,7 +672,7 @@ private:
       (errorI / (sideI.Distance * sideI.Distance) + errorJ / (sideJ.Distance * sideJ.Distance)) /
       Pi;
     this->AddErrors(a, b, error);
-    this->FillRows(a, b, ruleI, ruleJ, view.NoHorizonCrosses());
+    this->FillRows(a, b, ruleI, ruleJ, view.NoHorizonCrosses(), error);
     return true;
   }
 
@@ -686,7 +689,7 @@ private:
     }
   }
 
-  void FillRows(const Node& a, const Node& b, int ruleI, int ruleJ, bool clear)
+  void FillRows(const Node& a, const Node& b, int ruleI, int ruleJ, bool clear, double error)
   {
     double sums[vtkPatchTree::BlockSize];
     double margins[vtkPatchTree::BlockSize];
@@ -697,7 +700,7 @@ private:
       this->Self.IntegrateRow(i, ruleI, b.First, size, ruleJ, sums, clear ? nullptr : margins);
       if (!clear)
       {
-        this->CorrectRow(i, ruleI, b.First, ruleJ, size, sums, margins);
+        this->CorrectRow(i, ruleI, b.First, ruleJ, size, sums, margins, error);
       }
       float* row = this->Values + (i - this->FirstI) * this->Stride + (b.First - this->FirstJ);
       int count = 0;
@@ -715,13 +718,18 @@ private:
 
   // Where a horizon crosses, the positive parts of cosines are no smooth functions: clip.
   void CorrectRow(vtkIdType i, int ruleI, vtkIdType first, int ruleJ, int size, double* sums,
-    const double* margins)
+    const double* margins, double error)
   {
     for (int column = 0; column < size; ++column)
     {
       if (std::abs(margins[column]) < 1.0 && this->Self.NeedsClip(i, first + column))
       {
-        sums[column] = this->Self.IntegrateClipped(i, ruleI, first + column, ruleJ);
+        const vtkIdType j = first + column;
+        sums[column] = this->Self.IntegrateClipped(i, ruleI, j, ruleJ);
+        const std::vector<double>& areas = this->Self.Scene.GetAreas();
+        const double more = (ClippedFactor - 1.0) * error * areas[i] * areas[j];
+        this->ErrorsI[i - this->FirstI] += more;
+        this->ErrorsJ[j - this->FirstJ] += more;
       }
     }
   }

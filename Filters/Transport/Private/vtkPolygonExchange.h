@@ -7,10 +7,10 @@
  *   G = 1/pi * integral over a, integral over b of  max(0, cos a) max(0, cos b) / r^2.
  *
  * Near pairs: Stokes' theorem on both areas turns it into 1/(2 pi) * sum over pairs of edges of
- * (u.v) * the double integral of ln r (Sparrow, J. Heat Transfer 85, 1963). The inner integral has
- * a closed form, the outer one is an adaptive Gauss-Kronrod rule; shared edges and corners are
- * integrable singularities that it resolves. Pairs further apart: a product of symmetric Gauss
- * rules, whose degree a bound on their error chooses for each side.
+ * (u.v) * the double integral of ln r (Sparrow, J. Heat Transfer 85, 1963). Edges that share a
+ * corner have a closed form; of the others the inner integral has one, the outer one is a Kronrod
+ * rule on parts that are cut by bounds of its error known beforehand. Pairs further apart
+ * (vtkOpenExchange): a product of Gauss rules, one for each side.
  */
 #ifndef vtkPolygonExchange_h
 #define vtkPolygonExchange_h
@@ -75,13 +75,6 @@ int GetNumberOfRulePoints(int rule, int corners);
 /// Most points of a triangle or a quadrilateral.
 constexpr int MaximumCompactPoints = 25;
 void MakeCompactRule(const Polygon& polygon, int rule, Vector* points, double* weights);
-
-/**
- * The cheapest rule for a polygon of this radius (around its centroid) seen from `distance` (a
- * lower bound of the distance from its centroid to the other polygon) whose error, relative to area
- * * area / (pi distance^2), stays below `tolerance`; -1 when none does. `error` is then the bound.
- */
-int ChooseRule(double radius, double distance, double tolerance, double& error);
 
 /// The exchange by two rules.
 double IntegrateRules(const RulePoints& a, const Vector& normalA, const RulePoints& b,
