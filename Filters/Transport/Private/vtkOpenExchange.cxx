@@ -210,6 +210,8 @@ struct vtkOpenExchange::Internals
   std::vector<vtkIdType> Quadrilaterals;
   std::vector<vtkIdType> LargePolygons;
   std::vector<Slab> Slabs;
+
+  class Filler;
 };
 
 namespace
@@ -560,12 +562,9 @@ Estimate vtkOpenExchange::Internals::IntegrateNear(vtkIdType i, vtkIdType j) con
   return vtkPolygonExchange::Integrate(a, b, ContourShare * this->Tolerance * smaller);
 }
 
-namespace
-{
 //------------------------------------------------------------------------------
 // One call of vtkOpenExchange::Fill.
-template <typename Internals>
-class Filler
+class vtkOpenExchange::Internals::Filler
 {
 public:
   Filler(const Internals& self, int nodeI, int nodeJ, float* values, vtkIdType stride,
@@ -797,7 +796,6 @@ private:
   double* const ErrorsJ;
   vtkOpenExchange::Counters& Counters;
 };
-} // namespace
 
 //------------------------------------------------------------------------------
 vtkOpenExchange::vtkOpenExchange(const vtkPatchScene& scene, double tolerance)
@@ -818,7 +816,7 @@ bool vtkOpenExchange::MayFace(int nodeI, int nodeJ) const
 void vtkOpenExchange::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI,
   double* errorsJ, Counters& counters) const
 {
-  Filler<Internals> filler(*this->Self, nodeI, nodeJ, values, stride, errorsI, errorsJ, counters);
+  Internals::Filler filler(*this->Self, nodeI, nodeJ, values, stride, errorsI, errorsJ, counters);
   filler.Fill(nodeI, nodeJ);
 }
 
