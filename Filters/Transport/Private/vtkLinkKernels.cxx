@@ -3,20 +3,7 @@
 #include "vtkLinkKernels.h"
 
 #include "vtkExchangeMatrix.h"
-
-// Several clones of one function, one per instruction set: GCC and Clang on x86-64 Linux resolve
-// them at load time.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__)
-#define LT_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#define LT_X86_CLONES 1
-#else
-#define LT_CLONES
-#endif
-#if defined(__GNUC__)
-#define LT_INLINE inline __attribute__((always_inline))
-#else
-#define LT_INLINE inline
-#endif
+#include "vtkInstructionSets.h"
 
 namespace
 {

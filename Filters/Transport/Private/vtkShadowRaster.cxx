@@ -2,21 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShadowRaster.h"
 
+#include "vtkInstructionSets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-
-// One clone of the function per instruction set: GCC resolves them at load time.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__)
-#define LT_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define LT_CLONES
-#endif
-#if defined(__GNUC__)
-#define LT_INLINE inline __attribute__((always_inline))
-#else
-#define LT_INLINE inline
-#endif
 
 namespace
 {

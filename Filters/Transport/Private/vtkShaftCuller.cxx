@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkShaftCuller.h"
 
+#include "vtkInstructionSets.h"
 #include "vtkPatchTree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace
@@ -12,15 +14,56 @@ namespace
 // A plane has the scene in front of it when nothing is further behind than this (the scene's
 // diagonal is 1): coordinates in single precision are not better than that.
 constexpr double PlaneTolerance = 1e-7;
-// Bounds are compared with this much to spare for rounding.
-constexpr double Spare = 1e-12;
+// Bounds are in single precision: they are compared with this much to spare for rounding.
+constexpr float Spare = 1e-6f;
+// A bound that changes less than this along a shaft does not change: then it is met from one end to
+// the other or not at all.
+constexpr float Least = 1e-20f;
+// Candidates that are looked at together.
+constexpr std::size_t Batch = 16;
+//------------------------------------------------------------------------------
+LT_CLONES void MarkBatch(const vtkShaftCuller::Shaft& shaft, vtkShaftCuller::Candidates& candidates,
+  std::size_t start)
+{
+  float first[Batch], last[Batch];
+  std::fill_n(first, Batch, 0.0f);
+  std::fill_n(last, Batch, 1.0f);
+  for (int k = 0; k < 2 * vtkShaftCuller::Directions; ++k)
+  {
+    const vtkShaftCuller::Shaft::Side& side = shaft.Sides[k];
+    const float* const bounds =
+      k % 2 == 0 ? &candidates.Upper[k / 2][start] : &candidates.Lower[k / 2][start];
+    const float origin = side.Begin;
+    const float inverse = side.Inverse;
+    if (side.IsLast)
+    {
+      for (std::size_t c = 0; c < Batch; ++c)
+      {
+        const float t = (bounds[c] - origin) * inverse;
+        last[c] = t < last[c] ? t : last[c];
+      }
+    }
+    else
+    {
+      for (std::size_t c = 0; c < Batch; ++c)
+      {
+        const float t = (bounds[c] - origin) * inverse;
+        first[c] = t > first[c] ? t : first[c];
+      }
+    }
+  }
+  for (std::size_t c = 0; c < Batch; ++c)
+  {
+    candidates.IsBetween[start + c] = first[c] <= last[c];
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
 vtkShaftCuller::Bounds::Bounds()
 {
-  this->Lower.fill(std::numeric_limits<double>::max());
-  this->Upper.fill(-std::numeric_limits<double>::max());
+  this->Lower.fill(std::numeric_limits<float>::max());
+  this->Upper.fill(-std::numeric_limits<float>::max());
 }
 
 //------------------------------------------------------------------------------
@@ -30,8 +73,9 @@ void vtkShaftCuller::Bounds::Add(const Vector& p)
     p.x() - p.y(), p.y() + p.z(), p.y() - p.z(), p.z() + p.x(), p.z() - p.x() };
   for (int k = 0; k < Directions; ++k)
   {
-    this->Lower[k] = std::min(this->Lower[k], heights[k]);
-    this->Upper[k] = std::max(this->Upper[k], heights[k]);
+    const auto height = static_cast<float>(heights[k]);
+    this->Lower[k] = std::min(this->Lower[k], height);
+    this->Upper[k] = std::max(this->Upper[k], height);
   }
 }
 
@@ -43,6 +87,19 @@ void vtkShaftCuller::Bounds::Add(const Bounds& other)
     this->Lower[k] = std::min(this->Lower[k], other.Lower[k]);
     this->Upper[k] = std::max(this->Upper[k], other.Upper[k]);
   }
+}
+
+//------------------------------------------------------------------------------
+// Whole batches are read: the arrays are as long as that.
+void vtkShaftCuller::Candidates::Resize()
+{
+  const std::size_t size = (this->Patches.size() + Batch - 1) / Batch * Batch;
+  for (int k = 0; k < Directions; ++k)
+  {
+    this->Lower[k].resize(size);
+    this->Upper[k].resize(size);
+  }
+  this->IsBetween.resize(size);
 }
 
 //------------------------------------------------------------------------------
@@ -120,44 +177,53 @@ bool vtkShaftCuller::IsOccluder(vtkIdType patch) const
 }
 
 //------------------------------------------------------------------------------
-// Whether some cross-section (1 - t) begin + t end, 0 <= t <= 1, meets the other bounds in all
-// directions at once: two linear inequalities in t for each.
-bool vtkShaftCuller::Meets(const Bounds& begin, const Bounds& end, const Bounds& other)
+// A lower bound that grows towards the end leaves what is above it at last, one that falls at
+// first; an upper bound the other way round.
+vtkShaftCuller::Shaft::Shaft(const Bounds& begin, const Bounds& end)
 {
-  double first = 0.0;
-  double last = 1.0;
-  const auto limit = [&](double atBegin, double atEnd)
+  const auto set = [](float from, float to, bool isLower)
   {
-    // atBegin + t (atEnd - atBegin) <= 0
-    if (atBegin > 0.0 && atEnd > 0.0)
-    {
-      return false;
-    }
-    if (atBegin > 0.0)
-    {
-      first = std::max(first, atBegin / (atBegin - atEnd));
-    }
-    else if (atEnd > 0.0)
-    {
-      last = std::min(last, atBegin / (atBegin - atEnd));
-    }
-    return true;
+    const float change = std::max(std::abs(to - from), Least);
+    const bool grows = to > from;
+    return Side{ from, grows ? 1.0f / change : -1.0f / change, grows == isLower };
   };
   for (int k = 0; k < Directions; ++k)
   {
-    const double upper = other.Upper[k] + Spare;
-    const double lower = other.Lower[k] - Spare;
-    if (!limit(begin.Lower[k] - upper, end.Lower[k] - upper) ||
-      !limit(lower - begin.Upper[k], lower - end.Upper[k]) || first > last + Spare)
-    {
-      return false;
-    }
+    this->Sides[2 * k] = set(begin.Lower[k] - Spare, end.Lower[k] - Spare, true);
+    this->Sides[2 * k + 1] = set(begin.Upper[k] + Spare, end.Upper[k] + Spare, false);
   }
-  return true;
 }
 
 //------------------------------------------------------------------------------
-void vtkShaftCuller::Search(const Bounds& begin, const Bounds& end, Patches& found) const
+// Whether some cross-section (1 - t) begin + t end, 0 <= t <= 1, meets the bounds in all directions
+// at once.
+bool vtkShaftCuller::Shaft::Meets(const Bounds& other) const
+{
+  float first = 0.0f;
+  float last = 1.0f;
+  for (int k = 0; k < 2 * Directions && first <= last; ++k)
+  {
+    const Side& side = this->Sides[k];
+    const float bound = k % 2 == 0 ? other.Upper[k / 2] : other.Lower[k / 2];
+    const float t = (bound - side.Begin) * side.Inverse;
+    first = side.IsLast ? first : std::max(first, t);
+    last = side.IsLast ? std::min(last, t) : last;
+  }
+  return first <= last;
+}
+
+//------------------------------------------------------------------------------
+// The same for all candidates.
+void vtkShaftCuller::Mark(const Shaft& shaft, Candidates& candidates)
+{
+  for (std::size_t start = 0; start < candidates.Patches.size(); start += Batch)
+  {
+    MarkBatch(shaft, candidates, start);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkShaftCuller::Search(const Shaft& shaft, std::vector<vtkIdType>& found) const
 {
   found.clear();
   std::vector<int> open(1, 0);
@@ -166,7 +232,7 @@ void vtkShaftCuller::Search(const Bounds& begin, const Bounds& end, Patches& fou
     const int index = open.back();
     const vtkPatchTree::Node& node = this->Scene.GetTree().GetNode(index);
     open.pop_back();
-    if (!Meets(begin, end, this->OccluderBounds[index]))
+    if (!shaft.Meets(this->OccluderBounds[index]))
     {
       continue;
     }
@@ -178,7 +244,7 @@ void vtkShaftCuller::Search(const Bounds& begin, const Bounds& end, Patches& fou
     }
     for (vtkIdType patch = node.First; patch < node.Last; ++patch)
     {
-      if (this->Occluders[patch] && Meets(begin, end, this->PatchBounds[patch]))
+      if (this->Occluders[patch] && shaft.Meets(this->PatchBounds[patch]))
       {
         found.push_back(patch);
       }
@@ -187,38 +253,69 @@ void vtkShaftCuller::Search(const Bounds& begin, const Bounds& end, Patches& fou
 }
 
 //------------------------------------------------------------------------------
-void vtkShaftCuller::Find(int nodeI, int nodeJ, Patches& found) const
+void vtkShaftCuller::Find(int nodeI, int nodeJ, Candidates& found) const
 {
-  this->Search(this->NodeBounds[nodeI], this->NodeBounds[nodeJ], found);
+  this->Search(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), found.Patches);
+  found.Resize();
+  for (std::size_t c = 0; c < found.Patches.size(); ++c)
+  {
+    const Bounds& bounds = this->PatchBounds[found.Patches[c]];
+    for (int k = 0; k < Directions; ++k)
+    {
+      found.Lower[k][c] = bounds.Lower[k];
+      found.Upper[k][c] = bounds.Upper[k];
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
-void vtkShaftCuller::Narrow(int nodeI, int nodeJ, const Patches& candidates, Patches& found) const
+void vtkShaftCuller::Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const
 {
-  found.clear();
-  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found),
-    [&](vtkIdType patch)
-    { return Meets(this->NodeBounds[nodeI], this->NodeBounds[nodeJ], this->PatchBounds[patch]); });
+  Mark(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), candidates);
+  found.Patches.clear();
+  for (std::size_t c = 0; c < candidates.Patches.size(); ++c)
+  {
+    if (candidates.IsBetween[c])
+    {
+      found.Patches.push_back(candidates.Patches[c]);
+    }
+  }
+  found.Resize();
+  for (int k = 0; k < Directions; ++k)
+  {
+    std::size_t next = 0;
+    for (std::size_t c = 0; c < candidates.Patches.size(); ++c)
+    {
+      if (candidates.IsBetween[c])
+      {
+        found.Lower[k][next] = candidates.Lower[k][c];
+        found.Upper[k][next++] = candidates.Upper[k][c];
+      }
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
-void vtkShaftCuller::FindBetween(vtkIdType i, vtkIdType j, Patches& found) const
+void vtkShaftCuller::FindBetween(vtkIdType i, vtkIdType j, std::vector<vtkIdType>& found) const
 {
-  this->Search(this->PatchBounds[i], this->PatchBounds[j], found);
+  this->Search(Shaft(this->PatchBounds[i], this->PatchBounds[j]), found);
   found.erase(std::remove_if(found.begin(), found.end(),
                 [=](vtkIdType patch) { return patch == i || patch == j; }),
     found.end());
 }
 
 //------------------------------------------------------------------------------
-void vtkShaftCuller::NarrowBetween(vtkIdType i, vtkIdType j, const Patches& candidates,
-  Patches& found) const
+void vtkShaftCuller::NarrowBetween(vtkIdType i, vtkIdType j, Candidates& candidates,
+  std::vector<vtkIdType>& found) const
 {
+  Mark(Shaft(this->PatchBounds[i], this->PatchBounds[j]), candidates);
   found.clear();
-  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found),
-    [&](vtkIdType patch)
+  for (std::size_t k = 0; k < candidates.Patches.size(); ++k)
+  {
+    const vtkIdType patch = candidates.Patches[k];
+    if (candidates.IsBetween[k] && patch != i && patch != j)
     {
-      return patch != i && patch != j &&
-        Meets(this->PatchBounds[i], this->PatchBounds[j], this->PatchBounds[patch]);
-    });
+      found.push_back(patch);
+    }
+  }
 }

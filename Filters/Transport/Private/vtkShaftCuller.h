@@ -20,7 +20,42 @@
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkShaftCuller
 {
 public:
-  using Patches = std::vector<vtkIdType>;
+  static constexpr int Directions = 9;
+
+  /// Patches, with their bounds side by side.
+  struct Candidates
+  {
+    std::vector<vtkIdType> Patches;
+    std::vector<float> Lower[Directions];
+    std::vector<float> Upper[Directions];
+    std::vector<char> IsBetween; ///< room for a result
+
+    bool IsEmpty() const { return this->Patches.empty(); }
+    /// Make room for the bounds of all patches.
+    void Resize();
+  };
+
+  struct Bounds
+  {
+    std::array<float, Directions> Lower;
+    std::array<float, Directions> Upper;
+    Bounds();
+    void Add(const vtkPatchScene::Vector& point);
+    void Add(const Bounds& other);
+  };
+
+  /// The hull of two bounds. Each side is met by a bound at t = (bound - Begin) * Inverse.
+  struct Shaft
+  {
+    struct Side
+    {
+      float Begin, Inverse;
+      bool IsLast; ///< cross-sections up to t meet what has the bound; otherwise those from t on
+    };
+    std::array<Side, 2 * Directions> Sides; ///< lower and upper side of each direction
+    Shaft(const Bounds& begin, const Bounds& end);
+    bool Meets(const Bounds& other) const;
+  };
 
   explicit vtkShaftCuller(const vtkPatchScene& scene);
 
@@ -29,29 +64,20 @@ public:
   bool HasOccluders() const { return this->NumberOfOccluders > 0; }
 
   ///@{ Replace `found` by what may be between two nodes: of the whole scene, or of `candidates`.
-  void Find(int nodeI, int nodeJ, Patches& found) const;
-  void Narrow(int nodeI, int nodeJ, const Patches& candidates, Patches& found) const;
+  void Find(int nodeI, int nodeJ, Candidates& found) const;
+  void Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const;
   ///@}
   ///@{ The same for two patches.
-  void FindBetween(vtkIdType i, vtkIdType j, Patches& found) const;
-  void NarrowBetween(vtkIdType i, vtkIdType j, const Patches& candidates, Patches& found) const;
+  void FindBetween(vtkIdType i, vtkIdType j, std::vector<vtkIdType>& found) const;
+  void NarrowBetween(vtkIdType i, vtkIdType j, Candidates& candidates,
+    std::vector<vtkIdType>& found) const;
   ///@}
 
 private:
   using Vector = vtkPatchScene::Vector;
-  static constexpr int Directions = 9;
-  struct Bounds
-  {
-    std::array<double, Directions> Lower;
-    std::array<double, Directions> Upper;
-    Bounds();
-    void Add(const Vector& point);
-    void Add(const Bounds& other);
-  };
-
   bool IsOccluder(vtkIdType patch) const;
-  static bool Meets(const Bounds& begin, const Bounds& end, const Bounds& other);
-  void Search(const Bounds& begin, const Bounds& end, Patches& found) const;
+  void Search(const Shaft& shaft, std::vector<vtkIdType>& found) const;
+  static void Mark(const Shaft& shaft, Candidates& candidates);
 
   const vtkPatchScene& Scene;
   std::vector<Bounds> PatchBounds;

@@ -59,7 +59,8 @@ struct vtkViewFactorAssembly::Looker
     vtkIdType FirstI, FirstJ;
     float* Values; ///< of the pair (FirstI, FirstJ)
     UnitResult& Result;
-    std::vector<vtkShaftCuller::Patches> Lists;
+    std::vector<vtkShaftCuller::Candidates> Lists;
+    std::vector<vtkIdType> Between;
     vtkPairVisibility Visibility;
 
     float& GetValue(vtkIdType i, vtkIdType j) const
@@ -67,7 +68,7 @@ struct vtkViewFactorAssembly::Looker
       return this->Values[(i - this->FirstI) * vtkExchangeMatrix::TileSize + (j - this->FirstJ)];
     }
     // A list of the descent; a reference stays good only until the next call.
-    vtkShaftCuller::Patches& GetList(std::size_t depth)
+    vtkShaftCuller::Candidates& GetList(std::size_t depth)
     {
       if (this->Lists.size() <= depth)
       {
@@ -89,7 +90,7 @@ struct vtkViewFactorAssembly::Looker
       const vtkIdType firstJ = tree.GetNode(unit.J).First;
       Work work{ tree, firstI, firstJ,
         tile.Values + (firstI - tile.Row * N) * N + (firstJ - tile.Column * N),
-        this->Results[index - this->First], {}, {} };
+        this->Results[index - this->First], {}, {}, {} };
       this->Fill(unit.I, unit.J, work);
       if (this->Self.Culler.HasOccluders())
       {
@@ -121,7 +122,12 @@ struct vtkViewFactorAssembly::Looker
       work.Result.Count.NotSending += pairs;
       return;
     }
-    if (sendersI == i.GetSize() || sendersJ == j.GetSize() || (i.IsLeaf() && j.IsLeaf()))
+    if (i.IsLeaf() && j.IsLeaf() && sendersI < i.GetSize() && sendersJ < j.GetSize())
+    {
+      this->FillSendingPairs(nodeI, nodeJ, work);
+      return;
+    }
+    if (sendersI == i.GetSize() || sendersJ == j.GetSize())
     {
       this->Self.Open.Fill(nodeI, nodeJ, &work.GetValue(i.First, j.First),
         vtkExchangeMatrix::TileSize, work.Result.ErrorsI + (i.First - work.FirstI),
@@ -130,6 +136,31 @@ struct vtkViewFactorAssembly::Looker
     }
     this->VisitChildren(nodeI, nodeJ, work.Tree,
       [&](int childI, int childJ) { this->Fill(childI, childJ, work); });
+  }
+
+  void FillSendingPairs(int nodeI, int nodeJ, Work& work) const
+  {
+    const vtkPatchTree::Node& i = work.Tree.GetNode(nodeI);
+    const vtkPatchTree::Node& j = work.Tree.GetNode(nodeJ);
+    const std::vector<bool>& senders = *this->Self.Senders;
+    Counters& count = work.Result.Count;
+    for (vtkIdType row = i.First; row < i.Last; ++row)
+    {
+      for (vtkIdType column = nodeI == nodeJ ? row + 1 : j.First; column < j.Last; ++column)
+      {
+        if (!senders[row] && !senders[column])
+        {
+          ++count.NotSending;
+          continue;
+        }
+        const vtkPolygonExchange::Estimate pair = this->Self.Open.Compute(row, column);
+        ++count.Open.Examined;
+        ++(pair.Value > 0.0 ? count.Open.Facing : count.Open.BackFacing);
+        work.GetValue(row, column) = static_cast<float>(pair.Value);
+        work.Result.ErrorsI[row - work.FirstI] += pair.Error;
+        work.Result.ErrorsJ[column - work.FirstJ] += pair.Error;
+      }
+    }
   }
 
   // Calls visit for the pairs of nodes below a pair of nodes.
@@ -161,7 +192,7 @@ struct vtkViewFactorAssembly::Looker
   {
     const vtkPatchTree::Node& i = work.Tree.GetNode(nodeI);
     const vtkPatchTree::Node& j = work.Tree.GetNode(nodeJ);
-    if (work.GetList(depth).empty())
+    if (work.GetList(depth).IsEmpty())
     {
       this->CountFree(nodeI, nodeJ, work);
       return;
@@ -207,8 +238,7 @@ struct vtkViewFactorAssembly::Looker
       return;
     }
     Counters& count = work.Result.Count;
-    work.GetList(depth + 1);
-    vtkShaftCuller::Patches& between = work.GetList(depth + 1);
+    std::vector<vtkIdType>& between = work.Between;
     this->Self.Culler.NarrowBetween(i, j, work.GetList(depth), between);
     vtkPolygonExchange::Polygon a, b;
     if (between.empty())
@@ -265,7 +295,7 @@ struct vtkViewFactorAssembly::Refiner
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
     const std::vector<double>& areas = this->Self.Scene.GetAreas();
     vtkPairVisibility visibility;
-    vtkShaftCuller::Patches between;
+    std::vector<vtkIdType> between;
     for (vtkIdType index = begin; index < end; ++index)
     {
       vtkPartlyVisiblePair& pair = this->Self.Pairs[index];
