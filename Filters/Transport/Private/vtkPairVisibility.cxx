@@ -205,6 +205,24 @@ void vtkPairVisibility::AddTarget()
 }
 
 //------------------------------------------------------------------------------
+template <typename GetCorner>
+void vtkPairVisibility::AddTriangles(int count, const GetCorner& getCorner)
+{
+  double corners[vtkPolygonExchange::MaximumCorners + 2][3];
+  for (int corner = 0; corner < count; ++corner)
+  {
+    const Vector offset = getCorner(corner) - this->Origin;
+    corners[corner][0] = offset.dot(this->AxisU);
+    corners[corner][1] = offset.dot(this->AxisW);
+    corners[corner][2] = offset.dot(this->AxisH);
+  }
+  for (int corner = 1; corner + 1 < count; ++corner)
+  {
+    this->Triangles.Add(corners[0], corners[corner], corners[corner + 1]);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkPairVisibility::AddTriangles(const vtkPatchScene& scene)
 {
   const Vector middle = GetMiddle(this->Outer);
@@ -222,33 +240,21 @@ void vtkPairVisibility::AddTriangles(const vtkPatchScene& scene)
     [](const Occluder& a, const Occluder& b)
     { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Patch < b.Patch); });
   this->Triangles.Clear();
-  Polygon polygon;
+  Polygon cut;
   for (const Occluder& occluder : this->Occluders)
   {
-    vtkPolygonExchange::MakePolygon(scene, occluder.Patch, polygon);
-    if (!occluder.IsCut ||
-      (vtkPolygonExchange::Clip(polygon, this->Outer.Corners[0], this->Outer.Normal) &&
-        vtkPolygonExchange::Clip(polygon, this->Inner.Corners[0], this->Inner.Normal)))
+    if (!occluder.IsCut)
     {
-      this->AddTriangles(polygon);
+      this->AddTriangles(scene.GetNumberOfCorners(occluder.Patch),
+        [&](int corner) { return scene.GetCorner(occluder.Patch, corner); });
+      continue;
     }
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkPairVisibility::AddTriangles(const Polygon& polygon)
-{
-  double corners[vtkPolygonExchange::MaximumCorners + 2][3];
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    const Vector offset = polygon.Corners[corner] - this->Origin;
-    corners[corner][0] = offset.dot(this->AxisU);
-    corners[corner][1] = offset.dot(this->AxisW);
-    corners[corner][2] = offset.dot(this->AxisH);
-  }
-  for (int corner = 1; corner + 1 < polygon.Count; ++corner)
-  {
-    this->Triangles.Add(corners[0], corners[corner], corners[corner + 1]);
+    vtkPolygonExchange::MakePolygon(scene, occluder.Patch, cut);
+    if (vtkPolygonExchange::Clip(cut, this->Outer.Corners[0], this->Outer.Normal) &&
+      vtkPolygonExchange::Clip(cut, this->Inner.Corners[0], this->Inner.Normal))
+    {
+      this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
+    }
   }
 }
 

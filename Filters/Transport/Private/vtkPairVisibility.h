@@ -58,7 +58,8 @@ private:
   void SetFrame();
   void AddTarget();
   void AddTriangles(const vtkPatchScene& scene);
-  void AddTriangles(const Polygon& polygon);
+  template <typename GetCorner>
+  void AddTriangles(int count, const GetCorner& getCorner);
   vtkShadowRaster::Flux See(const Vector& point);
   vtkShadowRaster::Flux SeeFromGrid(int cuts);
 

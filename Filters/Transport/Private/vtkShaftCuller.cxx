@@ -19,42 +19,30 @@ constexpr float Spare = 1e-6f;
 // A bound that changes less than this along a shaft does not change: then it is met from one end to
 // the other or not at all.
 constexpr float Least = 1e-20f;
-// Candidates that are looked at together.
-constexpr std::size_t Batch = 16;
 //------------------------------------------------------------------------------
-LT_CLONES void MarkBatch(const vtkShaftCuller::Shaft& shaft, vtkShaftCuller::Candidates& candidates,
-  std::size_t start)
+// Where the cross-sections that meet the candidates begin and end: one side of the shaft after the
+// other, in loops over all candidates that become vector instructions.
+LT_CLONES void MarkAll(const vtkShaftCuller::Shaft& shaft, vtkShaftCuller::Candidates& candidates)
 {
-  float first[Batch], last[Batch];
-  std::fill_n(first, Batch, 0.0f);
-  std::fill_n(last, Batch, 1.0f);
+  const std::size_t count = candidates.Patches.size();
+  float* const first = candidates.First.data();
+  float* const last = candidates.Last.data();
+  std::fill_n(first, count, 0.0f);
+  std::fill_n(last, count, 1.0f);
   for (int k = 0; k < 2 * vtkShaftCuller::Directions; ++k)
   {
-    const vtkShaftCuller::Shaft::Side& side = shaft.Sides[k];
+    const float origin = shaft.Sides[k].Begin;
+    const float inverse = shaft.Sides[k].Inverse;
     const float* const bounds =
-      k % 2 == 0 ? &candidates.Upper[k / 2][start] : &candidates.Lower[k / 2][start];
-    const float origin = side.Begin;
-    const float inverse = side.Inverse;
-    if (side.IsLast)
+      k % 2 == 0 ? candidates.Upper[k / 2].data() : candidates.Lower[k / 2].data();
+    float* const limits = shaft.Sides[k].IsLast ? last : first;
+    const float sign = shaft.Sides[k].IsLast ? -1.0f : 1.0f;
+    for (std::size_t c = 0; c < count; ++c)
     {
-      for (std::size_t c = 0; c < Batch; ++c)
-      {
-        const float t = (bounds[c] - origin) * inverse;
-        last[c] = t < last[c] ? t : last[c];
-      }
+      const float t = sign * (bounds[c] - origin) * inverse;
+      const float limit = sign * limits[c];
+      limits[c] = sign * (t > limit ? t : limit);
     }
-    else
-    {
-      for (std::size_t c = 0; c < Batch; ++c)
-      {
-        const float t = (bounds[c] - origin) * inverse;
-        first[c] = t > first[c] ? t : first[c];
-      }
-    }
-  }
-  for (std::size_t c = 0; c < Batch; ++c)
-  {
-    candidates.IsBetween[start + c] = first[c] <= last[c];
   }
 }
 } // namespace
@@ -90,16 +78,16 @@ void vtkShaftCuller::Bounds::Add(const Bounds& other)
 }
 
 //------------------------------------------------------------------------------
-// Whole batches are read: the arrays are as long as that.
 void vtkShaftCuller::Candidates::Resize()
 {
-  const std::size_t size = (this->Patches.size() + Batch - 1) / Batch * Batch;
+  const std::size_t size = this->Patches.size();
   for (int k = 0; k < Directions; ++k)
   {
     this->Lower[k].resize(size);
     this->Upper[k].resize(size);
   }
-  this->IsBetween.resize(size);
+  this->First.resize(size);
+  this->Last.resize(size);
 }
 
 //------------------------------------------------------------------------------
@@ -213,16 +201,6 @@ bool vtkShaftCuller::Shaft::Meets(const Bounds& other) const
 }
 
 //------------------------------------------------------------------------------
-// The same for all candidates.
-void vtkShaftCuller::Mark(const Shaft& shaft, Candidates& candidates)
-{
-  for (std::size_t start = 0; start < candidates.Patches.size(); start += Batch)
-  {
-    MarkBatch(shaft, candidates, start);
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkShaftCuller::Search(const Shaft& shaft, std::vector<vtkIdType>& found) const
 {
   found.clear();
@@ -271,11 +249,11 @@ void vtkShaftCuller::Find(int nodeI, int nodeJ, Candidates& found) const
 //------------------------------------------------------------------------------
 void vtkShaftCuller::Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const
 {
-  Mark(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), candidates);
+  MarkAll(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), candidates);
   found.Patches.clear();
   for (std::size_t c = 0; c < candidates.Patches.size(); ++c)
   {
-    if (candidates.IsBetween[c])
+    if (candidates.IsBetween(c))
     {
       found.Patches.push_back(candidates.Patches[c]);
     }
@@ -286,7 +264,7 @@ void vtkShaftCuller::Narrow(int nodeI, int nodeJ, Candidates& candidates, Candid
     std::size_t next = 0;
     for (std::size_t c = 0; c < candidates.Patches.size(); ++c)
     {
-      if (candidates.IsBetween[c])
+      if (candidates.IsBetween(c))
       {
         found.Lower[k][next] = candidates.Lower[k][c];
         found.Upper[k][next++] = candidates.Upper[k][c];
@@ -308,12 +286,12 @@ void vtkShaftCuller::FindBetween(vtkIdType i, vtkIdType j, std::vector<vtkIdType
 void vtkShaftCuller::NarrowBetween(vtkIdType i, vtkIdType j, Candidates& candidates,
   std::vector<vtkIdType>& found) const
 {
-  Mark(Shaft(this->PatchBounds[i], this->PatchBounds[j]), candidates);
+  MarkAll(Shaft(this->PatchBounds[i], this->PatchBounds[j]), candidates);
   found.clear();
   for (std::size_t k = 0; k < candidates.Patches.size(); ++k)
   {
     const vtkIdType patch = candidates.Patches[k];
-    if (candidates.IsBetween[k] && patch != i && patch != j)
+    if (candidates.IsBetween(k) && patch != i && patch != j)
     {
       found.push_back(patch);
     }

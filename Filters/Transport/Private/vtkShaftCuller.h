@@ -28,7 +28,11 @@ public:
     std::vector<vtkIdType> Patches;
     std::vector<float> Lower[Directions];
     std::vector<float> Upper[Directions];
-    std::vector<char> IsBetween; ///< room for a result
+    ///@{ Which cross-sections of the shaft looked at last meet the bounds.
+    std::vector<float> First;
+    std::vector<float> Last;
+    bool IsBetween(std::size_t index) const { return this->First[index] <= this->Last[index]; }
+    ///@}
 
     bool IsEmpty() const { return this->Patches.empty(); }
     /// Make room for the bounds of all patches.
@@ -77,7 +81,6 @@ private:
   using Vector = vtkPatchScene::Vector;
   bool IsOccluder(vtkIdType patch) const;
   void Search(const Shaft& shaft, std::vector<vtkIdType>& found) const;
-  static void Mark(const Shaft& shaft, Candidates& candidates);
 
   const vtkPatchScene& Scene;
   std::vector<Bounds> PatchBounds;

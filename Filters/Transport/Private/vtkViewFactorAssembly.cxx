@@ -175,15 +175,22 @@ struct vtkViewFactorAssembly::Looker
       visit(i.Left, i.Left + 1);
       visit(i.Left + 1, i.Left + 1);
     }
-    else if (j.IsLeaf() || (!i.IsLeaf() && i.GetSize() >= j.GetSize()))
+    else if (j.IsLeaf())
     {
       visit(i.Left, nodeJ);
       visit(i.Left + 1, nodeJ);
     }
-    else
+    else if (i.IsLeaf())
     {
       visit(nodeI, j.Left);
       visit(nodeI, j.Left + 1);
+    }
+    else
+    {
+      visit(i.Left, j.Left);
+      visit(i.Left, j.Left + 1);
+      visit(i.Left + 1, j.Left);
+      visit(i.Left + 1, j.Left + 1);
     }
   }
 
