@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mesher, radiosity, direct irradiance and scattering through proxies.
+"""Mesher, radiosity, direct irradiance, scattering and view factors through proxies.
 
-Every array is as it comes from the classes themselves.
+Every array is as it comes from the classes themselves; the tables of groups are as they must be.
 """
 
 import PluginTools as tools
@@ -16,6 +16,9 @@ from vtkmodules.vtkRenderingCore import vtkLight
 TOLERANCE = 1e-12
 # What a run is about, and times.
 MEASURED = ("Seconds",)
+# From one unit square to another at a distance of 1, and what of it is right in single precision.
+OPPOSITE = 0.199824895698387
+SINGLE = 1e-6
 
 
 def run(algorithm, data):
@@ -143,6 +146,53 @@ def test_lights(irradiance, scattering):
     return problems
 
 
+def make_squares():
+    """Two unit squares that face each other, of 9 and 16 patches, with the cell array Zone."""
+    bottom = simple.Plane(Origin=[0, 0, 0], Point1=[1, 0, 0], Point2=[0, 1, 0],
+                          XResolution=3, YResolution=3)
+    top = simple.Plane(Origin=[0, 0, 1], Point1=[0, 1, 1], Point2=[1, 0, 1],
+                       XResolution=4, YResolution=4)
+    return [simple.Calculator(Input=plane, AttributeType="Cell Data", ResultArrayName="Zone",
+                              Function=str(zone)) for plane, zone in ((bottom, 5), (top, 3))]
+
+
+def test_table(name, factors, bottom, top):
+    """Two groups, by their names; top may be None: then both squares are one group."""
+    table = simple.servermanager.Fetch(factors, idx=1)
+    columns = {key: [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+               for key, array in tools.get_arrays(table.GetRowData()).items()}
+    if top is None:
+        expected = {"Area": {bottom: 2}, bottom: {bottom: OPPOSITE}}
+    else:
+        expected = {"Area": {bottom: 1, top: 1}, bottom: {bottom: 0, top: OPPOSITE},
+                    top: {bottom: OPPOSITE, top: 0}}
+    rows = expected["Area"]
+    expected["Sky"] = {row: 1 - OPPOSITE for row in rows}
+    expected["BackFace"] = {row: 0 for row in rows}
+    found = {key: dict(zip(columns.get("Group", ()), values))
+             for key, values in columns.items() if key != "Group"}
+    if {key: set(column) for key, column in found.items()} != {key: set(rows) for key in expected}:
+        return [f"{name}: the table has {columns}"]
+    return [f"{name}: {column} of {row} is {found[column][row]}, not {value}"
+            for column, values in expected.items() for row, value in values.items()
+            if not abs(found[column][row] - value) <= SINGLE]
+
+
+def test_groups():
+    squares = make_squares()
+    scene = simple.AppendGeometry(Input=squares)
+    factors = simple.ViewFactors(Input=scene)
+    problems = test_table("no array of groups", factors, "All", None)
+    factors.Group = ["CELLS", "Zone"]
+    problems += test_table("an array of groups", factors, "5", "3")
+    factors.Input = simple.Calculator(Input=scene, AttributeType="Cell Data",
+                                      ResultArrayName="Group", Function="Zone - 8")
+    factors.Group = ["CELLS", ""]
+    problems += test_table("the array Group", factors, "-3", "-5")
+    blocks = simple.GroupDatasets(Input=squares, BlockNames=["floor", "ceiling"])
+    return problems + test_table("blocks", simple.ViewFactors(Input=blocks), "floor", "ceiling")
+
+
 expected_results = run_classes()
 found_results, irradiance_proxy, scattering_proxy = run_proxies()
 all_problems = []
@@ -153,4 +203,5 @@ for key, array_name in (
     if expected_results[key].GetCellData().GetArray(array_name).GetRange(0)[1] <= 0.0:
         all_problems.append(f"{array_name} is zero everywhere: nothing was compared")
 all_problems += test_lights(irradiance_proxy, scattering_proxy)
+all_problems += test_groups()
 tools.finish(all_problems)
