@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // View factors against values that are known: catalogue configurations (Howell, A Catalog of
 // Radiation Heat Transfer Configuration Factors) on meshes of several levels, scenes of rectangles
-// of which every single factor is known. There Tolerance must bound the sum of the absolute errors
-// of each row, and ViewFactorError must cover that sum.
+// of which every single factor is known, and closed scenes. Wherever a whole row is known,
+// Tolerance must bound the sum of the absolute errors in it, and ViewFactorError must cover that
+// sum.
 #include "ViewFactorTesting.h"
 
 #include <algorithm>
@@ -39,6 +40,22 @@ void CheckRows(vtkViewFactors* factors, const std::vector<double>& errors, const
   Check(worst <= factors->GetTolerance() + Single,
     Text(what, ": the error ", worst, " of a row keeps Tolerance ", factors->GetTolerance()));
   Check(lack <= Single, Text(what, ": the error of a row is ", lack, " above its estimate"));
+}
+
+//------------------------------------------------------------------------------
+/// Rows that must sum to 1, and how far they are from it.
+double CheckClosedRows(vtkViewFactors* factors, const Group& rows, const std::string& what)
+{
+  const std::vector<double> sums = GetCellValues(factors, "ViewFactorSum");
+  std::vector<double> errors(rows.Begin);
+  double square = 0.0;
+  for (vtkIdType i = rows.Begin; i < rows.End; ++i)
+  {
+    errors.push_back(std::abs(sums[i] - 1.0));
+    square += errors.back() * errors.back() / (rows.End - rows.Begin);
+  }
+  CheckRows(factors, errors, what);
+  return std::sqrt(square);
 }
 
 //------------------------------------------------------------------------------
@@ -316,6 +333,70 @@ void TestSphereToDisc()
 }
 
 //------------------------------------------------------------------------------
+// Similar triangulations: what the inner sphere sees of the outer one is 1, back 1/9, and 8/9 among
+// the outer, past the inner one, whatever the level.
+void TestConcentricSpheres()
+{
+  for (const int levels : { 1, 2 })
+  {
+    Surface spheres;
+    AddSphere(spheres, 1.0, levels, false);
+    AddSphere(spheres, 3.0, levels, true);
+    auto data = spheres.Get();
+    const vtkIdType cells = data->GetNumberOfCells();
+    const Group inner{ 0, cells / 2 }, outer{ cells / 2, cells };
+    auto factors = ComputeViewFactors(data, 1e-4);
+    const std::vector<double> areas = GetAreas(data);
+    const std::string what = Text("spheres, ", cells, " triangles: ");
+    CheckClose(GetGroupFactor(factors, areas, inner, outer), 1.0, 1e-6, what + "inner to outer");
+    CheckClose(GetGroupFactor(factors, areas, outer, inner), 1.0 / 9.0, 1e-6,
+      what + "outer to inner");
+    CheckClose(GetGroupFactor(factors, areas, outer, outer), 8.0 / 9.0, 1e-5,
+      what + "outer to itself");
+    Check(GetGroupFactor(factors, areas, inner, inner) == 0.0, what + "convex bodies");
+    CheckClosedRows(factors, inner, what + "inner rows");
+    const double error = CheckClosedRows(factors, outer, what + "outer rows");
+    Check(error <= (levels == 1 ? 2e-5 : 1e-5),
+      Text(what, "root mean square of the outer rows: ", error));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Prisms whose walls are as large as those of the cylinders; only the ends are open.
+void TestConcentricCylinders()
+{
+  const double rows[][6] = { { 1, 2, 1, 0.464548996488, 0.232274498244, 0.137728613978 },
+    { 1, 2, 2, 0.674212055038, 0.337106027519, 0.228481018988 },
+    { 1, 4, 2, 0.358763765196, 0.0896909412991, 0.179833008822 },
+    { 0.125, 0.25, 1, 0.910868433008, 0.455434216504, 0.405904210461 } };
+  for (const auto& row : rows)
+  {
+    double values[2][3];
+    for (int level = 0; level < 2; ++level)
+    {
+      const int sectors = level ? 48 : 24;
+      const double stretch = vtkMath::Pi() / sectors / std::sin(vtkMath::Pi() / sectors);
+      Surface surface;
+      AddPrism(surface, row[0] * stretch, row[2], sectors, 2, false, false);
+      AddPrism(surface, row[1] * stretch, row[2], sectors, 2, true, false);
+      auto data = surface.Get();
+      const Group inner{ 0, 2 * sectors }, outer{ 2 * sectors, 4 * sectors };
+      auto factors = ComputeViewFactors(data, 1e-5);
+      const std::vector<double> areas = GetAreas(data);
+      values[level][0] = GetGroupFactor(factors, areas, inner, outer);
+      values[level][1] = GetGroupFactor(factors, areas, outer, inner);
+      values[level][2] = GetGroupFactor(factors, areas, outer, outer);
+    }
+    const char* names[] = { "inner to outer", "outer to inner", "outer to itself" };
+    for (int k = 0; k < 3; ++k)
+    {
+      CheckClose(Extrapolate(values[0][k], values[1][k]), row[3 + k], 5e-5,
+        Text("cylinders ", row[0], ", ", row[1], ", length ", row[2], ", ", names[k]));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // What a crater misses of itself leaves through the opening: 1 - A_opening / A_crater for any mesh,
 // (1 - cos b) / 2 in the limit.
 void TestSphericalCaps()
@@ -425,6 +506,8 @@ int TestViewFactorCatalogue(int, char*[])
   TestRooms();
   TestDiscs();
   TestSphereToDisc();
+  TestConcentricSpheres();
+  TestConcentricCylinders();
   TestSphericalCaps();
   TestStrips();
   TestInvariance();
