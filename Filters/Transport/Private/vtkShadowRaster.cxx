@@ -94,23 +94,29 @@ LT_INLINE void MakeBounds(const Triangles& triangles, int first, const double po
       }
     }
   }
+  // One volume for all edges: from the triangle's own plane rounding decides its sign, and three
+  // signs that differ would bound no more than a half-plane.
+  double volume[Batch];
   for (int edge = 0; edge < 3; ++edge)
   {
     const auto& a = r[edge];
     const auto& b = r[(edge + 1) % 3];
-    const auto& c = r[(edge + 2) % 3];
     for (int k = 0; k < Batch; ++k)
     {
       const double nu = a[1][k] * b[2][k] - a[2][k] * b[1][k];
       const double nw = a[2][k] * b[0][k] - a[0][k] * b[2][k];
       const double nh = a[0][k] * b[1][k] - a[1][k] * b[0][k];
-      const double volume = nu * c[0][k] + nw * c[1][k] + nh * c[2][k];
+      if (edge == 0)
+      {
+        volume[k] = nu * r[2][0][k] + nw * r[2][1][k] + nh * r[2][2][k];
+      }
       const double constant = -(nu * point[0] + nw * point[1] + nh * point[2]);
-      // Inside: sign * (constant + nu * u + nw * w) > 0, where the sign is that of the volume.
+      // Inside: sign * (constant + nu * u + nw * w) > 0, where the sign is that of the volume. An
+      // edge along the lines takes its direction from nu, which neighbors have with opposite signs.
       const double least = Parallel * (std::abs(nu) + std::abs(nh)) + 1e-300;
-      const double divisor = std::abs(nw) > least ? nw : (nw < 0.0 ? -least : least);
+      const double divisor = std::abs(nw) > least ? nw : (nu < 0.0 ? -least : least);
       const double inverse = -1.0 / divisor;
-      const bool isLower = (divisor > 0.0) == (volume > 0.0);
+      const bool isLower = (divisor > 0.0) == (volume[k] > 0.0);
       const auto position = static_cast<float>(constant * inverse);
       const auto slope = static_cast<float>(nu * inverse);
       bounds.Lower[edge][k] = isLower ? position : -Far;
@@ -118,7 +124,7 @@ LT_INLINE void MakeBounds(const Triangles& triangles, int first, const double po
       bounds.Upper[edge][k] = isLower ? Far : position;
       bounds.UpperSlope[edge][k] = isLower ? 0.0f : slope;
       // A triangle seen from its own plane throws no shadow.
-      if (!(std::abs(volume) > 0.0))
+      if (!(std::abs(volume[k]) > 0.0))
       {
         bounds.Lower[edge][k] = Far;
       }
@@ -163,7 +169,7 @@ LT_INLINE void Cover(const Bounds& bounds, int triangle, const Grid& grid, std::
 LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const double point[3],
   const double normal[3])
 {
-  constexpr int group = 4;
+  constexpr int group = 2; // samples that share a weight
   const auto pu = static_cast<float>(point[0]);
   const auto pw = static_cast<float>(point[1]);
   const auto ph = static_cast<float>(point[2]);
@@ -178,14 +184,19 @@ LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const doubl
     {
       const float u = grid.U[k] - pu;
       const float w = grid.Start[k] + (first + 0.5f * (group - 1)) * grid.Step[k] - pw;
-      const float squared = u * u + w * w + ph * ph;
-      const float cosine = u * nu + w * nw - ph * nh;
-      const float weight = (cosine > 0.0f ? cosine : 0.0f) * grid.Step[k] / (squared * squared);
-      std::uint32_t bits = (visible[k] >> first) & 15u;
-      bits = (bits & 5u) + ((bits >> 1) & 5u);
-      bits = (bits & 3u) + (bits >> 2);
+      const float inverse = 1.0f / (u * u + w * w + ph * ph);
+      const float cosine = std::max(u * nu + w * nw - ph * nh, 0.0f);
+      const float factor = grid.Step[k] * inverse * inverse;
+      const float weight = cosine * factor;
+      // The weight changes along the line; no sample of the group weighs less than nothing.
+      const float most = weight / (group - 1);
+      const float slope = 0.5f * grid.Step[k] * factor * (nw - 4.0f * w * cosine * inverse);
+      const auto bits = static_cast<std::int32_t>(visible[k] >> first);
+      const std::int32_t low = bits & 1;
+      const std::int32_t high = bits >> 1 & 1;
       open[k] += weight * group;
-      seen[k] += weight * static_cast<float>(static_cast<std::int32_t>(bits));
+      seen[k] += weight * static_cast<float>(low + high) +
+        std::max(-most, std::min(most, slope)) * static_cast<float>(high - low);
     }
   }
   // The cosine at the target is the height over the distance: the height is the same everywhere.

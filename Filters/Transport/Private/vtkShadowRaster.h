@@ -11,6 +11,8 @@
 #ifndef vtkShadowRaster_h
 #define vtkShadowRaster_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro
+
 #include <vector>
 
 namespace vtkShadowRaster
@@ -33,7 +35,7 @@ struct Target
 
 /// Triangles strictly between the point's plane and the target's, one array per coordinate of each
 /// corner.
-struct Triangles
+struct VTKLIGHTTRANSPORTFILTERS_EXPORT Triangles
 {
   std::vector<double> Corner[3][3];
   int Count = 0;
@@ -59,8 +61,8 @@ struct Flux
  * The flux at a point (u, w, h) with a normal. `shift` (0 to 1 each) moves lines, and samples along
  * them, within their spacing: over many points the samples fill the target evenly.
  */
-Flux See(const Target& target, const Triangles& triangles, const double point[3],
-  const double normal[3], const double shift[2]);
+VTKLIGHTTRANSPORTFILTERS_EXPORT Flux See(const Target& target, const Triangles& triangles,
+  const double point[3], const double normal[3], const double shift[2]);
 } // namespace vtkShadowRaster
 
 #endif
