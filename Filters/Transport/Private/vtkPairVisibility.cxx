@@ -22,7 +22,7 @@ constexpr int Cuts[] = { 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64 };
 constexpr double RasterError = 0.004;
 // The largest error of the first look's rule for one shadow edge across the pair, and the part of
 // the exchange that belongs to the rim.
-constexpr double FirstError = 0.03;
+constexpr double FirstError = 0.02;
 constexpr double RimPart = 0.05;
 // Heights closer to a plane than this part of the distance are on it.
 constexpr double OnPlane = 1e-12;
@@ -322,7 +322,7 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
   Share share;
   double sum = 0.0;
   double weights = 0.0;
-  double previous = 1.0;
+  double previous = 0.0;
   for (const int cuts : Cuts)
   {
     const double latest = this->SeeFromGrid(cuts).GetShare();
@@ -335,7 +335,7 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
     const double noise =
       decided ? 0.0 : RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
     share.Error = std::max(0.5 * std::max(change, 0.5 * previous), noise);
-    previous = change;
+    previous = weights > weight ? change : 0.0;
     if (share.Error <= tolerance)
     {
       break;

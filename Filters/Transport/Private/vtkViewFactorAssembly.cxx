@@ -8,10 +8,14 @@
 #include "vtkTransportThreads.h"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
 namespace
 {
+// Weights and errors are counted in whole numbers of these parts.
+constexpr double WeightUnits = 65536.0;
+constexpr double BudgetUnits = 1099511627776.0;
+
 //------------------------------------------------------------------------------
 std::uint64_t GetKey(vtkIdType i, vtkIdType j)
 {
@@ -300,15 +304,12 @@ struct vtkViewFactorAssembly::Refiner
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
-    const std::vector<double>& areas = this->Self.Scene.GetAreas();
     vtkPairVisibility visibility;
     std::vector<vtkIdType> between;
     for (vtkIdType index = begin; index < end; ++index)
     {
       vtkPartlyVisiblePair& pair = this->Self.Pairs[index];
-      const double allowed = VisibilityShare * this->Self.Tolerance *
-        std::min(areas[pair.I] / this->Self.PairsOfRow[pair.I],
-          areas[pair.J] / this->Self.PairsOfRow[pair.J]);
+      const double allowed = this->Self.GetAllowedError(pair);
       if (pair.Error <= allowed)
       {
         continue;
@@ -485,19 +486,57 @@ void vtkViewFactorAssembly::ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType 
 }
 
 //------------------------------------------------------------------------------
+// The error of a pair by the square root of its exchange: about what makes the sum of all errors
+// smallest for the same work, since errors fall a little slower than the number of points grows.
+double vtkViewFactorAssembly::GetWeight(const vtkPartlyVisiblePair& pair, vtkIdType row) const
+{
+  return std::ceil(WeightUnits * std::sqrt(pair.Open / this->Scene.GetAreas()[row]));
+}
+
+//------------------------------------------------------------------------------
+double vtkViewFactorAssembly::GetAllowedError(const vtkPartlyVisiblePair& pair) const
+{
+  return std::min(this->GetWeight(pair, pair.I) * this->Allowances[pair.I],
+    this->GetWeight(pair, pair.J) * this->Allowances[pair.J]);
+}
+
+//------------------------------------------------------------------------------
+// Each row divides what its tolerance allows among its pairs by their weights. Pairs that need less
+// leave the rest to the others: a second and a third division.
 void vtkViewFactorAssembly::PrepareRefinement(vtkMultiProcessController* controller)
 {
-  std::vector<double> mine(this->Scene.GetNumberOfPatches(), 0.0);
-  for (const vtkPartlyVisiblePair& pair : this->Pairs)
+  constexpr int divisions = 3;
+  const std::size_t rows = this->RowErrors.size();
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  this->Allowances.assign(rows, 0.0);
+  for (int division = 0; division < divisions; ++division)
   {
-    mine[pair.I] += 1.0;
-    mine[pair.J] += 1.0;
-  }
-  this->PairsOfRow = mine;
-  if (controller && controller->GetNumberOfProcesses() > 1)
-  {
-    controller->AllReduce(mine.data(), this->PairsOfRow.data(), static_cast<vtkIdType>(mine.size()),
-      vtkCommunicator::SUM_OP);
+    // Sums of whole numbers, which do not depend on the order: all ranks decide the same.
+    std::vector<double> sums(2 * rows, 0.0);
+    const auto add = [&](const vtkPartlyVisiblePair& pair, bool isSettled, vtkIdType row)
+    {
+      const double budget = VisibilityShare * this->Tolerance * areas[row];
+      (isSettled ? sums[2 * row] : sums[2 * row + 1]) +=
+        isSettled ? std::ceil(BudgetUnits * pair.Error / budget) : this->GetWeight(pair, row);
+    };
+    for (const vtkPartlyVisiblePair& pair : this->Pairs)
+    {
+      const bool isSettled = pair.Error <= this->GetAllowedError(pair);
+      add(pair, isSettled, pair.I);
+      add(pair, isSettled, pair.J);
+    }
+    if (controller && controller->GetNumberOfProcesses() > 1)
+    {
+      const std::vector<double> mine = sums;
+      controller->AllReduce(mine.data(), sums.data(), static_cast<vtkIdType>(sums.size()),
+        vtkCommunicator::SUM_OP);
+    }
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      const double left = 1.0 - sums[2 * row] / BudgetUnits;
+      this->Allowances[row] =
+        VisibilityShare * this->Tolerance * areas[row] * left / std::max(sums[2 * row + 1], 1.0);
+    }
   }
 }
 

@@ -9,8 +9,8 @@
  *      (vtkShaftCuller): where it becomes empty all pairs below are visible, whatever remains at a
  *      pair is looked past from a few points (vtkPairVisibility). Pairs that are then neither
  *      visible nor hidden for certain are put down.
- *   2. *Refine*: how many such pairs a row has says how exact each of them must be; those that are
- *      not yet are integrated until they are.
+ *   2. *Refine*: how many such pairs a row has, and how large, says how exact each of them must be;
+ *      those that are not yet are integrated until they are.
  */
 #ifndef vtkViewFactorAssembly_h
 #define vtkViewFactorAssembly_h
@@ -63,7 +63,8 @@ public:
   ///@}
 
   ///@{
-  /// Stage 2. Prepare is collective: it counts the pairs of a row over all ranks.
+  /// Stage 2. Prepare is collective: it divides the tolerance of a row among its pairs on all
+  /// ranks.
   void PrepareRefinement(vtkMultiProcessController* controller);
   vtkIdType GetNumberOfPairs() const { return static_cast<vtkIdType>(this->Pairs.size()); }
   void Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
@@ -92,6 +93,8 @@ private:
   bool AllocateTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   void Collect(const Unit& unit, const UnitResult& result);
   void ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
+  double GetWeight(const vtkPartlyVisiblePair& pair, vtkIdType row) const;
+  double GetAllowedError(const vtkPartlyVisiblePair& pair) const;
   void ClipPair(vtkIdType i, vtkIdType j, vtkPolygonExchange::Polygon& a,
     vtkPolygonExchange::Polygon& b) const;
 
@@ -103,8 +106,8 @@ private:
   vtkShaftCuller Culler;
   std::vector<Unit> Units;
   std::vector<bool> TilesWithPairs;
-  std::vector<double> RowErrors; ///< of the exchange with nothing in between
-  std::vector<double> PairsOfRow;
+  std::vector<double> RowErrors;  ///< of the exchange with nothing in between
+  std::vector<double> Allowances; ///< error for a unit of weight, of each row
   std::vector<vtkPartlyVisiblePair> Pairs;
   Counters Total;
 };
