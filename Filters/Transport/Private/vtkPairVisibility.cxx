@@ -20,6 +20,8 @@ using vtkShadowRaster::Flux;
 constexpr int Cuts[] = { 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64 };
 // The raster's own error at one point, measured: root mean square for one shadow edge across it.
 constexpr double RasterError = 0.004;
+// Of the raster's lines to the longest edge, where length and width of the polygon are the same.
+constexpr double Slant = 0.38;
 // The largest error of the first look's rule for one shadow edge across the pair, and the part of
 // the exchange that belongs to the rim.
 constexpr double FirstError = 0.02;
@@ -172,6 +174,14 @@ void vtkPairVisibility::SetFrame()
     }
   }
   this->AxisH = this->Inner.Normal;
+  // Aslant to the edges: a shadow's edge along the lines would cover or free a whole line at once.
+  const Vector across = this->AxisH.cross(this->AxisW).normalized();
+  double width = 0.0;
+  for (int corner = 0; corner < this->Inner.Count; ++corner)
+  {
+    width = std::max(width, std::abs(across.dot(this->Inner.Corners[corner] - this->Origin)));
+  }
+  this->AxisW += Slant * 2.0 * width * across;
   this->AxisU = this->AxisW.cross(this->AxisH).normalized();
   this->AxisW = this->AxisH.cross(this->AxisU);
   this->Normal[0] = this->Outer.Normal.dot(this->AxisU);
