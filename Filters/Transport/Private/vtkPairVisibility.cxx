@@ -26,6 +26,8 @@ constexpr double Slant = 0.38;
 // the exchange that belongs to the rim.
 constexpr double FirstError = 0.02;
 constexpr double RimPart = 0.05;
+// Of the first look's error what a grid is usually off by, times the square of its cuts.
+constexpr double UsualPart = 0.4;
 // Heights closer to a plane than this part of the distance are on it.
 constexpr double OnPlane = 1e-12;
 
@@ -341,10 +343,12 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
     sum += weight * latest;
     weights += weight;
     share.Value = sum / weights;
+    // Two grids may agree by luck: never less than what they usually are off by.
     const bool decided = share.Value <= 0.0 || share.Value >= 1.0;
-    const double noise =
-      decided ? 0.0 : RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
-    share.Error = std::max(0.5 * std::max(change, 0.5 * previous), noise);
+    const double usual = decided ? 0.0
+                                 : UsualPart * FirstError / weight +
+        RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
+    share.Error = std::max(0.5 * std::max(change, 0.5 * previous), usual);
     previous = weights > weight ? change : 0.0;
     if (share.Error <= tolerance)
     {
