@@ -360,7 +360,7 @@ Scene MakeDragon(const std::string& file, double length)
 //------------------------------------------------------------------------------
 std::vector<Case> GetCases(const std::string& dragon)
 {
-  const std::vector<double> coarse = { 1e-2, 1e-3, 1e-4, 1e-5 };
+  const std::vector<double> coarse = { 1e-2, 1e-3, 1e-4 };
   const std::vector<double> fine = { 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8 };
   const std::vector<double> large = { 1e-3, 1e-4 };
   const auto spheres = [](int levels) { return [levels] { return MakeSpheres(levels); }; };
