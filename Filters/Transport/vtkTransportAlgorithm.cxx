@@ -16,12 +16,18 @@
 #include "vtkPatchScene.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
+#include "vtkTimerLog.h"
 #include "vtkTransportMemory.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace
 {
+// Seconds from which on a user wants to know how long it takes.
+constexpr double LongTime = 2.0;
+
 //------------------------------------------------------------------------------
 // vtkAlgorithm::CheckAbort appeared after VTK 9.2; before it there is the flag alone.
 template <typename Algorithm>
@@ -103,13 +109,36 @@ void vtkTransportAlgorithm::SetProgressStage(double begin, double end)
 {
   this->StageBegin = begin;
   this->StageEnd = end;
+  if (begin == 0.0)
+  {
+    this->StartTime = vtkTimerLog::GetUniversalTime();
+    this->SetProgressText(nullptr);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportAlgorithm::SetTimeLeft(double done)
+{
+  const double elapsed = vtkTimerLog::GetUniversalTime() - this->StartTime;
+  if (elapsed < LongTime || done <= 0.0)
+  {
+    return;
+  }
+  const double left = elapsed * (1.0 - done) / done;
+  std::ostringstream text;
+  text << this->GetClassName() << ": about "
+       << (left < 120.0 ? std::ceil(left) : std::ceil(left / 60.0))
+       << (left < 120.0 ? " s left" : " min left");
+  this->SetProgressText(text.str().c_str());
 }
 
 //------------------------------------------------------------------------------
 bool vtkTransportAlgorithm::ReportProgress(double fraction)
 {
   const double within = std::min(std::max(fraction, 0.0), 1.0);
-  this->UpdateProgress(this->StageBegin + within * (this->StageEnd - this->StageBegin));
+  const double done = this->StageBegin + within * (this->StageEnd - this->StageBegin);
+  this->SetTimeLeft(done);
+  this->UpdateProgress(done);
   int aborted = IsAborted(this, 0) ? 1 : 0;
   if (this->GetNumberOfRanks() > 1)
   {

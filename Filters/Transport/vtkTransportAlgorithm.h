@@ -76,9 +76,10 @@ protected:
 
   ///@{
   /**
-   * Progress within the stage set last (fractions of the whole run). Returns false when the user
-   * has aborted. Call it from one thread; on several ranks call it on all of them alike: they agree
-   * on the answer.
+   * Progress within the stage set last (fractions of the whole run; the first begins at 0). In long
+   * runs the progress text tells how much time is left. Returns false when the user has aborted.
+   * Call it from one thread; on several ranks call it on all of them alike: they agree on the
+   * answer.
    */
   void SetProgressStage(double begin, double end);
   bool ReportProgress(double fraction);
@@ -133,8 +134,11 @@ private:
     Allocation&& allocate);
   vtkSmartPointer<vtkDeviceLinkOperator> OpenDevice(int device, std::string& reason);
 
+  void SetTimeLeft(double done);
+
   double StageBegin = 0.0;
   double StageEnd = 1.0;
+  double StartTime = 0.0;
 };
 
 #endif

@@ -158,12 +158,12 @@ bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* contr
     error = "The input has no polygons: give a surface with at least one polygon.";
     return false;
   }
-  this->ComputeFingerprint(raw);
   if (!this->Normalize(raw, error))
   {
     return false;
   }
   this->SortPatches(raw, firstLocal);
+  this->ComputeFingerprint(raw);
   this->MergePoints(raw);
   if (!this->ComputePatchGeometry(error))
   {
@@ -449,6 +449,12 @@ void vtkPatchScene::ComputeFingerprint(const Raw& raw)
     std::uint64_t bits;
     std::memcpy(&bits, &coordinate, sizeof(bits));
     add(bits);
+  }
+  // Where rounding decides, another compiler may sort in another way: what was computed for one
+  // order must not be taken for the other.
+  for (const vtkIdType polygon : this->Polygons)
+  {
+    add(static_cast<std::uint64_t>(polygon));
   }
   this->Fingerprint = hash;
 }
