@@ -58,11 +58,24 @@ vtkViewFactors::~vtkViewFactors() = default;
 bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
   const std::vector<bool>* senders)
 {
+  this->Patches.clear();
+  if (!this->Provide(scene, progress, senders))
+  {
+    return false;
+  }
   this->Patches.resize(scene.GetNumberOfPatches());
   for (std::size_t polygon = 0; polygon < this->Patches.size(); ++polygon)
   {
     this->Patches[polygon] = scene.GetPatch(static_cast<vtkIdType>(polygon));
   }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// From a file, from the last update, or computed.
+bool vtkViewFactors::Provide(const vtkPatchScene& scene, const ProgressFunction& progress,
+  const std::vector<bool>* senders)
+{
   if (!this->LoadedFile.empty())
   {
     return this->CheckLoaded(scene);
@@ -78,17 +91,17 @@ bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFu
     return false;
   }
   this->Senders = senders ? *senders : std::vector<bool>();
-  this->BuildTime.Modified();
+  this->IsClosed = this->EnforceClosure;
   return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkViewFactors::IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const
 {
-  // The property does not change what the last computation was for, so it is not const.
-  auto* self = const_cast<vtkViewFactors*>(this);
+  // The groups and how points are written may change without new view factors.
   if (!this->Result->Exchange || this->Result->Fingerprint != scene.GetFingerprint() ||
-    this->BuildTime <= self->GetMTime())
+    this->Result->Tolerance != this->Tolerance || this->IsClosed != this->EnforceClosure ||
+    this->Result->Exchange->GetNumberOfParts() != this->GetNumberOfRanks())
   {
     return false;
   }
@@ -371,7 +384,7 @@ const std::vector<double>& vtkViewFactors::GetRowErrors() const
 double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
 {
   vtkExchangeMatrix* exchange = this->Result->Exchange;
-  const vtkIdType patches = exchange ? exchange->GetNumberOfPatches() : 0;
+  const vtkIdType patches = exchange ? static_cast<vtkIdType>(this->Patches.size()) : 0;
   if (i < 0 || j < 0 || i >= patches || j >= patches)
   {
     return 0.0;
@@ -410,7 +423,7 @@ bool vtkViewFactors::Load(const char* fileName)
   vtkViewFactorsResult loaded;
   std::string error;
   const bool forget = !fileName || !*fileName;
-  if (this->GetNumberOfRanks() > 1)
+  if (!forget && this->GetNumberOfRanks() > 1)
   {
     error = "View factors can be loaded on one process only: each of several holds a part.";
   }
@@ -420,6 +433,7 @@ bool vtkViewFactors::Load(const char* fileName)
     return false;
   }
   *this->Result = std::move(loaded);
+  this->Patches.clear();
   this->LoadedFile = forget ? "" : fileName;
   this->Senders.clear();
   this->Modified();

@@ -137,6 +137,8 @@ private:
   vtkViewFactors(const vtkViewFactors&) = delete;
   void operator=(const vtkViewFactors&) = delete;
 
+  bool Provide(const vtkPatchScene& scene, const ProgressFunction& progress,
+    const std::vector<bool>* senders);
   bool IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const;
   bool CheckLoaded(const vtkPatchScene& scene);
   bool Compute(const vtkPatchScene& scene, const ProgressFunction& progress,
@@ -154,10 +156,10 @@ private:
   bool EnforceClosure = false;
 
   std::unique_ptr<vtkViewFactorsResult> Result;
+  bool IsClosed = false;          ///< EnforceClosure when the result was computed
   std::vector<bool> Senders;      ///< that the result was computed for; empty for all
   std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons
   std::string LoadedFile;         ///< empty when the result was not loaded
-  vtkTimeStamp BuildTime;
 };
 
 #endif

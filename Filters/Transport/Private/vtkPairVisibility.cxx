@@ -17,7 +17,7 @@ using vtkPolygonExchange::Vector;
 using vtkShadowRaster::Flux;
 
 // Into how many parts the sides of the outer polygon's triangles are cut, one grid after the other.
-constexpr int Cuts[] = { 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64 };
+constexpr int Cuts[] = { 1, 2, 3, 4, 6, 8, 12, 16, 24, 32 };
 // The raster's own error at one point, measured: root mean square for one shadow edge across it.
 constexpr double RasterError = 0.004;
 // Of the raster's lines to the longest edge, where length and width of the polygon are the same.
