@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Shaft culling never leaves out a patch that hides anything, leaves out most others, and knows
+// scenes in which nothing can be in between.
+
+#include "VisibilityTesting.h"
+#include "vtkShaftCuller.h"
+
+#include <set>
+
+using namespace LightTransportTesting;
+using namespace VisibilityTesting;
+
+namespace
+{
+using Patches = std::vector<vtkIdType>;
+
+//------------------------------------------------------------------------------
+// Whether a segment crosses a patch, well inside both.
+bool Crosses(const vtkPatchScene& scene, vtkIdType patch, const Vector& from, const Vector& to)
+{
+  const Corners corners = GetCorners(scene, patch);
+  const Vector& normal = scene.GetNormal(patch);
+  const double heightFrom = (from - corners[0]).dot(normal);
+  const double heightTo = (to - corners[0]).dot(normal);
+  if (heightFrom * heightTo >= 0.0 || std::min(std::abs(heightFrom), std::abs(heightTo)) < 1e-6)
+  {
+    return false;
+  }
+  const Vector place = from + heightFrom / (heightFrom - heightTo) * (to - from);
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    const Vector edge = corners[(k + 1) % corners.size()] - corners[k];
+    if (normal.cross(edge).normalized().dot(place - corners[k]) < 1e-6)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+Vector GetPoint(const vtkPatchScene& scene, vtkIdType patch, Random& random)
+{
+  const Corners corners = GetCorners(scene, patch);
+  const auto last = static_cast<double>(corners.size() - 1);
+  const auto k = 1 + static_cast<std::size_t>(random.Uniform(0.0, last - 1.0));
+  const double s = std::sqrt(random.Uniform());
+  return corners[0] + s * (corners[k] - corners[0]) +
+    s * random.Uniform() * (corners[k + 1] - corners[k]);
+}
+
+//------------------------------------------------------------------------------
+// All patches but the two that some segments between them cross.
+std::set<vtkIdType> GetCrossed(const vtkPatchScene& scene, vtkIdType i, vtkIdType j, int count,
+  Random& random)
+{
+  std::set<vtkIdType> crossed;
+  for (int k = 0; k < count; ++k)
+  {
+    const Vector from = GetPoint(scene, i, random);
+    const Vector to = GetPoint(scene, j, random);
+    // What is behind one of both is in between for no exchange.
+    if ((to - from).dot(scene.GetNormal(i)) <= 0.0 || (from - to).dot(scene.GetNormal(j)) <= 0.0)
+    {
+      continue;
+    }
+    for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+    {
+      if (patch != i && patch != j && Crosses(scene, patch, from, to))
+      {
+        crossed.insert(patch);
+      }
+    }
+  }
+  return crossed;
+}
+
+//------------------------------------------------------------------------------
+bool Holds(Patches found, const std::set<vtkIdType>& wanted)
+{
+  std::sort(found.begin(), found.end());
+  return std::includes(found.begin(), found.end(), wanted.begin(), wanted.end());
+}
+
+//------------------------------------------------------------------------------
+// Down the tree from the root to the leaves of two patches: lists only shrink, and at their end is
+// what a search of the whole scene finds.
+void CheckDescent(const vtkPatchScene& scene, const vtkShaftCuller& culler, vtkIdType i,
+  vtkIdType j, const std::set<vtkIdType>& crossed, const std::string& what)
+{
+  const auto getChild = [&](int node, vtkIdType patch)
+  {
+    const vtkPatchTree& tree = scene.GetTree();
+    const int left = tree.GetNode(node).Left;
+    return tree.GetNode(node).IsLeaf() ? node : (patch < tree.GetNode(left).Last ? left : left + 1);
+  };
+  int nodeI = 0;
+  int nodeJ = 0;
+  vtkShaftCuller::Candidates list, direct, next;
+  culler.Find(0, 0, list);
+  while (!scene.GetTree().GetNode(nodeI).IsLeaf() || !scene.GetTree().GetNode(nodeJ).IsLeaf())
+  {
+    nodeI = getChild(nodeI, i);
+    nodeJ = getChild(nodeJ, j);
+    culler.Narrow(nodeI, nodeJ, list, next);
+    culler.Find(nodeI, nodeJ, direct);
+    Patches narrowed = next.Patches;
+    std::sort(narrowed.begin(), narrowed.end());
+    std::sort(direct.Patches.begin(), direct.Patches.end());
+    Check(narrowed == direct.Patches, what + ": narrowed list of two nodes");
+    Check(Holds(narrowed, crossed), what + ": list of two nodes");
+    std::swap(list, next);
+  }
+  Patches narrowed, found;
+  culler.NarrowBetween(i, j, list, narrowed);
+  culler.FindBetween(i, j, found);
+  std::sort(narrowed.begin(), narrowed.end());
+  std::sort(found.begin(), found.end());
+  Check(narrowed == found, what + ": narrowed list of two patches");
+  Check(Holds(found, crossed), what + ": list of two patches");
+}
+
+//------------------------------------------------------------------------------
+// `most`: of all patches, what lists may hold on average for each patch that is crossed.
+void CheckScene(const std::vector<Corners>& polygons, double most, const std::string& what)
+{
+  vtkPatchScene scene;
+  if (!BuildScene(polygons, scene))
+  {
+    return;
+  }
+  const vtkShaftCuller culler(scene);
+  Check(culler.HasOccluders(), what + ": has occluders");
+  Random random(11);
+  const auto count = static_cast<double>(scene.GetNumberOfPatches());
+  double listed = 0.0;
+  double crossings = 0.0;
+  constexpr int pairs = 150;
+  for (int k = 0; k < pairs; ++k)
+  {
+    const auto i = static_cast<vtkIdType>(random.Uniform(0.0, count));
+    const auto j = static_cast<vtkIdType>(random.Uniform(0.0, count));
+    if (i == j)
+    {
+      continue;
+    }
+    const std::set<vtkIdType> crossed = GetCrossed(scene, i, j, 60, random);
+    CheckDescent(scene, culler, i, j, crossed, what);
+    Patches found;
+    culler.FindBetween(i, j, found);
+    listed += static_cast<double>(found.size());
+    crossings += static_cast<double>(crossed.size());
+  }
+  Check(crossings > 0.0, what + ": something is between");
+  Check(listed < most * pairs * count,
+    what + ": " + std::to_string(listed / pairs) + " of " + std::to_string(count));
+}
+
+//------------------------------------------------------------------------------
+std::vector<Corners> GetPolygons(vtkPolyData* data)
+{
+  std::vector<Corners> polygons;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    data->GetCellPoints(cell, ids);
+    Corners corners(ids->GetNumberOfIds());
+    for (std::size_t k = 0; k < corners.size(); ++k)
+    {
+      data->GetPoint(ids->GetId(static_cast<vtkIdType>(k)), corners[k].data());
+    }
+    polygons.push_back(corners);
+  }
+  return polygons;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Corners> MakeSphere(double radius, int levels, bool inward)
+{
+  Surface surface;
+  AddSphere(surface, radius, levels, inward);
+  return GetPolygons(surface.Get());
+}
+
+//------------------------------------------------------------------------------
+std::vector<Corners> Join(std::vector<Corners> a, const std::vector<Corners>& b)
+{
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Corners> Transform(std::vector<Corners> polygons, const Eigen::Matrix3d& matrix,
+  const Vector& shift)
+{
+  for (Corners& corners : polygons)
+  {
+    for (Vector& corner : corners)
+    {
+      corner = matrix * corner + shift;
+    }
+  }
+  return polygons;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Corners> Flip(std::vector<Corners> polygons)
+{
+  for (Corners& corners : polygons)
+  {
+    std::reverse(corners.begin(), corners.end());
+  }
+  return polygons;
+}
+
+//------------------------------------------------------------------------------
+void TestScenes()
+{
+  Random random(12);
+  std::vector<Corners> soup;
+  for (int k = 0; k < 400; ++k)
+  {
+    soup.push_back(random.Triangle(random.Point(), 0.15));
+  }
+  CheckScene(soup, 0.05, "soup");
+  const std::vector<Corners> cube = GetPolygons(MakeRoom(4));
+  std::vector<Corners> room = cube;
+  for (int k = 0; k < 4; ++k)
+  {
+    const Eigen::Matrix3d matrix = 0.15 * random.Rotation();
+    room = Join(room, Flip(Transform(cube, matrix, Vector(0.3 + 0.15 * k, 0.6 - 0.1 * k, 0.4))));
+  }
+  CheckScene(room, 0.1, "room with boxes");
+  // The same far from where it was, turned and larger.
+  CheckScene(Transform(room, 1e3 * random.Rotation(), { 1e4, -2e4, 3e4 }), 0.1, "turned room");
+  CheckScene(Join(MakeSphere(3.0, 2, true), MakeSphere(1.0, 2, false)), 0.1, "two spheres");
+  // As large as single precision allows beside as small.
+  CheckScene(Join(MakeSphere(3.0, 1, true), Transform(room, 1e-3 * random.Rotation(), { 0, 0, 0 })),
+    0.3, "a small room in a sphere");
+}
+
+//------------------------------------------------------------------------------
+bool HasOccluders(const std::vector<Corners>& polygons)
+{
+  vtkPatchScene scene;
+  BuildScene(polygons, scene);
+  return vtkShaftCuller(scene).HasOccluders();
+}
+
+//------------------------------------------------------------------------------
+// Inside a convex body all patches have all others in front; outside, and as soon as something
+// stands in it, not.
+void TestConvexScenes()
+{
+  Random random(13);
+  const std::vector<Corners> room = GetPolygons(MakeRoom(5));
+  const std::vector<Corners> body = MakeSphere(2.0, 2, true);
+  const Eigen::Matrix3d turn = 20.0 * random.Rotation();
+  const Vector shift(300.0, -100.0, 50.0);
+  Check(!HasOccluders(room), "a room");
+  Check(!HasOccluders(Transform(room, turn, shift)), "a turned room");
+  Check(!HasOccluders(body), "a convex body from inside");
+  Check(!HasOccluders(Transform(body, turn, shift)), "a turned convex body from inside");
+  Check(HasOccluders(Flip(room)), "a cube from outside");
+  Check(HasOccluders(Flip(body)), "a convex body from outside");
+  Check(HasOccluders(Join(room, { random.Triangle({ 0.5, 0.5, 0.5 }, 0.1) })),
+    "a triangle in a room");
+  const Corners dent{ { 0.4, 0.4, 1e-4 }, { 0.6, 0.4, 1e-4 }, { 0.5, 0.6, 1e-4 } };
+  Check(HasOccluders(Join(room, { dent })), "a triangle just over the floor");
+  Check(!HasOccluders({ room[0] }), "one patch");
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestShaftCuller(int, char*[])
+{
+  TestScenes();
+  TestConvexScenes();
+  return Result();
+}
