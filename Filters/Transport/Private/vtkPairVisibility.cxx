@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPairVisibility.h"
 
+#include "vtkMath.h"
 #include "vtkPatchSampler.h"
 #include "vtkPatchScene.h"
 
@@ -25,7 +26,7 @@ constexpr double Slant = 0.38;
 // The largest error of the first look's rule for one shadow edge across the pair, and the part of
 // the exchange that belongs to the rim.
 constexpr double FirstError = 0.02;
-constexpr double RimPart = 0.05;
+constexpr double RimPart = 0.25;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
 constexpr double UsualPart = 0.4;
 // Heights closer to a plane than this part of the distance are on it.
@@ -105,8 +106,9 @@ void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts,
 
 //------------------------------------------------------------------------------
 bool vtkPairVisibility::SetPair(const Polygon& a, const Polygon& b, const vtkPatchScene& scene,
-  const std::vector<vtkIdType>& occluders, std::uint64_t key)
+  const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching)
 {
+  this->Touching = touching;
   this->Outer = a;
   this->Inner = b;
   this->Key = key;
@@ -283,8 +285,8 @@ Flux vtkPairVisibility::See(const Vector& place)
 }
 
 //------------------------------------------------------------------------------
-// The mean over the outer polygon, times the area.
-Flux vtkPairVisibility::SeeFromGrid(int cuts)
+// The visible part of the exchange by one grid.
+double vtkPairVisibility::SeeFromGrid(int cuts)
 {
   Flux total;
   for (int corner = 1; corner + 1 < this->Outer.Count; ++corner)
@@ -292,7 +294,8 @@ Flux vtkPairVisibility::SeeFromGrid(int cuts)
     const Vector& origin = this->Outer.Corners[0];
     const Vector u = (this->Outer.Corners[corner] - origin) / cuts;
     const Vector v = (this->Outer.Corners[corner + 1] - origin) / cuts;
-    const double area = u.cross(v).norm();
+    // Three points for each triangle, which is half of a parallelogram.
+    const double area = u.cross(v).norm() / 6.0;
     VisitGrid(origin, u, v, cuts,
       [&](const Vector& place)
       {
@@ -301,28 +304,43 @@ Flux vtkPairVisibility::SeeFromGrid(int cuts)
         total.Open += area * flux.Open;
       });
   }
-  return total;
+  if (this->Touching <= 0.0 || total.Visible <= 0.0)
+  {
+    return total.GetShare();
+  }
+  const double spacing = (this->Target.End - this->Target.Begin) / vtkShadowRaster::Lines;
+  const double blocked = spacing / vtkMath::Pi() * (total.Open - total.Visible);
+  return std::max(0.0, 1.0 - blocked / this->Touching);
+}
+
+//------------------------------------------------------------------------------
+// The points of a grid lie inside: what only the rim sees shows at the corners and between them.
+double vtkPairVisibility::GetRimDifference(double share)
+{
+  double difference = 0.0;
+  for (int corner = 0; corner < this->Outer.Count; ++corner)
+  {
+    const Vector& begin = this->Outer.Corners[corner];
+    const Vector& end = this->Outer.Corners[(corner + 1) % this->Outer.Count];
+    for (const Vector& place : { begin, Vector(0.5 * (begin + end)) })
+    {
+      difference = std::max(difference, std::abs(this->See(place).GetShare(share) - share));
+    }
+  }
+  return difference;
 }
 
 //------------------------------------------------------------------------------
 vtkPairVisibility::Share vtkPairVisibility::Look()
 {
-  const Flux sum = this->SeeFromGrid(Cuts[0]);
   Share share;
-  share.Value = sum.GetShare();
+  share.Value = this->SeeFromGrid(Cuts[0]);
   if (share.Value > 0.0 && share.Value < 1.0)
   {
     share.Error = FirstError;
     return share;
   }
-  // The points lie well inside: what only the rim sees shows at the corners.
-  double rim = 0.0;
-  for (int corner = 0; corner < this->Outer.Count; ++corner)
-  {
-    const double other = this->See(this->Outer.Corners[corner]).GetShare(share.Value);
-    rim = std::max(rim, std::abs(other - share.Value));
-  }
-  share.Error = RimPart * rim;
+  share.Error = RimPart * this->GetRimDifference(share.Value);
   return share;
 }
 
@@ -335,19 +353,23 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
   double sum = 0.0;
   double weights = 0.0;
   double previous = 0.0;
+  double rim = -1.0; // not known yet
   for (const int cuts : Cuts)
   {
-    const double latest = this->SeeFromGrid(cuts).GetShare();
+    const double latest = this->SeeFromGrid(cuts);
     const double weight = cuts * cuts;
     const double change = weights > 0.0 ? std::abs(latest - sum / weights) : 1.0;
     sum += weight * latest;
     weights += weight;
     share.Value = sum / weights;
     // Two grids may agree by luck: never less than what they usually are off by.
-    const bool decided = share.Value <= 0.0 || share.Value >= 1.0;
-    const double usual = decided ? 0.0
-                                 : UsualPart * FirstError / weight +
-        RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
+    double usual = UsualPart * FirstError / weight +
+      RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
+    if (share.Value <= 0.0 || share.Value >= 1.0)
+    {
+      rim = rim < 0.0 ? this->GetRimDifference(share.Value) : rim;
+      usual = RimPart * rim / weight;
+    }
     share.Error = std::max(0.5 * std::max(change, 0.5 * previous), usual);
     previous = weights > weight ? change : 0.0;
     if (share.Error <= tolerance)

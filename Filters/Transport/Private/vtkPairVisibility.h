@@ -41,9 +41,12 @@ public:
    * Begin with a pair, each polygon in front of the plane of the other (vtkPolygonExchange::Clip),
    * and the patches that may come between them. Equal keys give equal samples. Returns false where
    * none of the patches has a part in front of both planes: nothing is between.
+   * `touching` is the exchange with nothing in between of two polygons that share a corner: next to
+   * it the grid does not resolve what they exchange, but nothing stands there either, so what is
+   * blocked is subtracted from it.
    */
   bool SetPair(const Polygon& a, const Polygon& b, const vtkPatchScene& scene,
-    const std::vector<vtkIdType>& occluders, std::uint64_t key);
+    const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching = 0.0);
 
   /// A first look from a few points and, where they agree that the pair is visible or that it is
   /// hidden, from the corners. An error of 0 says that all agree.
@@ -61,10 +64,12 @@ private:
   template <typename GetCorner>
   void AddTriangles(int count, const GetCorner& getCorner);
   vtkShadowRaster::Flux See(const Vector& point);
-  vtkShadowRaster::Flux SeeFromGrid(int cuts);
+  double SeeFromGrid(int cuts);
+  double GetRimDifference(double share);
 
   Polygon Outer, Inner;
   std::uint64_t Key = 0;
+  double Touching = 0.0;
   int NumberOfPoints = 0;
 
   /// What is between: a patch, whether a plane cuts it, and where it comes in the order (first what

@@ -258,7 +258,8 @@ struct vtkViewFactorAssembly::Looker
       return;
     }
     this->Self.ClipPair(i, j, a, b);
-    if (!work.Visibility.SetPair(a, b, this->Self.Scene, between, GetKey(i, j)))
+    if (!work.Visibility.SetPair(a, b, this->Self.Scene, between, GetKey(i, j),
+          this->Self.IsTouching(i, j) ? value : 0.0))
     {
       ++count.Free;
       return;
@@ -317,7 +318,8 @@ struct vtkViewFactorAssembly::Refiner
       this->Self.Culler.FindBetween(pair.I, pair.J, between);
       vtkPolygonExchange::Polygon a, b;
       this->Self.ClipPair(pair.I, pair.J, a, b);
-      if (visibility.SetPair(a, b, this->Self.Scene, between, GetKey(pair.I, pair.J)))
+      if (visibility.SetPair(a, b, this->Self.Scene, between, GetKey(pair.I, pair.J),
+            this->Self.IsTouching(pair.I, pair.J) ? pair.Open : 0.0))
       {
         const vtkPairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
         pair.Value = share.Value * pair.Open;
@@ -557,6 +559,15 @@ std::vector<double> vtkViewFactorAssembly::GetRowErrors() const
     errors[pair.J] += pair.Error;
   }
   return errors;
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactorAssembly::IsTouching(vtkIdType i, vtkIdType j) const
+{
+  const vtkIdType* const end = this->Scene.GetCorners(j) + this->Scene.GetNumberOfCorners(j);
+  return std::find_first_of(this->Scene.GetCorners(i),
+           this->Scene.GetCorners(i) + this->Scene.GetNumberOfCorners(i), this->Scene.GetCorners(j),
+           end) != this->Scene.GetCorners(i) + this->Scene.GetNumberOfCorners(i);
 }
 
 //------------------------------------------------------------------------------
