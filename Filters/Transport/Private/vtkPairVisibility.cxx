@@ -28,7 +28,7 @@ constexpr double Slant = 0.38;
 constexpr double FirstError = 0.02;
 constexpr double RimPart = 0.25;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
-constexpr double UsualPart = 0.4;
+constexpr double UsualPart = 0.8;
 // Heights closer to a plane than this part of the distance are on it.
 constexpr double OnPlane = 1e-12;
 
@@ -370,7 +370,7 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
       rim = rim < 0.0 ? this->GetRimDifference(share.Value) : rim;
       usual = RimPart * rim / weight;
     }
-    share.Error = std::max(0.5 * std::max(change, 0.5 * previous), usual);
+    share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
     if (share.Error <= tolerance)
     {

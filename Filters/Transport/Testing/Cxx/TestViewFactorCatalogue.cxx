@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // View factors against values that are known: catalogue configurations (Howell, A Catalog of
 // Radiation Heat Transfer Configuration Factors) on meshes of several levels, scenes of rectangles
-// of which every single factor is known, and closed scenes. Wherever a whole row is known,
-// Tolerance must bound the sum of the absolute errors in it, and ViewFactorError must cover that
-// sum.
+// of which every single factor is known, with and without a wall between them, and closed scenes.
+// Wherever a whole row is known, Tolerance must bound the sum of the absolute errors in it, and
+// ViewFactorError must cover that sum.
 #include "ViewFactorTesting.h"
+#include "vtkGaussLegendre.h"
 
 #include <algorithm>
 #include <sstream>
@@ -248,6 +249,150 @@ void TestRooms()
 }
 
 //------------------------------------------------------------------------------
+// A wall with a rectangular opening between two plates
+//------------------------------------------------------------------------------
+
+/// What stands between the plates: at height Level, open where Low < x, y < High.
+struct Opening
+{
+  double Level;
+  std::array<double, 2> Low;
+  std::array<double, 2> High;
+};
+
+//------------------------------------------------------------------------------
+/**
+ * For one coordinate: how much of the lower patch [p0, p1] sees through the opening [a, b], in the
+ * direction that moves by u up to the upper patch [q0, q1]. Piecewise linear in u; between the ends
+ * of the parts the weighted Gauss points of each are given.
+ */
+std::vector<std::array<double, 2>> GetWindow(const std::array<double, 2>& p,
+  const std::array<double, 2>& q, const std::array<double, 2>& opening, double level)
+{
+  static const vtkGaussLegendre gauss(14);
+  // Lines c - s u: the lower patch, the upper one, the opening.
+  const std::array<double, 2> lines[] = { { p[0], 0 }, { p[1], 0 }, { q[0], 1 }, { q[1], 1 },
+    { opening[0], level }, { opening[1], level } };
+  std::vector<double> ends;
+  for (const auto& first : lines)
+  {
+    for (const auto& second : lines)
+    {
+      if (first[1] < second[1])
+      {
+        ends.push_back((second[0] - first[0]) / (second[1] - first[1]));
+      }
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<std::array<double, 2>> window;
+  for (std::size_t k = 1; k < ends.size(); ++k)
+  {
+    const double size = ends[k] - ends[k - 1];
+    for (std::size_t n = 0; n < gauss.Nodes.size(); ++n)
+    {
+      const double u = ends[k - 1] + size * gauss.Nodes[n];
+      const double length = std::min({ p[1], q[1] - u, opening[1] - level * u }) -
+        std::max({ p[0], q[0] - u, opening[0] - level * u });
+      if (length > 0.0)
+      {
+        window.push_back({ u, length * size * gauss.Weights[n] });
+      }
+    }
+  }
+  return window;
+}
+
+//------------------------------------------------------------------------------
+/// The exchange of a patch of the lower plate and one of the upper, at height 1.
+double GetExchangeThrough(const Opening& opening, const Rectangle& p, const Rectangle& q)
+{
+  std::vector<std::array<double, 2>> windows[2];
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    windows[axis] = GetWindow({ p.Low[axis], p.High[axis] }, { q.Low[axis], q.High[axis] },
+      { opening.Low[axis], opening.High[axis] }, opening.Level);
+  }
+  double sum = 0.0;
+  for (const auto& x : windows[0])
+  {
+    for (const auto& y : windows[1])
+    {
+      const double square = 1.0 + x[0] * x[0] + y[0] * y[0];
+      sum += x[1] * y[1] / (square * square);
+    }
+  }
+  return sum / vtkMath::Pi();
+}
+
+//------------------------------------------------------------------------------
+/// Front to the upper plate; rectangles around the opening, none where that reaches the margin.
+void AddWall(Surface& surface, const Opening& opening)
+{
+  constexpr double low = -4.0, high = 5.0;
+  const double left = opening.Low[0], right = std::min(opening.High[0], high);
+  const double front = std::max(opening.Low[1], low), back = std::min(opening.High[1], high);
+  const auto add = [&](double x1, double x2, double y1, double y2)
+  {
+    if (x2 > x1 && y2 > y1)
+    {
+      surface.AddGrid({ x1, y1, opening.Level }, { x2 - x1, 0, 0 }, { 0, y2 - y1, 0 }, 1, 1);
+    }
+  };
+  add(low, left, low, high);
+  add(right, high, low, high);
+  add(left, right, low, front);
+  add(left, right, back, high);
+}
+
+//------------------------------------------------------------------------------
+void TestOpening(const Opening& opening, int n, double tolerance, const std::string& what)
+{
+  Surface surface;
+  surface.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, n, n);
+  surface.AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, n, n);
+  AddWall(surface, opening);
+  CheckRectangles(surface.Get(), tolerance, Text(what, ", ", n, " x ", n),
+    [&](const Rectangle& p, const Rectangle& q)
+    {
+      const Rectangle& lower = p.Low[2] < q.Low[2] ? p : q;
+      const Rectangle& upper = p.Low[2] < q.Low[2] ? q : p;
+      if (lower.Low[2] == upper.Low[2] || upper.Low[2] < 1.0)
+      {
+        return 0.0;
+      }
+      return lower.Low[2] > 0.0 ? GetRectangleExchange(lower, upper)
+                                : GetExchangeThrough(opening, lower, upper);
+    });
+}
+
+//------------------------------------------------------------------------------
+// Through a slot, a window and past a straight edge: all partly visible pairs are known by a double
+// integral of a smooth function.
+void TestOpenings()
+{
+  constexpr double far = 1e3;
+  // By symmetry half of what is exchanged without the screen: the integral itself is right.
+  const Rectangle lower{ 2, { 0, 0, 0 }, { 1, 1, 0 } }, upper{ 2, { 0, 0, 1 }, { 1, 1, 1 } };
+  CheckClose(GetExchangeThrough({ 0.5, { 0.5, -far }, { far, far } }, lower, upper),
+    0.5 * 0.199824895698387, 1e-12, "half of the plates' exchange");
+  CheckClose(GetExchangeThrough({ 0.3, { -far, -far }, { far, far } }, lower, upper),
+    0.199824895698387, 1e-12, "all of the plates' exchange");
+  for (const int n : { 1, 3 })
+  {
+    for (const double tolerance : { 1e-3, 1e-5 })
+    {
+      TestOpening({ 0.5, { 0.5, -far }, { far, far } }, n, tolerance, "half screen");
+      TestOpening({ 0.3, { 0.9, -far }, { far, far } }, n, tolerance, "screen that hides most");
+      TestOpening({ 0.5, { 0.05, -far }, { far, far } }, n, tolerance, "screen that hides little");
+      TestOpening({ 0.4, { 0.3, -far }, { 0.45, far } }, n, tolerance, "slot");
+      TestOpening({ 0.7, { 0.2, 0.35 }, { 0.6, 0.8 } }, n, tolerance, "window");
+      TestOpening({ 0.5, { 0.5, 0.5 }, { 0.52, 0.53 } }, n, tolerance, "pinhole");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // Round bodies: as meshes get finer
 //------------------------------------------------------------------------------
 
@@ -368,6 +513,7 @@ void TestConcentricCylinders()
 {
   const double rows[][6] = { { 1, 2, 1, 0.464548996488, 0.232274498244, 0.137728613978 },
     { 1, 2, 2, 0.674212055038, 0.337106027519, 0.228481018988 },
+    { 1, 4, 2, 0.358763765196, 0.0896909412991, 0.179833008822 },
     { 0.125, 0.25, 1, 0.910868433008, 0.455434216504, 0.405904210461 } };
   for (const auto& row : rows)
   {
@@ -466,6 +612,26 @@ void TestStrips()
 }
 
 //------------------------------------------------------------------------------
+// Boxes that stand about in a room: it is closed, so every row sums to 1.
+void TestFurnishedRoom()
+{
+  for (const double tolerance : { 1e-3, 1e-4 })
+  {
+    Surface room;
+    AddBox(room, { 0, 0, 0 }, { 4, 3, 2.5 }, 0.75, true);
+    AddBox(room, { 1, 1, 0.7 }, { 2.2, 1.8, 0.73 }, 0.5, false);
+    AddBox(room, { 1.1, 1.1, 0.01 }, { 1.15, 1.15, 0.69 }, 0.5, false);
+    AddBox(room, { 2.05, 1.65, 0.01 }, { 2.1, 1.7, 0.69 }, 0.5, false);
+    AddBox(room, { 3.2, 0.2, 0.01 }, { 3.8, 2.4, 1.8 }, 0.9, false);
+    AddBox(room, { 1.5, 1.3, 1.6 }, { 1.8, 1.6, 1.8 }, 0.5, false);
+    auto data = room.Get();
+    auto factors = ComputeViewFactors(data, tolerance);
+    CheckClosedRows(factors, { 0, data->GetNumberOfCells() },
+      Text("furnished room, Tolerance ", tolerance));
+  }
+}
+
+//------------------------------------------------------------------------------
 // Neither the unit nor the place of a scene changes a factor, also where something is in between.
 void TestInvariance()
 {
@@ -506,12 +672,14 @@ int TestViewFactorCatalogue(int, char*[])
   TestParallelPlates();
   TestPerpendicularPlates();
   TestRooms();
+  TestOpenings();
   TestDiscs();
   TestSphereToDisc();
   TestConcentricSpheres();
   TestConcentricCylinders();
   TestSphericalCaps();
   TestStrips();
+  TestFurnishedRoom();
   TestInvariance();
   return Result();
 }
