@@ -19,6 +19,8 @@ using vtkShadowRaster::Flux;
 
 // Into how many parts the sides of the outer polygon's triangles are cut, one grid after the other.
 constexpr int Cuts[] = { 1, 2, 3, 4, 6, 8, 12, 16, 24, 32 };
+// Points times triangles after which no finer grid is tried: some ten milliseconds.
+constexpr double MaximumWork = 1e6;
 // The raster's own error at one point, measured: root mean square for one shadow edge across it.
 constexpr double RasterError = 0.004;
 // Of the raster's lines to the longest edge, where length and width of the polygon are the same.
@@ -372,7 +374,8 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
     }
     share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
-    if (share.Error <= tolerance)
+    const double work = static_cast<double>(this->NumberOfPoints) * (this->Triangles.Count + 8);
+    if (share.Error <= tolerance || work > MaximumWork)
     {
       break;
     }
