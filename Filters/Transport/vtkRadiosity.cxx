@@ -57,7 +57,7 @@ double GetRowSumError(vtkViewFactors* viewFactors)
   double largest = 0.0;
   for (std::size_t row = 0; row < errors.size(); ++row)
   {
-    const double gap = viewFactors->GetEnforceClosure() ? std::abs(1.0 - sums[row]) : errors[row];
+    const double gap = viewFactors->HasClosedRows() ? std::abs(1.0 - sums[row]) : errors[row];
     largest = std::max(largest, std::min(errors[row], gap));
   }
   return largest + SinglePrecision;

@@ -26,14 +26,15 @@
 #include "vtkViewFactorsResult.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 vtkStandardNewMacro(vtkViewFactors);
 
 namespace
 {
-// Rays per patch that tell sky from back faces.
+// Rays per patch that tell sky from back faces; more where none of them finds either.
 constexpr int OpeningRays = 128;
+constexpr int MostOpeningRays = 4096;
 // Work between two looks at progress and abort: units of 64 x 64 pairs, and partly visible pairs.
 constexpr vtkIdType UnitsPerBatch = 32;
 constexpr vtkIdType PairsPerBatch = 1024;
@@ -59,7 +60,10 @@ bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFu
   const std::vector<bool>* senders)
 {
   this->Patches.clear();
-  if (!this->Provide(scene, progress, senders))
+  // A closure needs whole rows.
+  const bool all = !senders || this->EnforceClosure ||
+    std::all_of(senders->begin(), senders->end(), [](bool sends) { return sends; });
+  if (!this->Provide(scene, progress, all ? nullptr : senders))
   {
     return false;
   }
@@ -91,7 +95,6 @@ bool vtkViewFactors::Provide(const vtkPatchScene& scene, const ProgressFunction&
     return false;
   }
   this->Senders = senders ? *senders : std::vector<bool>();
-  this->IsClosed = this->EnforceClosure;
   return true;
 }
 
@@ -100,7 +103,7 @@ bool vtkViewFactors::IsUpToDate(const vtkPatchScene& scene, const std::vector<bo
 {
   // The groups and how points are written may change without new view factors.
   if (!this->Result->Exchange || this->Result->Fingerprint != scene.GetFingerprint() ||
-    this->Result->Tolerance != this->Tolerance || this->IsClosed != this->EnforceClosure ||
+    this->Result->Tolerance != this->Tolerance || this->HasClosedRows() != this->EnforceClosure ||
     this->Result->Exchange->GetNumberOfParts() != this->GetNumberOfRanks())
   {
     return false;
@@ -143,7 +146,9 @@ bool vtkViewFactors::Compute(const vtkPatchScene& scene, const ProgressFunction&
   }
   result.RawRowSums = result.RowSums;
   this->Summarize(assembly);
-  if (!this->FindOpenings(scene) || (this->EnforceClosure && !this->CloseRows(assembly)))
+  // Where pairs have been left out no row is whole: what it misses says nothing.
+  if (!this->FindOpenings(scene, senders == nullptr) ||
+    (this->EnforceClosure && !this->CloseRows(assembly)))
   {
     return false;
   }
@@ -281,6 +286,7 @@ struct Openings
   const vtkPatchScene& Scene;
   const vtkSceneRayCaster& Caster;
   vtkViewFactorsResult& Result;
+  std::vector<int>& Rays; ///< of each patch
 
   void operator()(vtkIdType begin, vtkIdType end) const
   {
@@ -296,7 +302,8 @@ struct Openings
       vtkPolygonExchange::MakePolygon(this->Scene, patch, polygon);
       int sky = 0;
       int back = 0;
-      for (int ray = 0; ray < OpeningRays; ++ray)
+      int ray = 0;
+      for (; ray < OpeningRays || (sky + back == 0 && ray < MostOpeningRays); ++ray)
       {
         bool front = false;
         const vtkIdType hit = this->Caster.FindHit(sampler.GetPoint(polygon, ray, 0),
@@ -304,6 +311,7 @@ struct Openings
         sky += hit < 0 ? 1 : 0;
         back += hit >= 0 && !front ? 1 : 0;
       }
+      this->Rays[patch] = ray;
       // Rays only tell how the missing part divides; how much is missing the row sum knows better.
       if (sky + back > 0)
       {
@@ -316,28 +324,33 @@ struct Openings
 } // namespace
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene)
+bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
 {
   vtkViewFactorsResult& result = *this->Result;
   const vtkIdType patches = scene.GetNumberOfPatches();
   result.SkyFractions.assign(patches, 0.0);
   result.BackFaceFractions.assign(patches, 0.0);
-  vtkIdType open = 0;
+  if (!areRowsWhole)
+  {
+    return true;
+  }
+  bool isOpen = false;
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
-    open += 1.0 - result.RowSums[patch] > result.RowErrors[patch] ? 1 : 0;
+    isOpen = isOpen || 1.0 - result.RowSums[patch] > result.RowErrors[patch];
   }
-  result.Summaries.emplace_back("RaysCast", static_cast<double>(open * OpeningRays));
   vtkSceneRayCaster caster;
   std::string error;
-  const bool ready = open == 0 || caster.Build(scene, error);
+  const bool ready = !isOpen || caster.Build(scene, error);
   if (!vtkPatchScene::Agree(this->Controller, ready, error))
   {
     vtkErrorMacro(<< error);
     return false;
   }
-  Openings openings{ scene, caster, result };
+  std::vector<int> rays(patches, 0);
+  Openings openings{ scene, caster, result, rays };
   vtkTransportThreads::For(0, patches, 64, openings);
+  result.Summaries.emplace_back("RaysCast", std::accumulate(rays.begin(), rays.end(), 0.0));
   return true;
 }
 
@@ -360,6 +373,13 @@ bool vtkViewFactors::CloseRows(const vtkViewFactorAssembly& assembly)
   result.Summaries.emplace_back("ClosureChange", report.Change);
   result.Summaries.emplace_back("ClosureGap", report.Gap);
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::HasClosedRows() const
+{
+  return std::any_of(this->Result->Summaries.begin(), this->Result->Summaries.end(),
+    [](const auto& summary) { return summary.first == "ClosureChange"; });
 }
 
 //------------------------------------------------------------------------------
@@ -473,9 +493,12 @@ int vtkViewFactors::RequestData(vtkInformation*, vtkInformationVector** inputs,
     return 0;
   }
   this->SetProgressStage(0.0, 1.0);
-  if (!this->UpdateExchange(scene, [this](double done) { return this->ReportProgress(done); }) ||
-    !vtkViewFactorGroups::FillTable(*this->Result, groups, scene.GetScale(), this->Controller,
-      vtkTable::GetData(outputs, 1)))
+  if (!this->UpdateExchange(scene, [this](double done) { return this->ReportProgress(done); }))
+  {
+    return 0;
+  }
+  if (!vtkViewFactorGroups::FillTable(*this->Result, groups, scene.GetScale(), this->Controller,
+        vtkTable::GetData(outputs, 1)))
   {
     return 0;
   }

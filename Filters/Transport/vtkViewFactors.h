@@ -122,6 +122,8 @@ public:
   vtkExchangeMatrix* GetExchange();
   const std::vector<double>& GetRowSums() const;
   const std::vector<double>& GetRowErrors() const;
+  /// Whether the view factors were computed with EnforceClosure.
+  bool HasClosedRows() const;
   /// Field data arrays that summarise the last computation.
   void AddSummaries(vtkFieldData* fields) const;
   ///@}
@@ -149,14 +151,13 @@ private:
   vtkIdType GetMostOfAllRanks(vtkIdType count) const;
   void Summarize(const vtkViewFactorAssembly& assembly);
   bool SumRows();
-  bool FindOpenings(const vtkPatchScene& scene);
+  bool FindOpenings(const vtkPatchScene& scene, bool areRowsWhole);
   bool CloseRows(const vtkViewFactorAssembly& assembly);
 
   double Tolerance = 1e-4;
   bool EnforceClosure = false;
 
   std::unique_ptr<vtkViewFactorsResult> Result;
-  bool IsClosed = false;          ///< EnforceClosure when the result was computed
   std::vector<bool> Senders;      ///< that the result was computed for; empty for all
   std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons
   std::string LoadedFile;         ///< empty when the result was not loaded

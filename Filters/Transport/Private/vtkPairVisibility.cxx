@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace
 {
@@ -31,6 +32,8 @@ constexpr double FirstError = 0.02;
 constexpr double RimPart = 0.25;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
 constexpr double UsualPart = 0.8;
+// A share that is not 0 or 1 stays this far from both.
+constexpr double LeastShare = 1e-9;
 // Heights closer to a plane than this part of the distance are on it.
 constexpr double OnPlane = 1e-12;
 
@@ -246,7 +249,7 @@ void vtkPairVisibility::AddTriangles(const vtkPatchScene& scene)
   for (Occluder& occluder : this->Occluders)
   {
     const Vector offset = scene.GetCentroid(occluder.Patch) - middle;
-    const double length = offset.norm();
+    const double length = std::max(offset.norm(), std::numeric_limits<double>::min());
     const double radius = std::sqrt(scene.GetAreas()[occluder.Patch] *
       std::abs(offset.dot(scene.GetNormal(occluder.Patch))) / length);
     const double along = std::max(offset.dot(axis), 1e-3 * length);
@@ -312,7 +315,10 @@ double vtkPairVisibility::SeeFromGrid(int cuts)
   }
   const double spacing = (this->Target.End - this->Target.Begin) / vtkShadowRaster::Lines;
   const double blocked = spacing / vtkMath::Pi() * (total.Open - total.Visible);
-  return std::max(0.0, 1.0 - blocked / this->Touching);
+  // Neither visible nor hidden for certain unless all samples are.
+  return total.Visible < total.Open
+    ? std::min(1.0 - LeastShare, std::max(LeastShare, 1.0 - blocked / this->Touching))
+    : 1.0;
 }
 
 //------------------------------------------------------------------------------
@@ -375,7 +381,7 @@ vtkPairVisibility::Share vtkPairVisibility::Integrate(double tolerance)
     share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
     const double work = static_cast<double>(this->NumberOfPoints) * (this->Triangles.Count + 8);
-    if (share.Error <= tolerance || work > MaximumWork)
+    if (share.Error <= tolerance || (work > MaximumWork && weights > weight))
     {
       break;
     }

@@ -21,7 +21,6 @@
 #include "vtkShadowRaster.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkPairVisibility

@@ -33,7 +33,6 @@ void vtkViewFactorAssembly::Counters::Add(const Counters& other)
   this->Open.Contours += other.Open.Contours;
   this->NotSending += other.NotSending;
   this->Free += other.Free;
-  this->Visible += other.Visible;
   this->Hidden += other.Hidden;
   this->PartlyVisible += other.PartlyVisible;
 }
@@ -273,7 +272,7 @@ struct vtkViewFactorAssembly::Looker
     }
     else
     {
-      ++(share.Value > 0.0 ? count.Visible : count.Hidden);
+      count.Hidden += share.Value > 0.0 ? 0.0 : 1.0;
     }
     value *= static_cast<float>(share.Value);
   }
@@ -536,8 +535,9 @@ void vtkViewFactorAssembly::PrepareRefinement(vtkMultiProcessController* control
     for (std::size_t row = 0; row < rows; ++row)
     {
       const double left = 1.0 - sums[2 * row] / BudgetUnits;
-      this->Allowances[row] =
+      const double allowance =
         VisibilityShare * this->Tolerance * areas[row] * left / std::max(sums[2 * row + 1], 1.0);
+      this->Allowances[row] = std::max(this->Allowances[row], allowance);
     }
   }
 }

@@ -33,14 +33,13 @@ public:
   static constexpr double VisibilityShare = 0.8;
   ///@}
 
-  /// Pairs, each counted once. Open.Examined = Open.BackFacing + Open.Facing; the facing ones are
-  /// Free, Visible, Hidden or PartlyVisible.
+  /// Pairs, each counted once. Open.Examined = Open.BackFacing + Open.Facing; of the facing ones
+  /// some are Free, Hidden or PartlyVisible; the others have something near that hides nothing.
   struct Counters
   {
     vtkOpenExchange::Counters Open;
     double NotSending = 0.0;    ///< not examined, since neither sends anything
     double Free = 0.0;          ///< nothing reaches into the shaft between them
-    double Visible = 0.0;       ///< something does, and hides nothing
     double Hidden = 0.0;        ///< completely
     double PartlyVisible = 0.0; ///< or not certain
     void Add(const Counters& other);
