@@ -138,6 +138,8 @@ class RadiosityScene:
         self.surface = snapshot(mesher)
         self.factors = lt.vtkViewFactors()
         self.factors.SetInputData(self.surface)
+        # Less than what shadow boundaries cost that patches do not follow.
+        self.factors.SetTolerance(1e-3)
         update(self.factors)
         self.factor_seconds = get_summary(self.factors.GetOutput(), "ViewFactorSeconds")
 
