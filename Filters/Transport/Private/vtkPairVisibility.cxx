@@ -14,6 +14,7 @@
 
 namespace
 {
+using vtkPolygonExchange::GetMiddle;
 using vtkPolygonExchange::Polygon;
 using vtkPolygonExchange::Vector;
 using vtkShadowRaster::Flux;
@@ -36,17 +37,6 @@ constexpr double UsualPart = 0.8;
 constexpr double LeastShare = 1e-9;
 // Heights closer to a plane than this part of the distance are on it.
 constexpr double OnPlane = 1e-12;
-
-//------------------------------------------------------------------------------
-Vector GetMiddle(const Polygon& polygon)
-{
-  Vector sum = Vector::Zero();
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    sum += polygon.Corners[corner];
-  }
-  return sum / polygon.Count;
-}
 
 //------------------------------------------------------------------------------
 double GetExtent(const Polygon& polygon)

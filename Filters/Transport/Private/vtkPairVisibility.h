@@ -48,7 +48,7 @@ public:
     const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching = 0.0);
 
   /// A first look from a few points and, where they agree that the pair is visible or that it is
-  /// hidden, from the corners. An error of 0 says that all agree.
+  /// hidden, from the corners and the middles of the edges. An error of 0 says that all agree.
   Share Look();
 
   /// Integrate until the estimated error is below `tolerance`, or the work is used up.

@@ -296,17 +296,6 @@ int MakeEdges(const Polygon& polygon, const Vector& origin, double scale, Edge* 
 }
 
 //------------------------------------------------------------------------------
-Vector GetMiddle(const Polygon& polygon)
-{
-  Vector sum = Vector::Zero();
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    sum += polygon.Corners[corner];
-  }
-  return sum / polygon.Count;
-}
-
-//------------------------------------------------------------------------------
 // The integral over one polygon of the part of its light that falls on the other, which is exact at
 // each point (Lambert 1760): a rule on triangles that are cut into four where it has not settled.
 class PointIntegral
@@ -482,6 +471,17 @@ bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal)
   }
   polygon = clipped;
   return polygon.Count > 2;
+}
+
+//------------------------------------------------------------------------------
+Vector GetMiddle(const Polygon& polygon)
+{
+  Vector sum = Vector::Zero();
+  for (int corner = 0; corner < polygon.Count; ++corner)
+  {
+    sum += polygon.Corners[corner];
+  }
+  return sum / polygon.Count;
 }
 
 //------------------------------------------------------------------------------

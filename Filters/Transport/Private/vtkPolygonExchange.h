@@ -61,6 +61,8 @@ struct Estimate
 bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal);
 
 double GetArea(const Polygon& polygon);
+/// The mean of the corners.
+Vector GetMiddle(const Polygon& polygon);
 
 /// Points of a rule on one triangle; a polygon has as many for each triangle of its fan (corners -
 /// 2).

@@ -89,7 +89,6 @@ private:
   void CountSenders();
   std::vector<int> GetQuarters(vtkIdType block) const;
   void AddUnits(vtkIdType tileIndex, const vtkExchangeMatrix::Tile& tile);
-  bool AllocateTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   void Collect(const Unit& unit, const UnitResult& result);
   void ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   double GetWeight(const vtkPartlyVisiblePair& pair, vtkIdType row) const;
