@@ -570,13 +570,20 @@ void vtkOpenGLLinkOperator::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Initialize(vtkExchangeMatrix* exchange, int numberOfBands)
+bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
 {
   this->Self->Clear();
   this->NumberOfBytesRead = 0;
   if (!exchange || exchange->GetNumberOfPatches() == 0)
   {
     vtkErrorMacro("The exchange matrix is empty: fill it before Initialize().");
+    return false;
+  }
+  auto* matrix = vtkExchangeMatrix::SafeDownCast(exchange);
+  if (!matrix)
+  {
+    vtkErrorMacro(<< "OpenGL does not apply a " << exchange->GetClassName()
+                  << ": set Device to CPU.");
     return false;
   }
   const int kernels = exchange->GetNumberOfKernels();
@@ -603,7 +610,7 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchangeMatrix* exchange, int numberOf
   }
   this->NumberOfPatches = exchange->GetNumberOfPatches();
   this->NumberOfBands = numberOfBands;
-  if (!this->InitializeOnDevice(exchange))
+  if (!this->InitializeOnDevice(matrix))
   {
     this->Release();
     return false;

@@ -30,6 +30,7 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkExchangeMatrix;
 class vtkRenderWindow;
 class vtkWindow;
 
@@ -45,7 +46,7 @@ public:
 
   bool Open(std::string& reason) override;
   bool IsHardware() override;
-  bool Initialize(vtkExchangeMatrix* exchange, int numberOfBands) override;
+  bool Initialize(vtkExchange* exchange, int numberOfBands) override;
   void Release() override;
   /// "OpenGL", and after Open() the name of the device, such as "OpenGL (llvmpipe (LLVM 15.0.6, 256
   /// bits))".

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDenseLinkOperator.h"
 
-#include "vtkCommunicator.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkLinkKernels.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkSMPThreadLocal.h"
 #include "vtkTransportThreads.h"
@@ -19,9 +17,6 @@ vtkStandardNewMacro(vtkDenseLinkOperator);
 namespace
 {
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
-// Keeps the same patch of different bands at different offsets within a page of memory: processors
-// take equal ones for a store followed by a load of the same address, and wait.
-constexpr vtkIdType StridePadding = 40;
 // Few tiles a task: a core that is busy with something else must not hold up the others.
 constexpr vtkIdType TilesPerTask = 8;
 constexpr float RowOfZeros[N] = {};
@@ -158,200 +153,40 @@ struct RowOfTiles
 vtkDenseLinkOperator::vtkDenseLinkOperator() = default;
 
 //------------------------------------------------------------------------------
-vtkDenseLinkOperator::~vtkDenseLinkOperator()
+vtkDenseLinkOperator::~vtkDenseLinkOperator() = default;
+
+//------------------------------------------------------------------------------
+bool vtkDenseLinkOperator::TakeExchange(vtkExchange* exchange)
 {
-  this->Release();
-  this->SetController(nullptr);
+  this->Exchange = vtkExchangeMatrix::SafeDownCast(exchange);
+  return this->Exchange != nullptr;
 }
 
 //------------------------------------------------------------------------------
-vtkCxxSetObjectMacro(vtkDenseLinkOperator, Controller, vtkMultiProcessController);
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::Initialize(vtkExchangeMatrix* exchange, int numberOfBands)
+void vtkDenseLinkOperator::DropExchange()
 {
-  this->Release();
-  if (!exchange || numberOfBands < 1)
-  {
-    vtkErrorMacro("A link operator needs an exchange matrix and at least one band.");
-    return false;
-  }
-  const int kernels = exchange->GetNumberOfKernels();
-  if (kernels != 1 && kernels != numberOfBands)
-  {
-    vtkErrorMacro("The exchange matrix has " << kernels << " kernels for " << numberOfBands
-                                             << " bands: give it one kernel, or one per band.");
-    return false;
-  }
-  if (exchange->GetNumberOfParts() > 1 &&
-    (!this->Controller || this->Controller->GetNumberOfProcesses() != exchange->GetNumberOfParts()))
-  {
-    vtkErrorMacro("The exchange matrix is in "
-      << exchange->GetNumberOfParts()
-      << " parts: set the controller of the ranks that hold them (SetController).");
-    return false;
-  }
-  this->Exchange = exchange;
-  this->Exchange->Register(this);
-  this->NumberOfPatches = exchange->GetNumberOfPatches();
-  this->NumberOfBands = numberOfBands;
-  this->Stride = static_cast<long>(exchange->GetNumberOfTileRows() * N + StridePadding);
-  return true;
+  this->Exchange = nullptr;
 }
 
 //------------------------------------------------------------------------------
-void vtkDenseLinkOperator::Release()
+vtkIdType vtkDenseLinkOperator::GetPaddedSize()
 {
-  if (this->Exchange)
-  {
-    this->Exchange->UnRegister(this);
-    this->Exchange = nullptr;
-  }
-  this->Vectors.clear();
-  this->NumberOfPatches = 0;
-  this->NumberOfBands = 0;
+  return this->Exchange->GetNumberOfTileRows() * N;
 }
 
 //------------------------------------------------------------------------------
-vtkDenseLinkOperator::Vector* vtkDenseLinkOperator::FindVector(int slot)
+void vtkDenseLinkOperator::MultiplyPart(const Vector& x, Vector& y)
 {
-  if (!this->Exchange)
-  {
-    vtkErrorMacro("The link operator has no links: call Initialize first.");
-    return nullptr;
-  }
-  const auto found = this->Vectors.find(slot);
-  if (found == this->Vectors.end())
-  {
-    vtkErrorMacro("Vector " << slot << " was read before it was written.");
-    return nullptr;
-  }
-  return &found->second;
-}
-
-//------------------------------------------------------------------------------
-vtkDenseLinkOperator::Vector& vtkDenseLinkOperator::MakeVector(int slot)
-{
-  Vector& vector = this->Vectors[slot];
-  vector.resize(this->NumberOfBands * this->Stride, 0.0);
-  return vector;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::SetVector(int slot, const double* values)
-{
-  Vector& vector = this->MakeVector(slot);
-  for (vtkIdType patch = 0; patch < this->NumberOfPatches; ++patch)
-  {
-    for (int band = 0; band < this->NumberOfBands; ++band)
-    {
-      vector[band * this->Stride + patch] = values[patch * this->NumberOfBands + band];
-    }
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::GetVector(int slot, double* values)
-{
-  const Vector* vector = this->FindVector(slot);
-  for (vtkIdType patch = 0; vector && patch < this->NumberOfPatches; ++patch)
-  {
-    for (int band = 0; band < this->NumberOfBands; ++band)
-    {
-      values[patch * this->NumberOfBands + band] = (*vector)[band * this->Stride + patch];
-    }
-  }
-  return vector != nullptr;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::Multiply(int y, int x)
-{
-  const Vector* source = this->FindVector(x);
-  if (!source)
-  {
-    return false;
-  }
-  if (x == y)
-  {
-    vtkErrorMacro("Multiply needs two different vectors.");
-    return false;
-  }
-  Vector& target = this->MakeVector(y);
   const std::vector<vtkExchangeMatrix::Tile>& tiles = this->Exchange->GetTiles();
   if (tiles.empty())
   {
     // A rank may hold none.
-    std::fill(target.begin(), target.end(), 0.0);
+    std::fill(y.begin(), y.end(), 0.0);
+    return;
   }
-  else
-  {
-    TileProducts products{ tiles, this->Exchange->GetNumberOfKernels(), this->NumberOfBands,
-      this->Stride, source->data(), target.data(), {} };
-    vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), TilesPerTask, products);
-  }
-  if (this->Exchange->GetNumberOfParts() > 1)
-  {
-    const Vector part = target;
-    return this->Controller->AllReduce(part.data(), target.data(),
-             static_cast<vtkIdType>(target.size()), vtkCommunicator::SUM_OP) != 0;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-// Call operation(band, x, y) with the bands of two vectors as Eigen arrays.
-template <typename Operation>
-bool vtkDenseLinkOperator::ForEachBand(int x, int y, Operation&& operation)
-{
-  const Vector* first = this->FindVector(x);
-  const Vector* second = this->FindVector(y);
-  if (!first || !second)
-  {
-    return false;
-  }
-  for (int band = 0; band < this->NumberOfBands; ++band)
-  {
-    const long offset = band * this->Stride;
-    operation(band, ConstArray(first->data() + offset, this->Stride),
-      ConstArray(second->data() + offset, this->Stride));
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::Combine(int z, const double* a, int x, const double* b, int y)
-{
-  double* target = this->MakeVector(z).data();
-  return this->ForEachBand(x, y,
-    [&](int band, const ConstArray& first, const ConstArray& second)
-    { Array(target + band * this->Stride, this->Stride) = a[band] * first + b[band] * second; });
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::Scale(int z, int x, int y)
-{
-  double* target = this->MakeVector(z).data();
-  return this->ForEachBand(x, y,
-    [&](int band, const ConstArray& first, const ConstArray& second)
-    { Array(target + band * this->Stride, this->Stride) = first * second; });
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::Dot(int x, int y, double* result)
-{
-  return this->ForEachBand(x, y,
-    [&](int band, const ConstArray& first, const ConstArray& second)
-    { result[band] = (first * second).sum(); });
-}
-
-//------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::MaxNorm(int x, double* result)
-{
-  return this->ForEachBand(x, x,
-    [&](int band, const ConstArray& first, const ConstArray&)
-    { result[band] = first.abs().maxCoeff<Eigen::PropagateNaN>(); });
+  TileProducts products{ tiles, this->NumberOfKernels, this->NumberOfBands, this->Stride, x.data(),
+    y.data(), {} };
+  vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), TilesPerTask, products);
 }
 
 //------------------------------------------------------------------------------
@@ -407,14 +242,8 @@ bool vtkDenseLinkOperator::Sweep(int x, int e, int left)
 }
 
 //------------------------------------------------------------------------------
-bool vtkDenseLinkOperator::GetRow(vtkIdType i, int band, double* row)
+void vtkDenseLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 {
-  if (!this->Exchange || this->Exchange->GetNumberOfParts() > 1)
-  {
-    vtkErrorMacro("A row needs the whole matrix: call Initialize with one in a single part.");
-    return false;
-  }
-  const int kernel = this->Exchange->GetNumberOfKernels() == 1 ? 0 : band;
   for (vtkIdType column = 0; column < this->Exchange->GetNumberOfTileRows(); ++column)
   {
     const vtkIdType count = std::min(N, this->NumberOfPatches - column * N);
@@ -423,7 +252,6 @@ bool vtkDenseLinkOperator::GetRow(vtkIdType i, int band, double* row)
       row[column * N + j] = this->Exchange->GetValue(i, column * N + j, kernel);
     }
   }
-  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -433,18 +261,8 @@ const char* vtkDenseLinkOperator::GetInstructionSet()
 }
 
 //------------------------------------------------------------------------------
-int vtkDenseLinkOperator::GetNumberOfThreads()
-{
-  int threads = 1;
-  vtkTransportThreads::Run([&]() { threads = vtkSMPTools::GetEstimatedNumberOfThreads(); });
-  return threads;
-}
-
-//------------------------------------------------------------------------------
 void vtkDenseLinkOperator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Exchange: " << this->Exchange << "\n";
-  os << indent << "Controller: " << this->Controller << "\n";
-  os << indent << "Vectors: " << this->Vectors.size() << "\n";
+  os << indent << "Exchange: " << this->Exchange.Get() << "\n";
 }

@@ -2,14 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkExchangeMatrix
- * @brief the symmetric exchange G between all pairs of patches, stored once per pair
- *
- * G_ij is what links patch i and patch j in both directions: for radiosity G_ij = A_i F_ij = A_j
- * F_ji; for subsurface scattering the diffuse reflectance profile integrated over both patches.
- * Reciprocity is therefore a property of the storage, not of the code that fills it.
- *
- * There are one or more *kernels*: one where all bands share the exchange (radiosity), one per band
- * where each band has its own (scattering).
+ * @brief the exchange stored once for each pair of patches
  *
  * The matrix is cut into square tiles of TileSize x TileSize; only tiles on and above the diagonal
  * exist. Diagonal tiles are stored in full (both triangles). A tile holds its kernels one after
@@ -20,25 +13,21 @@
  * A tile without storage is zero: patches that are numbered by place see each other in blocks, and
  * the blocks that do not are not worth their memory. Allocate gives storage to all tiles,
  * AllocateSparse to none; AllocateTile and ReleaseTile change one.
- *
- * Areas are in the units that the filler chose; the patch areas that belong to it are kept beside
- * it, so that G/A has no unit.
  */
 #ifndef vtkExchangeMatrix_h
 #define vtkExchangeMatrix_h
 
-#include "vtkLightTransportFiltersModule.h" // for export macro
-#include "vtkObject.h"
+#include "vtkExchange.h"
 
 #include <memory> // for std::unique_ptr
 #include <mutex>  // for std::mutex
 #include <vector> // for std::vector
 
-class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkExchangeMatrix : public vtkObject
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkExchangeMatrix : public vtkExchange
 {
 public:
   static vtkExchangeMatrix* New();
-  vtkTypeMacro(vtkExchangeMatrix, vtkObject);
+  vtkTypeMacro(vtkExchangeMatrix, vtkExchange);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /// Rows and columns of one tile.
@@ -82,12 +71,8 @@ public:
   static double GetEstimatedSparseBytes(vtkIdType numberOfPatches, int numberOfKernels,
     vtkIdType numberOfTiles, int numberOfParts = 1);
 
-  vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
-  int GetNumberOfKernels() const { return this->NumberOfKernels; }
-  int GetNumberOfParts() const { return this->NumberOfParts; }
   /// Tiles along one side of the matrix.
   vtkIdType GetNumberOfTileRows() const;
-  const std::vector<double>& GetAreas() const { return this->Areas; }
 
   ///@{
   /// The tiles of this part, in row-major order of the upper triangle.
@@ -108,7 +93,7 @@ public:
   ///@{
   /// Tiles of this part that are stored, and their bytes. Not while threads allocate or release.
   vtkIdType GetNumberOfStoredTiles() const;
-  double GetNumberOfBytes() const;
+  double GetNumberOfBytes() const override;
   ///@}
 
 protected:
@@ -126,16 +111,12 @@ private:
 
   bool AddChunk(vtkIdType numberOfTiles);
 
-  std::vector<double> Areas;
   std::vector<Tile> Tiles;
   /// Memory is had in chunks that many tiles are cut from.
   std::vector<std::unique_ptr<float, FreeChunk>> Chunks;
   std::vector<float*> FreeTiles; ///< cut but not in use, the next one last
   vtkIdType TilesOfNextChunk = 0;
   std::mutex StorageMutex;
-  int NumberOfKernels = 0;
-  int Part = 0;
-  int NumberOfParts = 1;
 };
 
 #endif

@@ -6,9 +6,9 @@
  * need beside it
  *
  * One operator serves radiosity, which iterates, and subsurface scattering, which applies the links
- * once. G is a vtkExchangeMatrix; L and R are diagonal scalings. Vectors have one value per patch
+ * once. G is a vtkExchange; L and R are diagonal scalings. Vectors have one value per patch
  * and band and live in numbered slots where the operator computes: in memory for
- * vtkDenseLinkOperator, in textures on the GPU for vtkOpenGLLinkOperator. So a solver written
+ * vtkCPULinkOperator, in textures on the GPU for vtkOpenGLLinkOperator. So a solver written
  * against this interface runs on either without moving a vector per iteration; only what GetVector
  * asks for, and one number per band from Dot and MaxNorm, is read back.
  *
@@ -16,8 +16,8 @@
  * Every method but the getters returns false after an error, which has been reported with
  * vtkErrorMacro by then.
  *
- * With a matrix in several parts (ranks of a parallel run) Multiply returns the sum over all parts
- * on every rank.
+ * With an exchange in several parts (ranks of a parallel run) Multiply returns the sum over all
+ * parts on every rank.
  */
 #ifndef vtkLinkOperator_h
 #define vtkLinkOperator_h
@@ -25,7 +25,7 @@
 #include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkObject.h"
 
-class vtkExchangeMatrix;
+class vtkExchange;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkLinkOperator : public vtkObject
 {
@@ -34,13 +34,14 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Take the exchange matrix (uploading it where the operator has memory of its own) and set the
-   * number of bands of all vectors. With more than one kernel there must be as many bands as
+   * Take the exchange (uploading it where the operator has memory of its own) and set the number of
+   * bands of all vectors. An operator that does not apply this form of exchange says so and returns
+   * false. With more than one kernel there must be as many bands as
    * kernels, and band b uses kernel b.
    */
-  virtual bool Initialize(vtkExchangeMatrix* exchange, int numberOfBands) = 0;
+  virtual bool Initialize(vtkExchange* exchange, int numberOfBands) = 0;
 
-  /// Drop the matrix, all vectors and whatever resources hold them.
+  /// Drop the exchange, all vectors and whatever resources hold them.
   virtual void Release() = 0;
 
   /// What the operator computes on, for people: "CPU", "OpenGL (llvmpipe ...)".

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiosity.h"
 
+#include "vtkCPULinkOperator.h"
 #include "vtkDataObject.h"
-#include "vtkDenseLinkOperator.h"
 #include "vtkDoubleArray.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkFieldData.h"
@@ -13,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPatchScene.h"
+#include "vtkRadiosityMaterials.h"
 #include "vtkRadiositySolvers.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
@@ -26,23 +27,8 @@ vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
 
 namespace
 {
-// W m^-2 K^-4, exact in the SI of 2019.
-constexpr double StefanBoltzmann = 5.670374419e-8;
-
 // What storing view factors in single precision costs a row sum.
 constexpr double SinglePrecision = 1e-7;
-
-enum InputArray
-{
-  EMISSION,
-  REFLECTANCE,
-  TEMPERATURE,
-  EMISSIVITY,
-  DIRECT_IRRADIANCE,
-  NUMBER_OF_ARRAYS
-};
-const char* const DefaultNames[NUMBER_OF_ARRAYS] = { "Emission", "Reflectance", "Temperature",
-  "Emissivity", "DirectIrradiance" };
 
 // The stages of a run as fractions of its progress.
 constexpr double ViewFactorsDone = 0.8;
@@ -62,69 +48,29 @@ double GetRowSumError(vtkViewFactors* viewFactors)
   }
   return largest + SinglePrecision;
 }
-
-//------------------------------------------------------------------------------
-struct BandArray
-{
-  std::string Name;
-  std::vector<double> Values;
-  int Components = 0;
-
-  bool IsThere() const { return this->Components > 0; }
-  double Get(vtkIdType patch, int band) const
-  {
-    return this->Values[patch * this->Components + (this->Components == 1 ? 0 : band)];
-  }
-  // Empty, or what is wrong with the range of the values.
-  std::string CheckRange(const vtkPatchScene& scene, double low, double high,
-    const char* range) const
-  {
-    const auto count = static_cast<vtkIdType>(this->Values.size());
-    for (vtkIdType k = 0; k < count; ++k)
-    {
-      const vtkIdType polygon = k / this->Components;
-      const double value =
-        this->Get(scene.GetPatch(polygon), static_cast<int>(k % this->Components));
-      if (!(value >= low && value <= high))
-      {
-        return "The cell array \"" + this->Name + "\" is " + std::to_string(value) +
-          " at polygon " + std::to_string(polygon) + ": it must be " + range + ".";
-      }
-    }
-    return "";
-  }
-};
 } // namespace
 
 //------------------------------------------------------------------------------
 struct vtkRadiosity::Problem
 {
-  BandArray Arrays[NUMBER_OF_ARRAYS];
-  int Bands = 0;
+  vtkRadiosityMaterials Materials;
   const std::vector<double>* Areas = nullptr; // in the exchange matrix's unit
-  // patches x bands
-  std::vector<double> Emission;
-  std::vector<double> Reflectance;
-  std::vector<double> DirectIrradiance;
-  std::vector<double> Irradiance;
-
+  std::vector<double> Irradiance;             // patches x bands
   vtkRadiositySolution Solution;
   std::string SolverUsed;
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
-
-  std::vector<bool> FindSenders() const;
 };
 
 //------------------------------------------------------------------------------
 vtkRadiosity::vtkRadiosity()
 {
   this->SetNumberOfOutputPorts(2);
-  for (int array = 0; array < NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < vtkRadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
   {
     this->SetInputArrayToProcess(array, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS,
-      DefaultNames[array]);
+      vtkRadiosityMaterials::GetDefaultName(array));
   }
   this->InternalViewFactors = vtkSmartPointer<vtkViewFactors>::New();
 }
@@ -204,141 +150,28 @@ bool vtkRadiosity::CheckSolver()
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosity::ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem)
-{
-  problem.Bands = 1;
-  for (int k = 0; k < NUMBER_OF_ARRAYS; ++k)
-  {
-    BandArray& array = problem.Arrays[k];
-    vtkInformation* choice = this->GetInputArrayInformation(k);
-    const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-    array.Name = name && *name ? name : DefaultNames[k];
-    std::string error;
-    if (!scene.GatherCellArray(input, array.Name, false, array.Values, array.Components, error))
-    {
-      vtkErrorMacro(<< error);
-      return false;
-    }
-    if (array.Components > 1 && problem.Bands > 1 && array.Components != problem.Bands)
-    {
-      vtkErrorMacro("The cell array \"" << array.Name << "\" has " << array.Components
-                                        << " components where another has " << problem.Bands
-                                        << ": give all of them 1 or the same number of bands.");
-      return false;
-    }
-    problem.Bands = std::max(problem.Bands, array.Components);
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-std::string vtkRadiosity::CheckArrays(const vtkPatchScene& scene, const Problem& problem)
-{
-  const BandArray* arrays = problem.Arrays;
-  const bool thermal = arrays[TEMPERATURE].IsThere();
-  if (thermal && !arrays[EMISSIVITY].IsThere())
-  {
-    return "There is a temperature (\"" + arrays[TEMPERATURE].Name +
-      "\") but no emissivity: add a "
-      "cell array \"" +
-      arrays[EMISSIVITY].Name + "\" with values from 0 to 1.";
-  }
-  if (thermal && arrays[EMISSION].IsThere())
-  {
-    return "There are both \"" + arrays[EMISSION].Name + "\" and \"" + arrays[TEMPERATURE].Name +
-      "\": remove one of the two cell arrays.";
-  }
-  if (thermal && problem.Bands > 1)
-  {
-    return "The temperature gives the total emission of one band, but there are " +
-      std::to_string(problem.Bands) + " bands: use one component, or \"" + arrays[EMISSION].Name +
-      "\" with the emission of each band.";
-  }
-  if (!thermal && !arrays[REFLECTANCE].IsThere() && !arrays[EMISSIVITY].IsThere())
-  {
-    return "There is no reflectance: add a cell array \"" + arrays[REFLECTANCE].Name +
-      "\" with values from 0 to 1 (or \"" + arrays[TEMPERATURE].Name + "\" and \"" +
-      arrays[EMISSIVITY].Name + "\").";
-  }
-  if (!thermal && !arrays[EMISSION].IsThere() && !arrays[DIRECT_IRRADIANCE].IsThere())
-  {
-    return "Nothing emits: add a cell array \"" + arrays[EMISSION].Name + "\", or \"" +
-      arrays[TEMPERATURE].Name + "\" and \"" + arrays[EMISSIVITY].Name + "\", or \"" +
-      arrays[DIRECT_IRRADIANCE].Name + "\" from vtkDirectIrradiance.";
-  }
-  const double most = VTK_DOUBLE_MAX;
-  for (const std::string& problemFound :
-    { arrays[REFLECTANCE].CheckRange(scene, 0.0, 1.0, "from 0 to 1"),
-      arrays[EMISSIVITY].CheckRange(scene, 0.0, 1.0, "from 0 to 1"),
-      arrays[TEMPERATURE].CheckRange(scene, 0.0, most, "in kelvin, at least 0"),
-      arrays[EMISSION].CheckRange(scene, 0.0, most, "at least 0"),
-      arrays[DIRECT_IRRADIANCE].CheckRange(scene, 0.0, most, "at least 0") })
-  {
-    if (!problemFound.empty())
-    {
-      return problemFound;
-    }
-  }
-  return "";
-}
-
-//------------------------------------------------------------------------------
 bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem)
 {
-  if (!this->ReadArrays(input, scene, problem))
+  std::vector<std::string> names;
+  for (int array = 0; array < vtkRadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
   {
-    return false;
+    const char* name = this->GetInputArrayInformation(array)->Get(vtkDataObject::FIELD_NAME());
+    names.emplace_back(name && *name ? name : vtkRadiosityMaterials::GetDefaultName(array));
   }
-  const std::string error = CheckArrays(scene, problem);
-  if (!error.empty())
+  std::string error;
+  if (!problem.Materials.Read(input, scene, names, error))
   {
     vtkErrorMacro(<< error);
     return false;
   }
-  const BandArray* arrays = problem.Arrays;
-  const bool thermal = arrays[TEMPERATURE].IsThere();
-  const bool byEmissivity = thermal || !arrays[REFLECTANCE].IsThere();
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
-  {
-    for (int band = 0; band < problem.Bands; ++band)
-    {
-      const double reflectance = byEmissivity ? 1.0 - arrays[EMISSIVITY].Get(patch, band)
-                                              : arrays[REFLECTANCE].Get(patch, band);
-      double emission = arrays[EMISSION].IsThere() ? arrays[EMISSION].Get(patch, band) : 0.0;
-      if (thermal)
-      {
-        emission = arrays[EMISSIVITY].Get(patch, band) * StefanBoltzmann *
-          std::pow(arrays[TEMPERATURE].Get(patch, band), 4);
-      }
-      const BandArray& direct = arrays[DIRECT_IRRADIANCE];
-      problem.Reflectance.push_back(reflectance);
-      problem.Emission.push_back(emission);
-      problem.DirectIrradiance.push_back(direct.IsThere() ? direct.Get(patch, band) : 0.0);
-    }
-  }
   return true;
-}
-
-//------------------------------------------------------------------------------
-// Others only receive: what they would send to each other is nothing.
-std::vector<bool> vtkRadiosity::Problem::FindSenders() const
-{
-  std::vector<bool> senders(this->Reflectance.size() / this->Bands, false);
-  for (std::size_t k = 0; k < this->Reflectance.size(); ++k)
-  {
-    if (this->Reflectance[k] > 0.0 || this->Emission[k] > 0.0)
-    {
-      senders[k / this->Bands] = true;
-    }
-  }
-  return senders;
 }
 
 //------------------------------------------------------------------------------
 vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem)
 {
   vtkViewFactors* viewFactors = this->ViewFactors;
-  const std::vector<bool> senders = problem.FindSenders();
+  const std::vector<bool> senders = problem.Materials.FindSenders();
   const bool needsAll = viewFactors || this->EnforceClosure;
   if (!viewFactors)
   {
@@ -360,10 +193,11 @@ bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable
   const int chosen = this->GetChosenSolver();
   vtkExchangeMatrix* exchange = viewFactors->GetExchange();
   const int device = vtkRadiositySolvers::IsSequential(chosen) ? DEVICE_CPU : this->Device;
-  auto links = this->MakeLinkOperator(device, exchange, problem.Bands, problem.DeviceExplanation);
-  vtkNew<vtkDenseLinkOperator> reference;
-  reference->SetController(this->Controller);
-  if (!links || !reference->Initialize(exchange, problem.Bands))
+  auto links = this->MakeLinkOperator(device, exchange, problem.Materials.NumberOfBands,
+    problem.DeviceExplanation);
+  auto reference =
+    links ? this->MakeCPULinkOperator(exchange, problem.Materials.NumberOfBands) : nullptr;
+  if (!reference)
   {
     return false;
   }
@@ -373,15 +207,16 @@ bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable
   equation.Reference = reference;
   equation.Solver = chosen;
   equation.NumberOfPatches = exchange->GetNumberOfPatches();
-  equation.NumberOfBands = problem.Bands;
+  equation.NumberOfBands = problem.Materials.NumberOfBands;
   equation.Areas = problem.Areas;
   equation.RowSums = &viewFactors->GetRowSums();
   equation.RowSumError = GetRowSumError(viewFactors);
-  equation.Reflectance = problem.Reflectance;
-  equation.Emission = problem.Emission;
+  equation.Reflectance = problem.Materials.Reflectance;
+  equation.Emission = problem.Materials.Emission;
   for (std::size_t k = 0; k < equation.Emission.size(); ++k)
   {
-    equation.Emission[k] += problem.Reflectance[k] * problem.DirectIrradiance[k];
+    equation.Emission[k] +=
+      problem.Materials.Reflectance[k] * problem.Materials.DirectIrradiance[k];
   }
   equation.Tolerance = this->Tolerance;
   equation.MaximumNumberOfIterations = this->MaximumNumberOfIterations;
@@ -432,7 +267,7 @@ void vtkRadiosity::RecordConvergence(vtkRadiosityProblem& equation, vtkTable* co
 //------------------------------------------------------------------------------
 // The irradiance of the solution, in double precision; B = E + rho H then holds exactly between the
 // output arrays.
-bool vtkRadiosity::Finish(vtkDenseLinkOperator* links, Problem& problem)
+bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
 {
   vtkRadiositySolution& solution = problem.Solution;
   if (!solution.Error.empty())
@@ -460,8 +295,10 @@ bool vtkRadiosity::Finish(vtkDenseLinkOperator* links, Problem& problem)
   for (std::size_t k = 0; k < problem.Irradiance.size(); ++k)
   {
     double& irradiance = problem.Irradiance[k];
-    irradiance = irradiance / areas[k / problem.Bands] + problem.DirectIrradiance[k];
-    solution.Radiosity[k] = problem.Emission[k] + problem.Reflectance[k] * irradiance;
+    irradiance = irradiance / areas[k / problem.Materials.NumberOfBands] +
+      problem.Materials.DirectIrradiance[k];
+    solution.Radiosity[k] =
+      problem.Materials.Emission[k] + problem.Materials.Reflectance[k] * irradiance;
   }
   return true;
 }
@@ -470,23 +307,16 @@ bool vtkRadiosity::Finish(vtkDenseLinkOperator* links, Problem& problem)
 void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
   const vtkViewFactors* viewFactors, vtkDataObject* output)
 {
-  // Points are not averaged across a change of what the patches are made of. That a patch emits is
-  // part of it, how much is not: temperatures and emissions may vary from patch to patch.
-  std::vector<double> materials;
-  for (std::size_t k = 0; k < problem.Reflectance.size(); ++k)
-  {
-    materials.push_back(problem.Reflectance[k]);
-    materials.push_back(problem.Emission[k] > 0.0 ? 1.0 : 0.0);
-  }
-  scene.BuildSmoothPoints(this->FeatureAngle, materials, 2 * problem.Bands);
+  scene.BuildSmoothPoints(this->FeatureAngle, problem.Materials.GetPointMaterials(),
+    2 * problem.Materials.NumberOfBands);
   scene.CopyStructure(input, output);
 
   std::vector<double> flux = problem.Solution.Radiosity;
   std::transform(flux.begin(), flux.end(), problem.Irradiance.begin(), flux.begin(),
     std::minus<double>());
-  scene.AddArray(output, "Radiosity", problem.Solution.Radiosity, problem.Bands);
-  scene.AddArray(output, "Irradiance", problem.Irradiance, problem.Bands);
-  scene.AddArray(output, "NetFlux", flux, problem.Bands);
+  scene.AddArray(output, "Radiosity", problem.Solution.Radiosity, problem.Materials.NumberOfBands);
+  scene.AddArray(output, "Irradiance", problem.Irradiance, problem.Materials.NumberOfBands);
+  scene.AddArray(output, "NetFlux", flux, problem.Materials.NumberOfBands);
 
   vtkFieldData* fields = output->GetFieldData();
   AddSummary(fields, "SolverUsed", problem.SolverUsed);

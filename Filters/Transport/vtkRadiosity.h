@@ -43,9 +43,7 @@
 #include "vtkSmartPointer.h"                // for vtkSmartPointer
 #include "vtkTransportAlgorithm.h"
 
-#include <string> // for std::string
-
-class vtkDenseLinkOperator;
+class vtkCPULinkOperator;
 class vtkPatchScene;
 class vtkTable;
 class vtkViewFactors;
@@ -150,13 +148,11 @@ private:
   struct Problem;
   int GetChosenSolver() const;
   bool CheckSolver();
-  bool ReadArrays(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
-  static std::string CheckArrays(const vtkPatchScene& scene, const Problem& problem);
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem);
   bool Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence);
   void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
-  bool Finish(vtkDenseLinkOperator* links, Problem& problem);
+  bool Finish(vtkCPULinkOperator* links, Problem& problem);
   void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
     const vtkViewFactors* viewFactors, vtkDataObject* output);
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
+#include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDenseLinkOperator.h"
 #include "vtkDeviceLinkOperator.h"
 #include "vtkDoubleArray.h"
 #include "vtkExchangeMatrix.h"
@@ -222,7 +222,7 @@ bool vtkTransportAlgorithm::CheckDevice(int device)
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::MakeLinkOperator(int device,
-  vtkExchangeMatrix* exchange, int numberOfBands, std::string& explanation)
+  vtkExchange* exchange, int numberOfBands, std::string& explanation)
 {
   explanation = "CPU: asked for";
   if (device != DEVICE_CPU)
@@ -242,9 +242,16 @@ vtkSmartPointer<vtkLinkOperator> vtkTransportAlgorithm::MakeLinkOperator(int dev
     }
     explanation = "CPU: " + reason;
   }
-  vtkNew<vtkDenseLinkOperator> dense;
-  dense->SetController(this->Controller);
-  return dense->Initialize(exchange, numberOfBands) ? dense.Get() : nullptr;
+  return this->MakeCPULinkOperator(exchange, numberOfBands);
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkCPULinkOperator> vtkTransportAlgorithm::MakeCPULinkOperator(
+  vtkExchange* exchange, int numberOfBands)
+{
+  vtkSmartPointer<vtkCPULinkOperator> links = vtkCPULinkOperator::NewFor(exchange);
+  links->SetController(this->Controller);
+  return links->Initialize(exchange, numberOfBands) ? links : nullptr;
 }
 
 //------------------------------------------------------------------------------

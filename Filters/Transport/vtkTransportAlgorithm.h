@@ -26,7 +26,9 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class vtkCPULinkOperator;
 class vtkDeviceLinkOperator;
+class vtkExchange;
 class vtkExchangeMatrix;
 class vtkFieldData;
 class vtkLinkOperator;
@@ -111,8 +113,12 @@ protected:
    * and the CPU otherwise; `explanation` says which one and why. Returns nullptr after an error,
    * which has been reported.
    */
-  vtkSmartPointer<vtkLinkOperator> MakeLinkOperator(int device, vtkExchangeMatrix* exchange,
+  vtkSmartPointer<vtkLinkOperator> MakeLinkOperator(int device, vtkExchange* exchange,
     int numberOfBands, std::string& explanation);
+
+  /// The operator on the CPU for an exchange, initialised. Returns nullptr after an error, which
+  /// has been reported.
+  vtkSmartPointer<vtkCPULinkOperator> MakeCPULinkOperator(vtkExchange* exchange, int numberOfBands);
 
   ///@{
   /// One-tuple summaries of a run go into the output's field data.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiositySolvers.h"
 
+#include "vtkCPULinkOperator.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkRadiosity.h"
 
@@ -166,7 +167,7 @@ void IterateSouthwell(Iteration& state)
   const vtkRadiosityProblem& problem = state.Problem;
   const vtkIdType patches = problem.NumberOfPatches;
   const int bands = problem.NumberOfBands;
-  auto* links = static_cast<vtkDenseLinkOperator*>(state.Links);
+  auto* links = static_cast<vtkCPULinkOperator*>(state.Links);
   std::vector<double> unshot(patches * bands), radiosity(patches * bands), row(patches);
   const auto power = [&](vtkIdType patch)
   {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-class vtkDenseLinkOperator;
+class vtkCPULinkOperator;
 class vtkLinkOperator;
 
 struct vtkRadiosityProblem
@@ -25,7 +25,7 @@ struct vtkRadiosityProblem
   vtkLinkOperator* Operator = nullptr;
   /// The same links on the CPU: what goes from patch to patch works on it, and residuals in double
   /// precision come from it.
-  vtkDenseLinkOperator* Reference = nullptr;
+  vtkCPULinkOperator* Reference = nullptr;
   int Solver = 0; ///< vtkRadiosity::SolverType, not SOLVER_AUTO
   vtkIdType NumberOfPatches = 0;
   int NumberOfBands = 0;

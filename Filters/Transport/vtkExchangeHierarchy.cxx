@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkExchangeHierarchy.h"
+
+#include "vtkObjectFactory.h"
+
+#include <new>
+
+vtkStandardNewMacro(vtkExchangeHierarchy);
+
+//------------------------------------------------------------------------------
+vtkExchangeHierarchy::vtkExchangeHierarchy() = default;
+
+//------------------------------------------------------------------------------
+vtkExchangeHierarchy::~vtkExchangeHierarchy() = default;
+
+//------------------------------------------------------------------------------
+void vtkExchangeHierarchy::Clear()
+{
+  this->Areas.clear();
+  this->Nodes.clear();
+  this->Levels.clear();
+  this->Parents.clear();
+  this->Weights.clear();
+  this->SetLinks({});
+}
+
+//------------------------------------------------------------------------------
+bool vtkExchangeHierarchy::SetTree(const std::vector<double>& areas, const std::vector<Node>& nodes,
+  int part, int numberOfParts)
+{
+  this->Areas = areas;
+  this->Weights = areas;
+  this->Nodes = nodes;
+  this->NumberOfKernels = 1;
+  this->Part = part;
+  this->NumberOfParts = numberOfParts;
+  const bool good = this->FindParents() && this->SetLinks({});
+  if (!good)
+  {
+    this->Clear();
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// Breadth first, the children of a level are the next one: they begin where those of the level
+// before end.
+bool vtkExchangeHierarchy::FindParents()
+{
+  const int nodes = this->GetNumberOfNodes();
+  const int slots = this->GetNumberOfSlots();
+  this->Parents.assign(slots, -1);
+  int next = 1;
+  bool good = nodes > 0;
+  for (int node = 0; good && node < nodes; ++node)
+  {
+    const Node& children = this->Nodes[node];
+    const bool arePatches = children.First >= nodes;
+    good = children.First < children.Last && children.Last <= (arePatches ? slots : nodes) &&
+      (arePatches || children.First == next);
+    next = arePatches ? next : children.Last;
+    for (int child = children.First; good && child < children.Last; ++child)
+    {
+      good = this->Parents[child] < 0;
+      this->Parents[child] = node;
+    }
+  }
+  for (int slot = 1; good && slot < slots; ++slot)
+  {
+    good = this->Parents[slot] >= 0;
+  }
+  this->Levels.assign(1, 0);
+  for (int begin = 0, end = 1; good && begin < end;)
+  {
+    this->Levels.push_back(end);
+    int last = end;
+    for (int node = begin; node < end; ++node)
+    {
+      last = this->Nodes[node].First < nodes ? this->Nodes[node].Last : last;
+    }
+    begin = end;
+    end = last;
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
+{
+  this->Columns.clear();
+  this->Values.clear();
+  this->NumberOfLinks = 0;
+  this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
+  for (const Link& link : links)
+  {
+    ++this->Offsets[link.I + 1];
+    this->Offsets[link.J + 1] += link.I == link.J ? 0 : 1;
+  }
+  for (std::size_t slot = 1; slot < this->Offsets.size(); ++slot)
+  {
+    this->Offsets[slot] += this->Offsets[slot - 1];
+  }
+  try
+  {
+    this->Columns.resize(this->Offsets.back());
+    this->Values.resize(this->Offsets.back());
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->SetLinks({});
+    return false;
+  }
+  std::vector<std::int64_t> ends(this->Offsets.begin(), this->Offsets.end() - 1);
+  const auto put = [&](int row, int column, float value)
+  {
+    const std::int64_t place = ends[row]++;
+    this->Columns[place] = column;
+    this->Values[place] = value;
+  };
+  for (const Link& link : links)
+  {
+    put(link.I, link.J, link.Value);
+    if (link.I != link.J)
+    {
+      put(link.J, link.I, link.Value);
+    }
+  }
+  this->NumberOfLinks = static_cast<vtkIdType>(links.size());
+  this->Modified();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetEstimatedBytes(double numberOfLinks)
+{
+  return 2.0 * numberOfLinks * (sizeof(int) + sizeof(float));
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeHierarchy::SetWeights(const std::vector<double>& weights)
+{
+  this->Weights = weights;
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetNumberOfBytes() const
+{
+  const auto bytes = [](const auto& table)
+  { return static_cast<double>(table.size() * sizeof(table[0])); };
+  return bytes(this->Nodes) + bytes(this->Parents) + bytes(this->Weights) + bytes(this->Areas) +
+    bytes(this->Offsets) + bytes(this->Columns) + bytes(this->Values);
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeHierarchy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfNodes: " << this->GetNumberOfNodes() << "\n";
+  os << indent << "NumberOfLinks: " << this->NumberOfLinks << "\n";
+}

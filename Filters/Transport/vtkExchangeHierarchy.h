@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkExchangeHierarchy
+ * @brief the exchange as links between clusters of patches, as plain tables
+ *
+ * The *slots* are the nodes of a cluster tree, breadth first (0 is the root, each level is a range,
+ * children come after their parents and next to each other), followed by the patches: slot =
+ * number of nodes + patch. A link of value K between the slots I and J stands for G_ij = w_i K w_j
+ * for all patches i below I and j below J, where w is the weight of a patch (its area, unless rows
+ * have been closed). So y = G x is three steps, each linear in what is stored:
+ *
+ *   - up: X_patch = w x, X_node = sum of X over its children;
+ *   - gather: Y_I = sum over the links of I of K X_J;
+ *   - down: Y_child += Y_parent, y = w Y_patch.
+ *
+ * Links join slots of any two levels; between two patches they are the matrix itself. Each is
+ * stored in the rows of both its ends (once where both are the same), so that rows can be gathered
+ * independently, on any device. Uniform links, adaptive links and hierarchical radiosity (Hanrahan,
+ * Salzman and Aupperle 1991) differ in which links there are.
+ *
+ * A tree may come from anywhere (vtkPatchTree, or the quadtree of an atlas).
+ */
+#ifndef vtkExchangeHierarchy_h
+#define vtkExchangeHierarchy_h
+
+#include "vtkExchange.h"
+
+#include <cstdint> // for std::int64_t
+
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkExchangeHierarchy : public vtkExchange
+{
+public:
+  static vtkExchangeHierarchy* New();
+  vtkTypeMacro(vtkExchangeHierarchy, vtkExchange);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// A node of the tree: its children are the slots [First, Last), all nodes or all patches.
+  struct Node
+  {
+    int First;
+    int Last;
+  };
+
+  /// A link between two slots, given once for both directions.
+  struct Link
+  {
+    int I;
+    int J;
+    float Value;
+  };
+
+  /**
+   * The tree, without links, and one kernel. Every slot but the root must be the child of one node;
+   * the children of a node must come after it and be on the level below it or patches. Returns
+   * false where that does not hold; the hierarchy is then empty.
+   */
+  bool SetTree(const std::vector<double>& areas, const std::vector<Node>& nodes, int part = 0,
+    int numberOfParts = 1);
+
+  /// Replace the links of this part. Returns false when the memory for them is not there; there are
+  /// then none.
+  bool SetLinks(const std::vector<Link>& links);
+
+  /// Bytes that SetLinks takes for a number of links.
+  static double GetEstimatedBytes(double numberOfLinks);
+
+  int GetNumberOfNodes() const { return static_cast<int>(this->Nodes.size()); }
+  int GetNumberOfSlots() const
+  {
+    return this->GetNumberOfNodes() + static_cast<int>(this->GetNumberOfPatches());
+  }
+  const std::vector<Node>& GetNodes() const { return this->Nodes; }
+  /// Nodes of level l are [levels[l], levels[l + 1]).
+  const std::vector<int>& GetLevels() const { return this->Levels; }
+  /// Of each slot; -1 for the root.
+  const std::vector<int>& GetParents() const { return this->Parents; }
+
+  /// Links of this part, each counted once.
+  vtkIdType GetNumberOfLinks() const { return this->NumberOfLinks; }
+  ///@{ Row r of the table: slots columns[k] and values[k] for offsets[r] <= k < offsets[r + 1].
+  const std::vector<std::int64_t>& GetOffsets() const { return this->Offsets; }
+  const std::vector<int>& GetColumns() const { return this->Columns; }
+  const std::vector<float>& GetValues() const { return this->Values; }
+  ///@}
+
+  ///@{ Weights of the patches; SetTree makes them the areas.
+  const std::vector<double>& GetWeights() const { return this->Weights; }
+  void SetWeights(const std::vector<double>& weights);
+  ///@}
+
+  double GetNumberOfBytes() const override;
+
+protected:
+  vtkExchangeHierarchy();
+  ~vtkExchangeHierarchy() override;
+
+private:
+  vtkExchangeHierarchy(const vtkExchangeHierarchy&) = delete;
+  void operator=(const vtkExchangeHierarchy&) = delete;
+
+  bool FindParents();
+  void Clear();
+
+  std::vector<Node> Nodes;
+  std::vector<int> Levels;
+  std::vector<int> Parents;
+  std::vector<double> Weights;
+  std::vector<std::int64_t> Offsets;
+  std::vector<int> Columns;
+  std::vector<float> Values;
+  vtkIdType NumberOfLinks = 0;
+};
+
+#endif
