@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filters from the shell: python3 -m vtklighttransport radiosity|scatter in.vtp out.vtp
 
-Exit codes: 0 done, 1 reading, computing or writing failed (nothing was written), 2 wrong usage,
-130 interrupted.
+and what they cost: python3 -m vtklighttransport report scene.vtp folder
+
+Exit codes: 0 done, 1 reading, computing or writing failed (no result was written), 2 wrong usage,
+130 interrupted (a report of what was measured until then is there).
 """
 
 import argparse
@@ -112,14 +114,37 @@ def apply_properties(options, algorithm, table):
             options.parser.error(f"argument {flag}: {value:g} is out of range")
 
 
-def parse_light(text):
+def parse_vector(text, counts, form):
     try:
         numbers = [float(part) for part in text.split(",")]
     except ValueError:
         numbers = []
-    if len(numbers) not in (3, 4) or not any(numbers[:3]):
-        raise argparse.ArgumentTypeError(f"'{text}' is not X,Y,Z or X,Y,Z,INTENSITY")
+    if len(numbers) not in counts or not any(numbers[:3]):
+        raise argparse.ArgumentTypeError(f"'{text}' is not {form}")
     return numbers
+
+
+def parse_light(text):
+    return parse_vector(text, (3, 4), "X,Y,Z or X,Y,Z,INTENSITY")
+
+
+def parse_direction(text):
+    return parse_vector(text, (3,), "X,Y,Z")
+
+
+def make_list_parser(kind, choices=None):
+    """For values with commas between them, each of them once."""
+    def parse(text):
+        try:
+            values = [kind(part) for part in text.split(",")]
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f"'{text}': {error}") from error
+        for value in values:
+            if choices is not None and value not in choices:
+                raise argparse.ArgumentTypeError(
+                    f"'{value}' is none of {', '.join(map(str, choices))}")
+        return list(dict.fromkeys(values))
+    return parse
 
 
 def make_light(numbers, positional):
@@ -141,22 +166,24 @@ def make_parser():
     parser = argparse.ArgumentParser(
         prog="python3 -m vtklighttransport",
         description="Light transport on the patches of a surface mesh.",
-        epilog="Exit codes: 0 done, 1 failed (nothing was written), 2 wrong usage, "
+        epilog="Exit codes: 0 done, 1 failed (no result was written), 2 wrong usage, "
                "130 interrupted.")
     parser.add_argument("--version", action="version", version=lt.__version__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    radiosity = add_command(
+    radiosity = add_filter(
         commands, "radiosity", "diffuse interreflection: B = E + rho F B",
         "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the "
         "cell arrays Emission and Reflectance, or Temperature and Emissivity; with a light Emission "
         "may be missing.")
     add_properties(radiosity, "vtkRadiosity", RADIOSITY)
-    scatter = add_command(
+    scatter = add_filter(
         commands, "scatter", "diffuse subsurface scattering",
         "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
         "light, or a mesh with the cell array Irradiance.")
     add_properties(scatter, "vtkSubsurfaceScattering", SCATTERING)
-    for command, arrays in ((radiosity, RADIOSITY_ARRAYS), (scatter, SCATTERING_ARRAYS)):
+    report = add_report(commands)
+    for command, arrays in ((radiosity, RADIOSITY_ARRAYS), (scatter, SCATTERING_ARRAYS),
+                            (report, RADIOSITY_ARRAYS)):
         for flag, index, text in arrays:
             command.add_argument(flag, metavar="NAME", dest=f"array{index}", help=text)
     return parser
@@ -166,8 +193,14 @@ def add_command(commands, name, text, description):
     command = commands.add_parser(name, help=text, description=description)
     command.set_defaults(parser=command)
     command.add_argument("input", help="surface mesh: " + ", ".join(READERS))
-    command.add_argument("output", help="result: .vtp")
     command.add_argument("--quiet", action="store_true", help="no progress on stderr, no summary")
+    add_properties(command, "vtkPatchMesher", MESHER)
+    return command
+
+
+def add_filter(commands, name, text, description):
+    command = add_command(commands, name, text, description)
+    command.add_argument("output", help="result: .vtp")
     command.add_argument(
         "--light", metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append", default=[],
         help="light from the direction (X, Y, Z), infinitely far; INTENSITY is the irradiance "
@@ -176,8 +209,44 @@ def add_command(commands, name, text, description):
         "--point-light", metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append", default=[],
         help="light at a point, in the mesh's unit; irradiance facing it is INTENSITY / distance^2 "
              "[1]; repeat for more")
-    add_properties(command, "vtkPatchMesher", MESHER)
     add_properties(command, "vtkDirectIrradiance", IRRADIANCE)
+    return command
+
+
+def add_report(commands):
+    command = add_command(
+        commands, "report", "error of radiosity against run time",
+        "Computes the radiosity of a scene by several methods, at several tolerances, on the scene "
+        "as it is and subdivided, and writes report.csv, report.html and their pictures. Ctrl-C ends "
+        "it with what was measured until then.")
+    command.add_argument("folder", help="where the report goes; made when missing")
+    choices = find_choices(lt.vtkRadiosity, "SOLVER_") if hasattr(lt, "vtkRadiosity") else {}
+    command.add_argument("--solvers", type=make_list_parser(str, choices), default=["auto"],
+                         metavar="NAME,...",
+                         help=f"how the equation is solved: {', '.join(choices)} [auto]")
+    for flag, values, text in (
+            ("--dense-tolerances", [1e-2, 1e-3], "ViewFactorTolerance of dense links"),
+            ("--link-tolerances", [1e-1, 1e-2, 1e-3], "LinkTolerance of hierarchical links"),
+            ("--progressive-tolerances", [1e-1, 1e-2], "Tolerance of --progressive")):
+        shown = ",".join(f"{value:g}" for value in values)
+        command.add_argument(flag, type=make_list_parser(float), default=values,
+                             metavar="VALUE,...", help=f"{text} [{shown}]")
+    command.add_argument("--progressive", action="store_true",
+                         help="also progressive refinement on the GPU (Southwell, OpenGL)")
+    for flag, kind, value, text in (
+            ("--solver-tolerance", float, 1e-6, "Tolerance of the solver"),
+            ("--reference-tolerance", float, 1e-4, "ViewFactorTolerance of the dense reference"),
+            ("--reference-limit", int, 6000,
+             "patches up to which dense links are computed; beyond, the finest result of the other "
+             "methods is the reference"),
+            ("--levels", int, 2, "how many times triangles are divided in four"),
+            ("--repeat", int, 1, "runs of which times are the median")):
+        command.add_argument(flag, type=kind, default=value, metavar="VALUE",
+                             help=f"{text} [{value:g}]")
+    command.add_argument("--device", choices=("auto", "cpu", "opengl"), default="auto",
+                         help="where the links are applied; auto takes OpenGL on a real GPU [auto]")
+    command.add_argument("--view", metavar="X,Y,Z", type=parse_direction,
+                         help="direction that pictures are seen from [where the scene is open]")
     return command
 
 
@@ -185,7 +254,7 @@ def join_negative_values(arguments):
     """`--light -1,0,0` as `--light=-1,0,0`: argparse takes what begins with - for an option."""
     joined = []
     for argument in arguments:
-        if joined and joined[-1] in ("--light", "--point-light") and re.match(r"-[\d.]", argument):
+        if joined and joined[-1] in ("--light", "--point-light", "--view") and re.match(r"-[\d.]", argument):
             joined[-1] += "=" + argument
         else:
             joined.append(argument)
@@ -254,14 +323,24 @@ def run_scatter(options, messages):
     return result, f"{get_summary(result, 'NumberOfLinks'):.0f} links"
 
 
+def run_report(options, messages):
+    try:
+        from vtklighttransport import report
+    except ImportError as error:
+        raise Failure(f"a report needs numpy: {error}") from error
+    data = read(options, messages)
+    if options.mesh:
+        data = options.mesh.run(messages, data)
+    return report.run(options, messages, RADIOSITY_ARRAYS, data)
+
+
 def check_usage(options):
     if os.path.splitext(options.input)[1].lower() not in READERS:
         options.parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
-    if os.path.splitext(options.output)[1].lower() != ".vtp":
-        options.parser.error(f"argument output: '{options.output}' is not a .vtp file")
-    folder = os.path.dirname(options.output)
-    if folder and not os.path.isdir(folder):
-        raise Failure(f"cannot write {options.output}: no such directory")
+    if options.command == "report":
+        check_report_usage(options)
+    else:
+        check_output(options)
     length = getattr(options, "TargetEdgeLength", None)
     options.mesh = None
     if length is not None:
@@ -272,14 +351,49 @@ def check_usage(options):
         options.mesh = Stage("mesh", mesher, options.quiet)
 
 
+def check_output(options):
+    if os.path.splitext(options.output)[1].lower() != ".vtp":
+        options.parser.error(f"argument output: '{options.output}' is not a .vtp file")
+    folder = os.path.dirname(options.output)
+    if folder and not os.path.isdir(folder):
+        raise Failure(f"cannot write {options.output}: no such directory")
+
+
+def check_report_usage(options):
+    for flag, value, low, high in (
+            ("--repeat", options.repeat, 1, 1000), ("--levels", options.levels, 0, 12),
+            ("--reference-limit", options.reference_limit, 0, float("inf"))):
+        if not low <= value <= high:
+            options.parser.error(f"argument {flag}: {value:g} is out of range")
+    model = find_class("vtkRadiosity")()
+    for flag, name, values in (
+            ("--dense-tolerances", "ViewFactorTolerance", options.dense_tolerances),
+            ("--reference-tolerance", "ViewFactorTolerance", [options.reference_tolerance]),
+            ("--solver-tolerance", "Tolerance", [options.solver_tolerance]),
+            ("--progressive-tolerances", "Tolerance", options.progressive_tolerances),
+            ("--link-tolerances", "LinkTolerance", options.link_tolerances)):
+        for value in values if hasattr(model, "Set" + name) else ():
+            # Setters move a value into its range without a word.
+            getattr(model, "Set" + name)(value)
+            if getattr(model, "Get" + name)() != value:
+                options.parser.error(f"argument {flag}: {value:g} is out of range")
+
+
+def compute(options, messages):
+    """A result into a file; returns a line about it."""
+    result, summary = (run_radiosity if options.command == "radiosity" else run_scatter)(
+        options, messages)
+    write(result, options, messages)
+    return (f"{options.output}: {result.GetNumberOfCells()} patches, {summary}, "
+            f"{get_summary(result, 'DeviceUsed')}")
+
+
 def main(arguments):
     options = make_parser().parse_args(join_negative_values(arguments))
     messages = Messages()
-    run = run_radiosity if options.command == "radiosity" else run_scatter
     try:
         check_usage(options)
-        result, summary = run(options, messages)
-        write(result, options, messages)
+        summary = (run_report if options.command == "report" else compute)(options, messages)
     except Failure as failure:
         for line in messages.errors + [str(failure)] if str(failure) else messages.errors:
             print("error: " + line, file=sys.stderr)
@@ -288,8 +402,7 @@ def main(arguments):
         print("interrupted", file=sys.stderr)
         return 130
     if not options.quiet:
-        print(f"{options.output}: {result.GetNumberOfCells()} patches, {summary}, "
-              f"{get_summary(result, 'DeviceUsed')}")
+        print(summary)
     return 0
 
 

@@ -57,6 +57,45 @@ def get_summary(data, name):
     return array.GetValue(0)
 
 
+def get_area_vectors(surface):
+    """Of each polygon its area along its normal (n x 3), by Newell's formula."""
+    points = numpy_support.vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    polygons = surface.GetPolys()
+    corners = points[numpy_support.vtk_to_numpy(polygons.GetConnectivityArray())]
+    offsets = numpy_support.vtk_to_numpy(polygons.GetOffsetsArray())
+    following = numpy.arange(1, len(corners) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    # About a corner of the polygon, so that nothing cancels far from the origin.
+    corners = corners - numpy.repeat(corners[offsets[:-1]], numpy.diff(offsets), axis=0)
+    parts = numpy.cross(corners, corners[following])
+    return 0.5 * numpy.add.reduceat(parts, offsets[:-1], axis=0)
+
+
+def divide_triangles(surface):
+    """Each triangle in four at the middles of its edges, in the order of the input, with cell arrays.
+
+    Neighbours share the new points. Any surface will do, also where more than two triangles meet.
+    """
+    points = numpy_support.vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    corners = numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    edges = numpy.sort(numpy.stack([corners, numpy.roll(corners, -1, axis=1)], axis=2), axis=2)
+    ends, middles = numpy.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
+    a, b, c = corners.T
+    ab, bc, ca = middles.reshape(-1, 3).T + len(points)
+    parts = [a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca]
+    finer = make_surface(numpy.concatenate([points, points[ends].mean(axis=1)]),
+                         numpy.stack(parts, axis=1).reshape(-1, 3))
+    data = surface.GetCellData()
+    for index in range(data.GetNumberOfArrays()):
+        array = data.GetArray(index)
+        if array is not None:
+            values = numpy.repeat(numpy_support.vtk_to_numpy(array), 4, axis=0)
+            copy = numpy_support.numpy_to_vtk(values, deep=True)
+            copy.SetName(array.GetName())
+            finer.GetCellData().AddArray(copy)
+    return finer
+
+
 def _get(attributes, name):
     array = attributes.GetArray(name)
     if array is None:

@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""python3 -m vtklighttransport report: its table, its page, its pictures, what it says when it cannot."""
+
+import csv
+import math
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from xml.etree import ElementTree
+
+import numpy
+
+import vtklighttransport as lt
+from vtklighttransport.arrays import (
+    divide_triangles, get_area_vectors, get_cell_array, make_surface, set_cell_array)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all", "bytes", "links",
+           "iterations", "error_bound")
+ERRORS = ("error_l2", "error_max", "error_irradiance")
+COLUMNS = {"method", "solver", "reference", "device", *NUMBERS, *ERRORS}
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+
+
+def make_room(bands=3):
+    """A lit cube seen from inside, without its far side (z = 1), and a screen that hides much of it."""
+    points = [(corner & 1, corner >> 1 & 1, corner >> 2) for corner in range(8)]
+    points += [(0.3, 0.2, 0.5), (0.7, 0.2, 0.45), (0.7, 0.8, 0.5), (0.3, 0.8, 0.55)]
+    polygons = [face for face in FACES if face != (4, 6, 7, 5)]
+    polygons = [(a, b, c) for a, b, c, d in polygons] + [(a, c, d) for a, b, c, d in polygons]
+    polygons += [(8, 9, 10), (8, 10, 11), (10, 9, 8), (11, 10, 8)]
+    room = make_surface(points, polygons)
+    emission = numpy.zeros((len(polygons), bands))
+    emission[[2, 7]] = numpy.linspace(1.0, 2.0, bands)
+    set_cell_array(room, "Emission", emission)
+    set_cell_array(room, "Reflectance", numpy.full(len(polygons), 0.6))
+    return room
+
+
+def read_values(file):
+    reader = vtkPNGReader()
+    reader.SetFileName(file)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(float)
+
+
+class TestReport(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def save(self, name, surface):
+        writer = vtkXMLPolyDataWriter()
+        writer.SetInputData(surface)
+        # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+        writer.SetDataModeToBinary()
+        writer.SetFileName(self.path(name))
+        self.assertEqual(writer.Write(), 1)
+        return self.path(name)
+
+    def make_command(self, source, *arguments, folder="report"):
+        return [sys.executable, "-m", "vtklighttransport", "report", source, self.path(folder),
+                "--device", "cpu", *arguments]
+
+    def run_command(self, *arguments, **options):
+        return subprocess.run(self.make_command(*arguments, **options), capture_output=True, text=True,
+                              timeout=200, check=False)
+
+    def read_table(self):
+        with open(self.path("report", "report.csv"), newline="", encoding="utf-8") as stream:
+            reader = csv.DictReader(stream)
+            self.assertEqual(set(reader.fieldnames), COLUMNS)
+            return list(reader)
+
+    def read_page(self):
+        """The page must be well-formed; returns its text and the pictures that it shows."""
+        page = ElementTree.parse(self.path("report", "report.html")).getroot()
+        return " ".join(page.itertext()), [image.get("src") for image in page.iter("img")]
+
+    def check_pictures(self, names):
+        for name in names:
+            values = read_values(self.path("report", name))
+            self.assertGreater(values.std(), 5.0, name)
+            self.assertGreater(len(numpy.unique(values, axis=0)), 10, name)
+
+    def check_rows(self, rows):
+        for row in rows:
+            for name in NUMBERS:
+                self.assertTrue(math.isfinite(float(row[name])), (name, row))
+            self.assertLessEqual(float(row["seconds_links"]) + float(row["seconds_solver"]),
+                                 float(row["seconds_all"]) + 1e-3)
+            self.assertGreater(int(row["links"]), 0)
+            self.assertGreater(int(row["bytes"]), 0)
+            self.assertLess(float(row["error_bound"]), 1e-6)
+            self.assertEqual(row["device"], "CPU")
+
+    def test_report(self):
+        source = self.save("room.vtp", make_room())
+        result = self.run_command(
+            source, "--levels", "1", "--dense-tolerances", "1e-1,1e-3", "--link-tolerances", "1e-1,1e-2",
+            "--reference-tolerance", "1e-5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = self.read_table()
+        self.check_rows(rows)
+        self.assertEqual(sorted({int(row["patches"]) for row in rows}), [14, 56])
+        methods = {row["method"] for row in rows}
+        self.assertEqual(methods, {"Dense", "Hierarchical"}
+                         if hasattr(lt.vtkRadiosity, "SetLinkMethod") else {"Dense"})
+        for patches in ("14", "56"):
+            own = [row for row in rows if row["patches"] == patches]
+            self.check_errors(own)
+            # What is printed is the table.
+            self.assertGreaterEqual(len(re.findall(rf"^\w.* {patches} .* CPU$", result.stdout,
+                                                   re.MULTILINE)), len(own))
+        text, pictures = self.read_page()
+        for words in ("room.vtp", "14, 56", "Dense 1e-05", "cores used", lt.__version__):
+            self.assertIn(words, text)
+        self.assertNotIn(self.folder, text)
+        self.assertEqual(len(pictures), 4 + len(methods))
+        self.check_pictures(pictures)
+
+    def check_errors(self, rows):
+        reference = rows[0]
+        self.assertEqual((reference["method"], reference["tolerance"]), ("Dense", "1e-05"))
+        self.assertEqual([reference[name] for name in ERRORS], [""] * 3)
+        dense = [row for row in rows[1:] if row["method"] == "Dense"]
+        self.assertEqual([row["tolerance"] for row in dense], ["0.1", "0.001"])
+        for name in ERRORS:
+            coarse, fine = (float(row[name]) for row in dense)
+            self.assertLess(fine, coarse / 3.0)
+            # Rows of the matrix are off by less than their tolerance, and light fades by 0.6 a bounce.
+            self.assertLess(coarse, 0.1 / (1.0 - 0.6))
+            self.assertLess(fine, 1e-3 / (1.0 - 0.6))
+        for row in rows[1:]:
+            self.assertEqual(row["reference"], "Dense 1e-05")
+
+    def test_above_the_limit(self):
+        """Nothing dense there: the finest of the other methods is the reference, or nothing is left."""
+        source = self.save("room.vtp", make_room(1))
+        result = self.run_command(source, "--levels", "1", "--dense-tolerances", "1e-1",
+                                  "--link-tolerances", "1e-1,1e-3", "--reference-limit", "20")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("left out: Dense, 56 patches: above --reference-limit (20)", result.stdout)
+        rows = [row for row in self.read_table() if row["patches"] == "56"]
+        text, pictures = self.read_page()
+        self.assertIn("above --reference-limit (20)", text)
+        self.check_pictures(pictures)
+        if not hasattr(lt.vtkRadiosity, "SetLinkMethod"):
+            self.assertEqual(rows, [])
+            self.assertIn("56 patches: no method for so many", text)
+            return
+        self.assertEqual([(row["method"], row["tolerance"], row["reference"]) for row in rows],
+                         [("Hierarchical", "0.001", "is the reference"),
+                          ("Hierarchical", "0.1", "Hierarchical 0.001")])
+        self.assertIn("finest result of another method", text)
+
+    def test_interrupted(self):
+        """Rows are written as they come; the page tells of them."""
+        source = self.save("room.vtp", make_room())
+        command = self.make_command(source, "--levels", "5", "--dense-tolerances", "1e-1,1e-4",
+                                    "--reference-tolerance", "1e-5")
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
+            while " 56 " not in (line := process.stdout.readline()):
+                self.assertNotEqual(line, "", "it ended by itself")
+            process.send_signal(signal.SIGINT)
+            _rest, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertNotIn("Traceback", errors)
+        rows = self.read_table()
+        self.check_rows(rows)
+        self.assertEqual({row["patches"] for row in rows}, {"14", "56"})
+        self.assertIn("The run was interrupted", self.read_page()[0])
+
+    def test_failures(self):
+        bare = self.save("bare.vtp", make_surface([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+        room = self.save("room.vtp", make_room())
+        with open(self.path("taken"), "w", encoding="utf-8"):
+            pass
+        for arguments, folder, code, message in (
+                ((bare,), "report", 1, "error: There is no reflectance"),
+                ((self.path("none.vtp"),), "report", 1, "none.vtp: no such file"),
+                ((room,), "taken", 1, "taken: it is a file, not a folder"),
+                ((room,), "taken/report", 1, "taken/report: Not a directory"),
+                ((room, "--levels", "-1"), "report", 2, "--levels: -1 is out of range"),
+                ((room, "--dense-tolerances", "1e-2,5"), "report", 2, "--dense-tolerances: 5 is out"),
+                ((room, "--dense-tolerances", "1e-2;5"), "report", 2, "--dense-tolerances: '1e-2;5'"),
+                ((room, "--solvers", "auto,magic"), "report", 2, "'magic' is none of auto, "),
+                ((room, "--view", "1,2"), "report", 2, "'1,2' is not X,Y,Z")):
+            result = self.run_command(*arguments, folder=folder)
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn(message, result.stderr)
+            self.assertNotIn("Traceback", result.stderr)
+            self.assertFalse(os.path.exists(self.path("report", "report.html")))
+
+
+class TestArrays(unittest.TestCase):
+    def test_divided_triangles(self):
+        room = make_room()
+        finer = divide_triangles(room)
+        self.assertEqual(finer.GetNumberOfCells(), 4 * room.GetNumberOfCells())
+        # Corners and edges; the two sides of the screen share theirs.
+        self.assertEqual(finer.GetNumberOfPoints(), 12 + 12 + 5 + 5)
+        vectors = numpy.repeat(get_area_vectors(room), 4, axis=0) / 4.0
+        numpy.testing.assert_allclose(get_area_vectors(finer), vectors, atol=1e-15)
+        for name in ("Emission", "Reflectance"):
+            numpy.testing.assert_array_equal(
+                get_cell_array(finer, name), numpy.repeat(get_cell_array(room, name), 4, axis=0))
+
+    def test_area_vectors(self):
+        # A square in a plane of normal (0, 0.6, 0.8), far away, and a triangle.
+        square = numpy.array([(0, 0, 0), (2, 0, 0), (2, 1.6, -1.2), (0, 1.6, -1.2)]) + 1e6
+        for points, expected in ((square, (0, 2.4, 3.2)),
+                                 ([(0, 0, 0), (0, 3, 0), (0, 0, 5)], (7.5, 0, 0))):
+            vectors = get_area_vectors(make_surface(points, [range(len(points))]))
+            numpy.testing.assert_allclose(vectors, [expected], atol=1e-9)
+
+
+if __name__ == "__main__":
+    unittest.main()

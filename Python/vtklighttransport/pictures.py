@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of surfaces and their arrays, off screen, as PNG; needs numpy and the Rendering module."""
+
+import math
+
+import numpy
+
+import vtklighttransport as lt
+import vtkmodules.vtkInteractionStyle  # Something that a render window asks for quietly.
+import vtkmodules.vtkRenderingFreeType  # Text is drawn by what registers here,
+import vtkmodules.vtkRenderingOpenGL2  # and surfaces by the mappers of OpenGL.
+from vtklighttransport.arrays import get_area_vectors
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkWindowToImageFilter)
+
+# Of a whole circle, in degrees: that of the eye for a picture held at arm's length.
+VIEW_ANGLE = 36.0
+
+# Where the bar that explains colours begins, from left to right.
+BAR_BEGIN = 0.8
+
+
+def make_window(renderer, size, samples=0):
+    window = lt.vtkOffScreenOpenGLRenderWindow()
+    window.SetSize(*size)
+    window.SetMultiSamples(samples)
+    window.AddRenderer(renderer)
+    return window
+
+
+def write_picture(window, file):
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.SetInputBufferTypeToRGB()
+    grab.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(file)
+    writer.SetInputConnection(grab.GetOutputPort())
+    writer.Write()
+
+
+def find_direction(surface):
+    """Towards the viewer: where the patches face on the whole, as out of the open side of a box.
+
+    What is closed, or open to all sides, faces nowhere; then from the front, right and above.
+    """
+    areas = get_area_vectors(surface)
+    total = areas.sum(axis=0)
+    if numpy.linalg.norm(total) < 0.02 * numpy.linalg.norm(areas, axis=1).sum():
+        return numpy.array([1.0, 0.8, 1.5])
+    return total
+
+
+def look_at(surface, direction):
+    """What places a camera so that the surface, seen from a direction, fills the picture."""
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    back = numpy.asarray(direction, dtype=float)
+    back = back / numpy.linalg.norm(back)
+    up = numpy.array([0.0, 1.0, 0.0] if abs(back[1]) < 0.9 else [0.0, 0.0, 1.0])
+    right = numpy.cross(up, back)
+    right /= numpy.linalg.norm(right)
+    offsets = points - middle
+    aside = numpy.maximum(abs(offsets @ right), abs(offsets @ numpy.cross(back, right)))
+    slope = 0.95 * math.tan(math.radians(VIEW_ANGLE / 2.0))
+    distance = (offsets @ back + aside / slope).max()
+
+    def look(renderer):
+        camera = renderer.GetActiveCamera()
+        camera.SetPosition(middle + distance * back)
+        camera.SetFocalPoint(middle)
+        camera.SetViewUp(up)
+        camera.SetViewAngle(VIEW_ANGLE)
+        renderer.ResetCameraClippingRange()
+
+    return look
+
+
+def make_actor(surface):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    # One-sided, as patches are: so one looks into a room through its nearest wall.
+    actor.GetProperty().BackfaceCullingOn()
+    return actor
+
+
+def render_light(file, surface, exposure, look, size=(512, 512)):
+    """Radiosity as light, by vtkRadiosityPass. `look` places the camera."""
+    light = lt.vtkRadiosityPass()
+    light.SetExposure(exposure)
+    renderer = vtkRenderer()
+    renderer.AddActor(make_actor(surface))
+    renderer.SetPass(light)
+    window = make_window(renderer, size)
+    look(renderer)
+    write_picture(window, file)
+    window.Finalize()
+
+
+def color_by_array(actor, name, color_range, cells=False, logarithmic=False):
+    """As ParaView colours a surface by an array: a lookup table, blue to red, which is returned."""
+    table = vtkLookupTable()
+    table.SetHueRange(0.667, 0.0)
+    if logarithmic:
+        table.SetScaleToLog10()
+    table.SetTableRange(color_range)
+    table.Build()
+    mapper = actor.GetMapper()
+    mapper.ScalarVisibilityOn()
+    if cells:
+        mapper.SetScalarModeToUseCellFieldData()
+    else:
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.InterpolateScalarsBeforeMappingOn()
+    mapper.SelectColorArray(name)
+    mapper.SetLookupTable(table)
+    mapper.SetScalarRange(color_range)
+    actor.GetProperty().LightingOff()
+    return table
+
+
+def make_color_bar(table, title):
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle(title)
+    bar.SetNumberOfLabels(4)
+    bar.SetLabelFormat("%.2g")
+    bar.UnconstrainedFontSizeOn()
+    for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 18)):
+        text.SetColor(0.0, 0.0, 0.0)
+        text.SetFontSize(size)
+        text.ItalicOff()
+        text.ShadowOff()
+        text.BoldOff()
+    bar.SetVerticalTitleSeparation(12)
+    bar.SetPosition(0.05, 0.1)
+    bar.SetWidth(0.9)
+    bar.SetHeight(0.8)
+    return bar
+
+
+def render_cell_array(file, surface, name, color_range, title, look, logarithmic=False,
+                      size=(800, 640)):
+    """Flat colours, a patch each, beside a bar that explains them."""
+    actor = make_actor(surface)
+    table = color_by_array(actor, name, color_range, cells=True, logarithmic=logarithmic)
+    scene, legend = vtkRenderer(), vtkRenderer()
+    scene.AddActor(actor)
+    scene.SetViewport(0.0, 0.0, BAR_BEGIN, 1.0)
+    legend.AddActor2D(make_color_bar(table, title))
+    legend.SetViewport(BAR_BEGIN, 0.0, 1.0, 1.0)
+    for renderer in (scene, legend):
+        renderer.SetBackground(1.0, 1.0, 1.0)
+    window = make_window(scene, size, samples=4)
+    window.AddRenderer(legend)
+    look(scene)
+    write_picture(window, file)
+    window.Finalize()

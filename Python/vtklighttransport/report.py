@@ -1,0 +1,330 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report of a scene: error against run time, for methods x tolerances x sizes.
+
+Each row is a fresh vtkRadiosity, from the mesh to its arrays, and is written as it is measured. Its
+error is the difference from a reference on the same patches: what methods and tolerances cost, not
+what patches of constant radiosity do.
+"""
+
+import csv
+import dataclasses
+import os
+import statistics
+import sys
+import time
+
+import numpy
+
+from vtklighttransport.arrays import divide_triangles, get_area_vectors, get_cell_array
+from vtklighttransport.shell import (
+    Failure, Stage, choose_arrays, find_choices, find_class, get_summary)
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+# Column of the CSV: heading, alignment and format in print.
+COLUMNS = {
+    "method": ("method", "<12", ""),
+    "solver": ("solver", "<17", ""),
+    "tolerance": ("tolerance", ">9", "g"),
+    "patches": ("patches", ">9", ",d"),
+    "seconds_links": ("links s", ">8", ".3g"),
+    "seconds_solver": ("solver s", ">8", ".3g"),
+    "seconds_all": ("all s", ">8", ".3g"),
+    "bytes": ("bytes", ">8", ".1e"),
+    "links": ("links", ">12", ",d"),
+    "iterations": ("iterations", ">10", ",d"),
+    "error_l2": ("L2 error", ">9", ".1e"),
+    "error_max": ("max error", ">9", ".1e"),
+    "error_irradiance": ("L2 of H", ">9", ".1e"),
+    "error_bound": ("bound", ">9", ".1e"),
+    "reference": ("reference", "<18", ""),
+    "device": ("device", "", ""),
+}
+REFERENCE_SOLVER_TOLERANCE = 1e-8
+ITSELF = "is the reference"
+
+
+@dataclasses.dataclass
+class Method:
+    """A way to compute radiosity, and the property that its tolerances are of."""
+
+    name: str
+    property: str
+    tolerances: list
+    settings: dict
+    solver: str = "auto"
+
+
+@dataclasses.dataclass
+class Solution:
+    """A result on one size of the scene, in numbers, and the row of the table that tells of it."""
+
+    row: dict
+    surface: object
+    radiosity: numpy.ndarray
+    irradiance: numpy.ndarray
+
+
+@dataclasses.dataclass
+class Reference:
+    name: str
+    solution: Solution
+
+
+class Report:
+    """What has been measured so far."""
+
+    def __init__(self, options, messages, arrays):
+        self.options = options
+        self.messages = messages
+        self.arrays = arrays
+        self.rows = []
+        self.left_out = []
+        self.interrupted = False
+        self.solution = None
+        # By method: the coarsest result on the largest size, and its error on each patch.
+        self.worst = {}
+        self.stream = None
+        self.writer = None
+
+    def note(self, text):
+        """What was left out, and why; once."""
+        if text not in self.left_out:
+            self.left_out.append(text)
+            self.show(["left out:", text])
+
+    def begin_table(self):
+        self.stream = open(os.path.join(self.options.folder, "report.csv"), "w", newline="",
+                           encoding="utf-8")
+        self.writer = csv.DictWriter(self.stream, COLUMNS)
+        self.writer.writeheader()
+        self.stream.flush()
+        self.show(format(title, align) for title, align, _form in COLUMNS.values())
+
+    def add_row(self, row):
+        self.rows.append(row)
+        self.writer.writerow({name: f"{value:.6g}" if isinstance(value, float) else value
+                              for name, value in row.items()})
+        self.stream.flush()
+        self.show(format(print_value(row, name), align)
+                  for name, (_title, align, _form) in COLUMNS.items())
+
+    def show(self, cells):
+        if not self.options.quiet:
+            print(" ".join(cells).rstrip(), flush=True)
+
+    # What is measured
+
+    def run(self, surface):
+        if surface.GetNumberOfPolys() < surface.GetNumberOfCells():
+            surface = get_triangles(surface)
+        methods = self.warm_up(find_methods(self.options, self.note), surface)
+        self.begin_table()
+        self.measure_size(methods, surface)
+        triangles = get_triangles(surface)
+        for _ in range(self.options.levels):
+            triangles = divide_triangles(triangles)
+            self.measure_size(methods, triangles)
+
+    def warm_up(self, methods, surface):
+        """The methods that work here; where the first one does not, it is the input."""
+        working = []
+        for method in methods:
+            try:
+                self.compute(method, method.tolerances[0], surface)
+                working.append(method)
+            except Failure:
+                if not working:
+                    raise
+                self.note(f"{method.name}: {self.take_errors()}")
+        return working
+
+    def measure_size(self, methods, surface):
+        patches = surface.GetNumberOfCells()
+        reference = self.find_reference(methods, surface)
+        for method in methods:
+            tolerances = method.tolerances
+            if reference is None:
+                # The finest comes first: the others are compared with it.
+                tolerances = tolerances[::-1]
+            if method.name == "Dense" and patches > self.options.reference_limit:
+                self.note(f"Dense, {patches:,} patches: above --reference-limit "
+                          f"({self.options.reference_limit:,})")
+                continue
+            for tolerance in tolerances:
+                reference = self.measure(method, tolerance, surface, reference) or reference
+        if reference is None:
+            self.note(f"{patches:,} patches: no method for so many")
+
+    def find_reference(self, methods, surface):
+        """Dense links at a tight tolerance; none where they would be too many."""
+        dense = methods[0]
+        if surface.GetNumberOfCells() > self.options.reference_limit:
+            return None
+        return self.measure(dense, self.options.reference_tolerance, surface, None,
+                            REFERENCE_SOLVER_TOLERANCE)
+
+    def measure(self, method, tolerance, surface, reference, solver_tolerance=None):
+        """A row of the table; returns the reference that it is where there was none."""
+        try:
+            solution = self.compute(method, tolerance, surface, solver_tolerance)
+        except Failure:
+            self.note(f"{method.name} {tolerance:g}, {surface.GetNumberOfCells():,} patches: "
+                      f"{self.take_errors()}")
+            return None
+        row = solution.row
+        if reference is None:
+            row["reference"] = ITSELF
+            self.add_row(row)
+            self.solution = solution
+            return Reference(f"{method.name} {tolerance:g}", solution)
+        row["reference"] = reference.name
+        errors = self.compare(solution, reference.solution)
+        self.add_row(row)
+        if method.tolerances[0] == tolerance:
+            self.worst[method.name, method.solver] = (solution, errors)
+        return None
+
+    def compute(self, method, tolerance, surface, solver_tolerance=None):
+        """Runs the filter as often as asked for; the times are medians."""
+        times = []
+        for _ in range(self.options.repeat):
+            radiosity = self.make_filter(method, tolerance, solver_tolerance)
+            stage = Stage(f"{method.name} {tolerance:g}", radiosity,
+                          self.options.quiet or not sys.stderr.isatty())
+            begin = time.perf_counter()
+            result = stage.run(self.messages, surface)
+            seconds = time.perf_counter() - begin
+            times.append((get_first(result, "LinkSeconds", "ViewFactorSeconds"),
+                          get_summary(result, "SolverSeconds"), seconds))
+        if not get_summary(result, "Converged"):
+            self.note(f"{method.name} {tolerance:g}, {surface.GetNumberOfCells():,} patches: the "
+                      "solver stopped before it reached its tolerance; the row shows how far it came")
+        values = get_cell_array(result, "Radiosity").reshape(result.GetNumberOfCells(), -1)
+        row = dict.fromkeys(COLUMNS, "")
+        links, solver, everything = (statistics.median(column) for column in zip(*times))
+        row.update(
+            method=method.name, solver=get_summary(result, "SolverUsed"), tolerance=tolerance,
+            patches=surface.GetNumberOfCells(), seconds_links=links, seconds_solver=solver,
+            seconds_all=everything, bytes=int(get_first(result, "LinkBytes", "MatrixBytes")),
+            links=count_links(result), iterations=int(get_summary(result, "NumberOfIterations")),
+            error_bound=get_summary(result, "ErrorBound") / (abs(values).max() or 1.0),
+            device=get_summary(result, "DeviceUsed"))
+        irradiance = get_cell_array(result, "Irradiance").reshape(values.shape)
+        return Solution(row, result, values, irradiance)
+
+    def make_filter(self, method, tolerance, solver_tolerance):
+        radiosity = find_class("vtkRadiosity")()
+        choose_arrays(self.options, radiosity, self.arrays)
+        radiosity.SetSolver(find_choices(type(radiosity), "SOLVER_")[method.solver])
+        radiosity.SetDevice(find_choices(type(radiosity), "DEVICE_")[self.options.device])
+        radiosity.SetTolerance(solver_tolerance or self.options.solver_tolerance)
+        radiosity.SetMaximumNumberOfIterations(100000)
+        for name, value in method.settings.items():
+            getattr(radiosity, "Set" + name)(value)
+        getattr(radiosity, "Set" + method.property)(tolerance)
+        return radiosity
+
+    def compare(self, solution, reference):
+        """Fills in the errors of the row; returns that of each patch, relative to the largest."""
+        areas = numpy.linalg.norm(get_area_vectors(solution.surface), axis=1)[:, None]
+        errors = abs(solution.radiosity - reference.radiosity).max(axis=1)
+        errors /= abs(reference.radiosity).max() or 1.0
+        solution.row.update(
+            error_l2=relative_error(solution.radiosity, reference.radiosity, areas),
+            error_irradiance=relative_error(solution.irradiance, reference.irradiance, areas),
+            error_max=float(errors.max()))
+        return errors
+
+    def take_errors(self):
+        text = "; ".join(self.messages.errors)
+        self.messages.errors.clear()
+        return text
+
+
+def print_value(row, name):
+    """As people read it; nothing where there is no value."""
+    return "" if row[name] == "" else format(row[name], COLUMNS[name][2])
+
+
+def name_family(row, rows):
+    """The method of a row; with its solver where the method has been run with several."""
+    solvers = {other["solver"] for other in rows if other["method"] == row["method"]}
+    return row["method"] + (f", {row['solver']}" if len(solvers) > 1 else "")
+
+
+def relative_error(values, exact, weights):
+    """Root mean square over the area, relative to that of the exact values."""
+    return float(numpy.sqrt((weights * (values - exact) ** 2).sum()
+                            / ((weights * exact ** 2).sum() or 1.0)))
+
+
+def get_first(result, *names):
+    """The first of these summaries that the result has."""
+    return next(value for value in (get_summary(result, name) for name in names)
+                if value is not None)
+
+
+def count_links(result):
+    links = get_summary(result, "NumberOfLinks")
+    if links is None:
+        links = sum(get_summary(result, name) for name in ("PairsUnobstructed", "PairsPartlyVisible"))
+    return int(links)
+
+
+def find_methods(options, note):
+    """Dense first: it is the reference as well. From coarse to fine."""
+    kind = find_class("vtkRadiosity")
+    names = [("Dense", "ViewFactorTolerance", options.dense_tolerances)]
+    if hasattr(kind, "SetLinkMethod"):
+        names.append(("Hierarchical", "LinkTolerance", options.link_tolerances))
+    else:
+        note("Hierarchical: this build has no LinkMethod")
+    methods = []
+    for name, tolerance, values in names:
+        settings = {}
+        if hasattr(kind, "SetLinkMethod"):
+            settings["LinkMethod"] = getattr(kind, "LINK_METHOD_" + name.upper())
+        for solver in options.solvers:
+            methods.append(Method(name, tolerance, sorted(values, reverse=True), settings, solver))
+    if options.progressive:
+        methods.append(Method(
+            "Progressive", "Tolerance", sorted(options.progressive_tolerances, reverse=True),
+            {"Device": kind.DEVICE_OPENGL}, "southwell"))
+    return methods
+
+
+def get_triangles(surface):
+    triangles = vtkTriangleFilter()
+    triangles.SetInputData(surface)
+    triangles.PassVertsOff()
+    triangles.PassLinesOff()
+    triangles.Update()
+    return triangles.GetOutput()
+
+
+def run(options, messages, arrays, surface):
+    """The command: measures, then writes the page, also of what an interrupted run has measured."""
+    from vtklighttransport.report_page import write_page
+
+    report = Report(options, messages, arrays)
+    try:
+        os.makedirs(options.folder, exist_ok=True)
+        try:
+            report.run(surface)
+        except KeyboardInterrupt:
+            if not report.rows:
+                raise
+            report.interrupted = True
+            print("interrupted: the page shows what was measured so far", file=sys.stderr)
+        write_page(report)
+    except FileExistsError as error:
+        raise Failure(f"cannot write {options.folder}: it is a file, not a folder") from error
+    except OSError as error:
+        raise Failure(f"cannot write {error.filename or options.folder}: {error.strerror}") from error
+    finally:
+        if report.stream:
+            report.stream.close()
+    if report.interrupted:
+        raise KeyboardInterrupt
+    return f"{os.path.join(options.folder, 'report.html')}: {len(report.rows)} rows"
