@@ -48,6 +48,22 @@ double GetRowSumError(vtkViewFactors* viewFactors)
   }
   return largest + SinglePrecision;
 }
+
+//------------------------------------------------------------------------------
+double GetElement(const std::vector<double>& values, int index)
+{
+  return index >= 0 && index < static_cast<int>(values.size()) ? values[index] : 0.0;
+}
+
+//------------------------------------------------------------------------------
+void PrintValues(ostream& os, const std::vector<double>& values)
+{
+  for (const double value : values)
+  {
+    os << " " << value;
+  }
+  os << "\n";
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -116,7 +132,12 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
     return 0;
   }
   vtkViewFactors* viewFactors = this->UpdateViewFactors(scene, problem);
-  if (!viewFactors || !this->Solve(viewFactors, problem, vtkTable::GetData(outputs, 1)))
+  if (!viewFactors)
+  {
+    return 0;
+  }
+  AddBackground(viewFactors, problem);
+  if (!this->Solve(viewFactors, problem, vtkTable::GetData(outputs, 1)))
   {
     return 0;
   }
@@ -158,6 +179,9 @@ bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const vtkPatchScene& scen
     const char* name = this->GetInputArrayInformation(array)->Get(vtkDataObject::FIELD_NAME());
     names.emplace_back(name && *name ? name : vtkRadiosityMaterials::GetDefaultName(array));
   }
+  problem.Materials.BandLimits = this->BandLimits;
+  problem.Materials.BackgroundTemperature = this->BackgroundTemperature;
+  problem.Materials.BackgroundRadiance = this->BackgroundRadiances;
   std::string error;
   if (!problem.Materials.Read(input, scene, names, error))
   {
@@ -172,7 +196,7 @@ vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene, cons
 {
   vtkViewFactors* viewFactors = this->ViewFactors;
   const std::vector<bool> senders = problem.Materials.FindSenders();
-  const bool needsAll = viewFactors || this->EnforceClosure;
+  const bool needsAll = viewFactors || this->EnforceClosure || problem.Materials.HasBackground();
   if (!viewFactors)
   {
     viewFactors = this->InternalViewFactors;
@@ -184,6 +208,16 @@ vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene, cons
   const auto progress = [this](double done) { return this->ReportProgress(done); };
   return viewFactors->UpdateExchange(scene, progress, needsAll ? nullptr : &senders) ? viewFactors
                                                                                      : nullptr;
+}
+
+//------------------------------------------------------------------------------
+// What enters through openings falls on the patches as the light of lamps does.
+void vtkRadiosity::AddBackground(const vtkViewFactors* viewFactors, Problem& problem)
+{
+  if (problem.Materials.HasBackground())
+  {
+    problem.Materials.AddBackground(viewFactors->GetSkyFractions());
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -272,7 +306,12 @@ bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
   vtkRadiositySolution& solution = problem.Solution;
   if (!solution.Error.empty())
   {
-    vtkErrorMacro(<< solution.Error);
+    const char* hint = problem.Materials.HasGivenFluxes()
+      ? " A patch with a given net flux counts as one that reflects everything: each closed part "
+        "of "
+        "the scene needs a patch with a given temperature."
+      : "";
+    vtkErrorMacro(<< solution.Error << hint);
     return false;
   }
   if (solution.Aborted)
@@ -317,6 +356,7 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
   scene.AddArray(output, "Radiosity", problem.Solution.Radiosity, problem.Materials.NumberOfBands);
   scene.AddArray(output, "Irradiance", problem.Irradiance, problem.Materials.NumberOfBands);
   scene.AddArray(output, "NetFlux", flux, problem.Materials.NumberOfBands);
+  this->WriteThermal(scene, problem, flux, output);
 
   vtkFieldData* fields = output->GetFieldData();
   AddSummary(fields, "SolverUsed", problem.SolverUsed);
@@ -330,12 +370,93 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
 }
 
 //------------------------------------------------------------------------------
+void vtkRadiosity::WriteThermal(const vtkPatchScene& scene, const Problem& problem,
+  const std::vector<double>& flux, vtkDataObject* output)
+{
+  const vtkRadiosityMaterials& materials = problem.Materials;
+  if (!materials.IsThermal())
+  {
+    return;
+  }
+  vtkIdType impossible = 0;
+  const std::vector<double> temperatures =
+    materials.ComputeTemperatures(problem.Irradiance, problem.Solution.ErrorBound, impossible);
+  if (impossible > 0)
+  {
+    vtkWarningMacro(<< impossible
+                    << " patches have no temperature (SurfaceTemperature is 0 there): their given "
+                       "net flux takes out more than they absorb. Raise it, or give the patches "
+                       "around them a higher temperature.");
+  }
+  scene.AddArray(output, "SurfaceTemperature", temperatures, 1);
+  if (materials.NumberOfBands > 1)
+  {
+    std::vector<double> totals(temperatures.size(), 0.0);
+    for (std::size_t k = 0; k < flux.size(); ++k)
+    {
+      totals[k / materials.NumberOfBands] += flux[k];
+    }
+    scene.AddArray(output, "TotalNetFlux", totals, 1);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::AddBandLimit(double micrometers)
+{
+  this->BandLimits.push_back(micrometers);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::ClearBandLimits()
+{
+  this->BandLimits.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkRadiosity::GetBandLimit(int index) const
+{
+  return GetElement(this->BandLimits, index);
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::SetBackgroundRadiance(double radiance)
+{
+  this->BackgroundRadiances.assign(1, radiance);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::AddBackgroundRadiance(double radiance)
+{
+  this->BackgroundRadiances.push_back(radiance);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::ClearBackgroundRadiances()
+{
+  this->BackgroundRadiances.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkRadiosity::GetBackgroundRadiance(int band) const
+{
+  return GetElement(this->BackgroundRadiances, band);
+}
+
+//------------------------------------------------------------------------------
 void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Solver: " << vtkRadiositySolvers::GetName(this->Solver) << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumNumberOfIterations: " << this->MaximumNumberOfIterations << "\n";
+  PrintValues(os << indent << "BandLimits:", this->BandLimits);
+  os << indent << "BackgroundTemperature: " << this->BackgroundTemperature << "\n";
+  PrintValues(os << indent << "BackgroundRadiance:", this->BackgroundRadiances);
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "ViewFactorTolerance: " << this->ViewFactorTolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";

@@ -12,19 +12,28 @@
  * 1 is used for all bands.
  *   - 0: emission ["Emission"], >= 0
  *   - 1: reflectance ["Reflectance"], 0 to 1
- *   - 2: temperature ["Temperature"], kelvin: E = emissivity * 5.670374419e-8 * T^4 W/m2. One
- * component only: over several bands sigma T^4 would be counted once per band.
+ *   - 2: temperature ["Temperature"], kelvin, one component: E = emissivity * 5.670374419e-8 * T^4
+ * W/m2, with BandLimits the part of it that lies in each band
  *   - 3: emissivity ["Emissivity"], 0 to 1: reflectance = 1 - emissivity
  *   - 4: direct irradiance ["DirectIrradiance"], optional, from vtkDirectIrradiance
- * Either Temperature and Emissivity are there, or Reflectance and at least one of Emission and
- * DirectIrradiance.
+ *   - 5: boundary condition ["BoundaryCondition"], optional, read with temperatures only: 0 where
+ * the temperature is given, 1 where the net flux is (the temperature there is not used)
+ *   - 6: given net flux ["PrescribedNetFlux"], optional (0: adiabatic), W/m2, positive when it
+ * leaves the surface: heat that is put into the patch from behind. One band only: it is the sum
+ * over all wavelengths.
+ * Either Temperature and Emissivity are there, or Reflectance (or Emissivity) and at least one of
+ * Emission, DirectIrradiance and a background.
  *
  * Output port 0: the input with the cell and point arrays "Radiosity" (B), "Irradiance" (H, the
  * direct part included) and "NetFlux" (B - H, positive when it leaves the surface), double, one
- * component per band; in field data SolverUsed, DeviceUsed, NumberOfIterations, ErrorBound,
- * Converged, SolverSeconds and the summaries of vtkViewFactors. Output port 1: vtkTable
- * "Convergence" with a row per iteration: Iteration, Seconds (since the solver began), Residual
- * (largest |E + rho H - B|) and ErrorBound (largest |error of B|).
+ * component per band; with temperatures also "SurfaceTemperature" (kelvin; where the net flux q is
+ * given, T with q = emissivity (sigma T^4 - H), and 0 with a warning where more is taken out than
+ * any temperature allows; for an adiabatic patch of emissivity 0 the limit for small emissivities,
+ * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); in field data SolverUsed,
+ * DeviceUsed, NumberOfIterations, ErrorBound, Converged, SolverSeconds and the summaries of
+ * vtkViewFactors. Output port 1: vtkTable "Convergence" with a row per iteration: Iteration,
+ * Seconds (since the solver began), Residual (largest |E + rho H - B|) and ErrorBound (largest
+ * |error of B|).
  *
  * The error bound is algebraic: with w > 0 such that d = (I - rho F) w > 0, |error_i| <= w_i max_j
  * |r_j| / d_j. w = 1 gives the row-sum bound; where that is infinite (rho times row sum reaches 1)
@@ -42,6 +51,8 @@
 #include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"                // for vtkSmartPointer
 #include "vtkTransportAlgorithm.h"
+
+#include <vector> // for std::vector
 
 class vtkCPULinkOperator;
 class vtkPatchScene;
@@ -96,6 +107,44 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Limits of the spectral bands: wavelengths in micrometres, each longer than the one before, one
+   * more than there are bands; 0 and infinity (or any large number) may be the ends. With them a
+   * temperature emits in each band what a black body emits between its limits times the emissivity
+   * in that band; what lies outside of all bands is left out. Default: none, one total band.
+   */
+  void AddBandLimit(double micrometers);
+  void ClearBandLimits();
+  int GetNumberOfBandLimits() const { return static_cast<int>(this->BandLimits.size()); }
+  /// 0 where out of range.
+  double GetBandLimit(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * What enters through the openings of the scene, the same from all directions: each patch
+   * receives its "SkyFraction" (vtkViewFactors) times sigma T^4 W/m2, where T is the background's
+   * temperature in kelvin (with BandLimits the part of each band), plus its sky fraction times pi
+   * times the background's radiance, in the unit of the emission per steradian, one value per band
+   * or one for all. It is part of "Irradiance", and enters no closed scene. Defaults 0 K, range 0
+   * to 1e30, and none.
+   */
+  vtkSetClampMacro(BackgroundTemperature, double, 0.0, 1e30);
+  vtkGetMacro(BackgroundTemperature, double);
+  /// The same in all bands.
+  void SetBackgroundRadiance(double radiance);
+  /// Of the next band.
+  void AddBackgroundRadiance(double radiance);
+  void ClearBackgroundRadiances();
+  int GetNumberOfBackgroundRadiances() const
+  {
+    return static_cast<int>(this->BackgroundRadiances.size());
+  }
+  /// 0 where out of range.
+  double GetBackgroundRadiance(int band) const;
+  ///@}
+
+  ///@{
   /// Where the links are applied (vtkTransportAlgorithm::DeviceType). Default DEVICE_AUTO: OpenGL
   /// on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
@@ -122,8 +171,8 @@ public:
    * View factors to share with other filters. Default nullptr: an internal one. Either keeps its
    * result while the geometry stays the same, so that new emissions or reflectances only cost a
    * solution. The internal one leaves out the pairs of patches of which neither sends anything
-   * (unless EnforceClosure, which needs whole rows), so it computes again when patches that did not
-   * send begin to.
+   * (unless EnforceClosure or a background, which need whole rows), so it computes again when
+   * patches that did not send begin to.
    */
   virtual void SetViewFactors(vtkViewFactors* viewFactors);
   vtkGetObjectMacro(ViewFactors, vtkViewFactors);
@@ -150,15 +199,21 @@ private:
   bool CheckSolver();
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem);
+  static void AddBackground(const vtkViewFactors* viewFactors, Problem& problem);
   bool Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence);
   void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
   bool Finish(vtkCPULinkOperator* links, Problem& problem);
   void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
     const vtkViewFactors* viewFactors, vtkDataObject* output);
+  void WriteThermal(const vtkPatchScene& scene, const Problem& problem,
+    const std::vector<double>& flux, vtkDataObject* output);
 
   int Solver = SOLVER_AUTO;
   double Tolerance = 1e-4;
   int MaximumNumberOfIterations = 1000;
+  std::vector<double> BandLimits;
+  double BackgroundTemperature = 0.0;
+  std::vector<double> BackgroundRadiances;
   int Device = DEVICE_AUTO;
   double ViewFactorTolerance = 1e-4;
   bool EnforceClosure = false;

@@ -376,6 +376,12 @@ bool vtkViewFactors::CloseRows(const vtkViewFactorAssembly& assembly)
 }
 
 //------------------------------------------------------------------------------
+const std::vector<double>& vtkViewFactors::GetSkyFractions() const
+{
+  return this->Result->SkyFractions;
+}
+
+//------------------------------------------------------------------------------
 bool vtkViewFactors::HasClosedRows() const
 {
   return std::any_of(this->Result->Summaries.begin(), this->Result->Summaries.end(),

@@ -122,6 +122,9 @@ public:
   vtkExchangeMatrix* GetExchange();
   const std::vector<double>& GetRowSums() const;
   const std::vector<double>& GetRowErrors() const;
+  /// The part of what leaves each row's patch that leaves the scene; all 0 where pairs have been
+  /// left out.
+  const std::vector<double>& GetSkyFractions() const;
   /// Whether the view factors were computed with EnforceClosure.
   bool HasClosedRows() const;
   /// Field data arrays that summarise the last computation.

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiosityMaterials.h"
 
+#include "vtkMath.h"
 #include "vtkPatchScene.h"
+#include "vtkPlanckFraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +15,15 @@ using Materials = vtkRadiosityMaterials;
 
 // W m^-2 K^-4, exact in the SI of 2019.
 constexpr double StefanBoltzmann = 5.670374419e-8;
+// Its fourth power is still far from overflow.
+constexpr double HighestTemperature = 1e30;
 
 const char* const DefaultNames[Materials::NUMBER_OF_ARRAYS] = { "Emission", "Reflectance",
-  "Temperature", "Emissivity", "DirectIrradiance" };
+  "Temperature", "Emissivity", "DirectIrradiance", "BoundaryCondition", "PrescribedNetFlux" };
+
+// Values of the boundary condition.
+constexpr double GivenTemperature = 0.0;
+constexpr double GivenNetFlux = 1.0;
 
 //------------------------------------------------------------------------------
 struct BandArray
@@ -50,27 +58,50 @@ struct BandArray
 };
 
 //------------------------------------------------------------------------------
-// The input arrays as they are, and what they say together. Checks return an empty text, or what is
-// wrong.
+// The input arrays as they are, and what they and the settings say together. Checks return an empty
+// text, or what is wrong.
 class Arrays
 {
 public:
+  explicit Arrays(const Materials& settings) : Settings(settings) {}
+
   bool Gather(vtkDataObject* input, const vtkPatchScene& scene,
     const std::vector<std::string>& names, std::string& error);
-  std::string CheckBands();
-  std::string CheckCombination() const;
-  std::string CheckRanges(const vtkPatchScene& scene) const;
+  std::string Check(const vtkPatchScene& scene);
 
-  bool IsThermal() const { return this->Array[Materials::TEMPERATURE].IsThere(); }
+  int GetNumberOfBands() const { return this->Bands; }
+  bool IsThermal() const { return this->IsThere(Materials::TEMPERATURE); }
+  bool HasGivenFlux(vtkIdType patch) const
+  {
+    return this->Get(Materials::BOUNDARY_CONDITION, patch, 0) == GivenNetFlux;
+  }
   double GetEmission(vtkIdType patch, int band) const;
   double GetReflectance(vtkIdType patch, int band) const;
-  double GetDirectIrradiance(vtkIdType patch, int band) const;
-  int GetNumberOfBands() const { return this->Bands; }
+  double GetBackground(int band) const;
+  // 0 where there is no such array.
+  double Get(int array, vtkIdType patch, int band) const
+  {
+    return this->IsThere(array) ? this->Array[array].Get(patch, band) : 0.0;
+  }
 
 private:
   bool IsThere(int array) const { return this->Array[array].IsThere(); }
   std::string Quote(int array) const { return "\"" + this->Array[array].Name + "\""; }
+  bool HasLimits() const { return !this->Settings.BandLimits.empty(); }
 
+  std::string CheckSettings() const;
+  std::string CheckBands();
+  std::string CheckBandCount(const std::string& name, int count);
+  std::string CheckCombination() const;
+  std::string CheckThermal() const;
+  std::string CheckRanges(const vtkPatchScene& scene) const;
+  std::string CheckGivenFluxes(const vtkPatchScene& scene) const;
+  std::string CheckTotals() const;
+
+  // What a black body of this temperature emits in a band.
+  double GetBandFlux(double temperature, int band) const;
+
+  const Materials& Settings;
   BandArray Array[Materials::NUMBER_OF_ARRAYS];
   int Bands = 1;
 };
@@ -83,7 +114,12 @@ bool Arrays::Gather(vtkDataObject* input, const vtkPatchScene& scene,
   {
     BandArray& array = this->Array[k];
     array.Name = names[k];
-    if (!scene.GatherCellArray(input, array.Name, false, array.Values, array.Components, error))
+    // Where there are no temperatures, arrays of these names belong to something else.
+    const bool ignored =
+      (k == Materials::BOUNDARY_CONDITION || k == Materials::PRESCRIBED_NET_FLUX) &&
+      !this->IsThermal();
+    if (!ignored &&
+      !scene.GatherCellArray(input, array.Name, false, array.Values, array.Components, error))
     {
       return false;
     }
@@ -92,50 +128,85 @@ bool Arrays::Gather(vtkDataObject* input, const vtkPatchScene& scene,
 }
 
 //------------------------------------------------------------------------------
+std::string Arrays::Check(const vtkPatchScene& scene)
+{
+  std::string error = this->CheckSettings();
+  error = error.empty() ? this->CheckBands() : error;
+  error = error.empty() ? this->CheckCombination() : error;
+  error = error.empty() ? this->CheckTotals() : error;
+  error = error.empty() ? this->CheckRanges(scene) : error;
+  return error.empty() ? this->CheckGivenFluxes(scene) : error;
+}
+
+//------------------------------------------------------------------------------
+// Written so that a NaN does not pass.
+std::string Arrays::CheckSettings() const
+{
+  const std::vector<double>& limits = this->Settings.BandLimits;
+  bool increasing = limits.empty() || (limits.size() > 1 && limits.front() >= 0.0);
+  for (std::size_t k = 1; k < limits.size(); ++k)
+  {
+    increasing = increasing && limits[k] > limits[k - 1];
+  }
+  if (!increasing)
+  {
+    return "BandLimits are no limits of bands: give at least two wavelengths in micrometres, the "
+           "first at least 0 and each longer than the one before, or none for one total band.";
+  }
+  const double temperature = this->Settings.BackgroundTemperature;
+  bool inRange = temperature >= 0.0 && temperature <= HighestTemperature;
+  for (const double radiance : this->Settings.BackgroundRadiance)
+  {
+    inRange = inRange && radiance >= 0.0 && radiance <= VTK_DOUBLE_MAX;
+  }
+  return inRange ? ""
+                 : "BackgroundTemperature must be from 0 to 1e30 K, BackgroundRadiance at least 0 "
+                   "and finite: correct the one that is not.";
+}
+
+//------------------------------------------------------------------------------
 std::string Arrays::CheckBands()
 {
+  this->Bands = this->HasLimits() ? static_cast<int>(this->Settings.BandLimits.size()) - 1 : 1;
+  std::string error;
   for (const BandArray& array : this->Array)
   {
-    if (array.Components > 1 && this->Bands > 1 && array.Components != this->Bands)
-    {
-      return "The cell array \"" + array.Name + "\" has " + std::to_string(array.Components) +
-        " components where another has " + std::to_string(this->Bands) +
-        ": give all of them 1 or the same number of bands.";
-    }
-    this->Bands = std::max(this->Bands, array.Components);
+    error = error.empty()
+      ? this->CheckBandCount("The cell array \"" + array.Name + "\"", array.Components)
+      : error;
   }
+  const auto radiances = static_cast<int>(this->Settings.BackgroundRadiance.size());
+  return error.empty() ? this->CheckBandCount("BackgroundRadiance", radiances) : error;
+}
+
+//------------------------------------------------------------------------------
+std::string Arrays::CheckBandCount(const std::string& name, int count)
+{
+  if (count > 1 && count != this->Bands && (this->HasLimits() || this->Bands > 1))
+  {
+    return name + " has " + std::to_string(count) + " components where " +
+      (this->HasLimits() ? "BandLimits" : "another") + " has " + std::to_string(this->Bands) +
+      ": give all of them 1 or the same number of bands.";
+  }
+  this->Bands = std::max(this->Bands, count);
   return "";
 }
 
 //------------------------------------------------------------------------------
 std::string Arrays::CheckCombination() const
 {
-  const bool thermal = this->IsThermal();
-  if (thermal && !this->IsThere(Materials::EMISSIVITY))
+  if (this->IsThermal())
   {
-    return "There is a temperature (" + this->Quote(Materials::TEMPERATURE) +
-      ") but no emissivity: add a cell array " + this->Quote(Materials::EMISSIVITY) +
-      " with values from 0 to 1.";
+    return this->CheckThermal();
   }
-  if (thermal && this->IsThere(Materials::EMISSION))
-  {
-    return "There are both " + this->Quote(Materials::EMISSION) + " and " +
-      this->Quote(Materials::TEMPERATURE) + ": remove one of the two cell arrays.";
-  }
-  if (thermal && this->Bands > 1)
-  {
-    return "The temperature gives the total emission of one band, but there are " +
-      std::to_string(this->Bands) + " bands: use one component, or " +
-      this->Quote(Materials::EMISSION) + " with the emission of each band.";
-  }
-  if (!thermal && !this->IsThere(Materials::REFLECTANCE) && !this->IsThere(Materials::EMISSIVITY))
+  if (!this->IsThere(Materials::REFLECTANCE) && !this->IsThere(Materials::EMISSIVITY))
   {
     return "There is no reflectance: add a cell array " + this->Quote(Materials::REFLECTANCE) +
       " with values from 0 to 1 (or " + this->Quote(Materials::TEMPERATURE) + " and " +
       this->Quote(Materials::EMISSIVITY) + ").";
   }
-  if (!thermal && !this->IsThere(Materials::EMISSION) &&
-    !this->IsThere(Materials::DIRECT_IRRADIANCE))
+  if (!this->IsThere(Materials::EMISSION) && !this->IsThere(Materials::DIRECT_IRRADIANCE) &&
+    !this->Settings.HasBackground())
   {
     return "Nothing emits: add a cell array " + this->Quote(Materials::EMISSION) + ", or " +
       this->Quote(Materials::TEMPERATURE) + " and " + this->Quote(Materials::EMISSIVITY) + ", or " +
@@ -145,50 +216,158 @@ std::string Arrays::CheckCombination() const
 }
 
 //------------------------------------------------------------------------------
+std::string Arrays::CheckThermal() const
+{
+  const std::string temperature = this->Quote(Materials::TEMPERATURE);
+  if (!this->IsThere(Materials::EMISSIVITY))
+  {
+    return "There is a temperature (" + temperature + ") but no emissivity: add a cell array " +
+      this->Quote(Materials::EMISSIVITY) + " with values from 0 to 1.";
+  }
+  if (this->IsThere(Materials::EMISSION))
+  {
+    return "There are both " + this->Quote(Materials::EMISSION) + " and " + temperature +
+      ": remove one of the two cell arrays.";
+  }
+  if (this->Array[Materials::TEMPERATURE].Components > 1 && this->HasLimits())
+  {
+    return "The cell array " + temperature +
+      " has several components, but a patch has one temperature: use one component.";
+  }
+  if (this->IsThere(Materials::PRESCRIBED_NET_FLUX) &&
+    !this->IsThere(Materials::BOUNDARY_CONDITION))
+  {
+    return "There is a net flux (" + this->Quote(Materials::PRESCRIBED_NET_FLUX) +
+      "), but nothing says where it holds: add a cell array " +
+      this->Quote(Materials::BOUNDARY_CONDITION) +
+      " with 0 (the temperature is given) or 1 (the net flux is given).";
+  }
+  return "";
+}
+
+//------------------------------------------------------------------------------
+// Temperatures in several bands need their limits.
+std::string Arrays::CheckTotals() const
+{
+  if (this->Bands == 1 || this->HasLimits())
+  {
+    return "";
+  }
+  const std::string bands = "but there are " + std::to_string(this->Bands) +
+    " bands: set BandLimits (wavelengths in micrometres), use one component, or ";
+  if (this->IsThermal())
+  {
+    return "The temperature gives the total emission of one band, " + bands +
+      this->Quote(Materials::EMISSION) + " with the emission of each band.";
+  }
+  return this->Settings.BackgroundTemperature > 0.0
+    ? "BackgroundTemperature gives the total of one band, " + bands +
+      "BackgroundRadiance with a value for each band."
+    : "";
+}
+
+//------------------------------------------------------------------------------
 std::string Arrays::CheckRanges(const vtkPatchScene& scene) const
 {
-  const double most = VTK_DOUBLE_MAX;
-  for (const std::string& problem :
-    { this->Array[Materials::REFLECTANCE].CheckRange(scene, 0.0, 1.0, "from 0 to 1"),
-      this->Array[Materials::EMISSIVITY].CheckRange(scene, 0.0, 1.0, "from 0 to 1"),
-      this->Array[Materials::TEMPERATURE].CheckRange(scene, 0.0, most, "in kelvin, at least 0"),
-      this->Array[Materials::EMISSION].CheckRange(scene, 0.0, most, "at least 0"),
-      this->Array[Materials::DIRECT_IRRADIANCE].CheckRange(scene, 0.0, most, "at least 0") })
+  struct Range
   {
-    if (!problem.empty())
+    int Index;
+    double Most;
+    const char* Text;
+  };
+  const Range ranges[] = { { Materials::REFLECTANCE, 1.0, "from 0 to 1" },
+    { Materials::EMISSIVITY, 1.0, "from 0 to 1" },
+    { Materials::TEMPERATURE, HighestTemperature, "in kelvin, at least 0 and at most 1e30" },
+    { Materials::EMISSION, VTK_DOUBLE_MAX, "at least 0" },
+    { Materials::DIRECT_IRRADIANCE, VTK_DOUBLE_MAX, "at least 0" } };
+  for (const Range& range : ranges)
+  {
+    const std::string error =
+      this->Array[range.Index].CheckRange(scene, 0.0, range.Most, range.Text);
+    if (!error.empty())
     {
-      return problem;
+      return error;
     }
   }
   return "";
 }
 
 //------------------------------------------------------------------------------
+std::string Arrays::CheckGivenFluxes(const vtkPatchScene& scene) const
+{
+  for (vtkIdType polygon = 0; polygon < scene.GetNumberOfPatches(); ++polygon)
+  {
+    const vtkIdType patch = scene.GetPatch(polygon);
+    const double condition = this->Get(Materials::BOUNDARY_CONDITION, patch, 0);
+    const std::string place = " at polygon " + std::to_string(polygon);
+    if (condition != GivenTemperature && condition != GivenNetFlux)
+    {
+      return "The cell array " + this->Quote(Materials::BOUNDARY_CONDITION) + " is " +
+        std::to_string(condition) + place +
+        ": it must be 0 (the temperature is given) or 1 (the net flux is given).";
+    }
+    if (condition == GivenTemperature)
+    {
+      continue;
+    }
+    if (this->Bands > 1 || this->HasLimits())
+    {
+      return "The net flux is given" + place +
+        ", which is the sum over all wavelengths and links the bands with each other: use one band "
+        "(no BandLimits), or give all patches a temperature.";
+    }
+    if (this->Get(Materials::EMISSIVITY, patch, 0) == 0.0 &&
+      this->Get(Materials::PRESCRIBED_NET_FLUX, patch, 0) != 0.0)
+    {
+      return "The cell array " + this->Quote(Materials::EMISSIVITY) + " is 0" + place +
+        ", where a net flux is given, but what neither emits nor absorbs has none: give it an "
+        "emissivity above 0, or a net flux of 0.";
+    }
+  }
+  return "";
+}
+
+//------------------------------------------------------------------------------
+double Arrays::GetBandFlux(double temperature, int band) const
+{
+  const std::vector<double>& limits = this->Settings.BandLimits;
+  const double share =
+    limits.empty() ? 1.0 : vtkPlanckFraction::GetBand(limits[band], limits[band + 1], temperature);
+  return share * StefanBoltzmann * std::pow(temperature, 4);
+}
+
+//------------------------------------------------------------------------------
 double Arrays::GetEmission(vtkIdType patch, int band) const
 {
-  if (this->IsThermal())
+  if (!this->IsThermal())
   {
-    return this->Array[Materials::EMISSIVITY].Get(patch, band) * StefanBoltzmann *
-      std::pow(this->Array[Materials::TEMPERATURE].Get(patch, band), 4);
+    return this->Get(Materials::EMISSION, patch, band);
   }
-  const BandArray& emission = this->Array[Materials::EMISSION];
-  return emission.IsThere() ? emission.Get(patch, band) : 0.0;
+  return this->HasGivenFlux(patch) ? this->Get(Materials::PRESCRIBED_NET_FLUX, patch, 0)
+                                   : this->Get(Materials::EMISSIVITY, patch, band) *
+      this->GetBandFlux(this->Get(Materials::TEMPERATURE, patch, 0), band);
 }
 
 //------------------------------------------------------------------------------
 double Arrays::GetReflectance(vtkIdType patch, int band) const
 {
-  const BandArray& reflectance = this->Array[Materials::REFLECTANCE];
-  const bool byEmissivity = this->IsThermal() || !reflectance.IsThere();
-  return byEmissivity ? 1.0 - this->Array[Materials::EMISSIVITY].Get(patch, band)
-                      : reflectance.Get(patch, band);
+  if (this->HasGivenFlux(patch))
+  {
+    return 1.0;
+  }
+  const bool byEmissivity = this->IsThermal() || !this->IsThere(Materials::REFLECTANCE);
+  return byEmissivity ? 1.0 - this->Get(Materials::EMISSIVITY, patch, band)
+                      : this->Get(Materials::REFLECTANCE, patch, band);
 }
 
 //------------------------------------------------------------------------------
-double Arrays::GetDirectIrradiance(vtkIdType patch, int band) const
+double Arrays::GetBackground(int band) const
 {
-  const BandArray& direct = this->Array[Materials::DIRECT_IRRADIANCE];
-  return direct.IsThere() ? direct.Get(patch, band) : 0.0;
+  const std::vector<double>& radiance = this->Settings.BackgroundRadiance;
+  const double light =
+    radiance.empty() ? 0.0 : vtkMath::Pi() * radiance[radiance.size() == 1 ? 0 : band];
+  const double temperature = this->Settings.BackgroundTemperature;
+  return light + (temperature > 0.0 ? this->GetBandFlux(temperature, band) : 0.0);
 }
 } // namespace
 
@@ -202,9 +381,8 @@ const char* vtkRadiosityMaterials::GetDefaultName(int array)
 bool vtkRadiosityMaterials::Read(vtkDataObject* input, const vtkPatchScene& scene,
   const std::vector<std::string>& names, std::string& error)
 {
-  Arrays arrays;
-  if (!arrays.Gather(input, scene, names, error) || !(error = arrays.CheckBands()).empty() ||
-    !(error = arrays.CheckCombination()).empty() || !(error = arrays.CheckRanges(scene)).empty())
+  Arrays arrays(*this);
+  if (!arrays.Gather(input, scene, names, error) || !(error = arrays.Check(scene)).empty())
   {
     return false;
   }
@@ -215,8 +393,18 @@ bool vtkRadiosityMaterials::Read(vtkDataObject* input, const vtkPatchScene& scen
     {
       this->Emission.push_back(arrays.GetEmission(patch, band));
       this->Reflectance.push_back(arrays.GetReflectance(patch, band));
-      this->DirectIrradiance.push_back(arrays.GetDirectIrradiance(patch, band));
+      this->DirectIrradiance.push_back(arrays.Get(DIRECT_IRRADIANCE, patch, band));
     }
+    if (arrays.IsThermal())
+    {
+      this->Temperature.push_back(arrays.Get(TEMPERATURE, patch, 0));
+      this->Emissivity.push_back(arrays.Get(EMISSIVITY, patch, 0));
+      this->HasGivenFlux.push_back(arrays.HasGivenFlux(patch));
+    }
+  }
+  for (int band = 0; band < this->NumberOfBands; ++band)
+  {
+    this->Background.push_back(arrays.GetBackground(band));
   }
   return true;
 }
@@ -237,13 +425,61 @@ std::vector<bool> vtkRadiosityMaterials::FindSenders() const
 }
 
 //------------------------------------------------------------------------------
+bool vtkRadiosityMaterials::HasBackground() const
+{
+  return this->BackgroundTemperature > 0.0 ||
+    std::any_of(this->BackgroundRadiance.begin(), this->BackgroundRadiance.end(),
+      [](double radiance) { return radiance > 0.0; });
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosityMaterials::AddBackground(const std::vector<double>& skyFractions)
+{
+  for (std::size_t k = 0; k < this->DirectIrradiance.size(); ++k)
+  {
+    this->DirectIrradiance[k] +=
+      skyFractions[k / this->NumberOfBands] * this->Background[k % this->NumberOfBands];
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosityMaterials::HasGivenFluxes() const
+{
+  return std::find(this->HasGivenFlux.begin(), this->HasGivenFlux.end(), true) !=
+    this->HasGivenFlux.end();
+}
+
+//------------------------------------------------------------------------------
+// q = emissivity (sigma T^4 - H). One band, where any flux is given.
+std::vector<double> vtkRadiosityMaterials::ComputeTemperatures(
+  const std::vector<double>& irradiance, double tolerance, vtkIdType& impossible) const
+{
+  std::vector<double> temperatures = this->Temperature;
+  impossible = 0;
+  for (std::size_t patch = 0; patch < temperatures.size(); ++patch)
+  {
+    if (this->HasGivenFlux[patch])
+    {
+      const double flux = this->Emission[patch];
+      const double black = irradiance[patch] + (flux == 0.0 ? 0.0 : flux / this->Emissivity[patch]);
+      temperatures[patch] = std::pow(std::max(black, 0.0) / StefanBoltzmann, 0.25);
+      impossible += black < -tolerance ? 1 : 0;
+    }
+  }
+  return temperatures;
+}
+
+//------------------------------------------------------------------------------
 std::vector<double> vtkRadiosityMaterials::GetPointMaterials() const
 {
   std::vector<double> materials;
   for (std::size_t k = 0; k < this->Reflectance.size(); ++k)
   {
-    materials.push_back(this->Reflectance[k]);
-    materials.push_back(this->Emission[k] > 0.0 ? 1.0 : 0.0);
+    const std::size_t patch = k / this->NumberOfBands;
+    const bool isFluxGiven = this->IsThermal() && this->HasGivenFlux[patch];
+    const double emits = this->Emission[k] > 0.0 ? 1.0 : 0.0;
+    materials.push_back(isFluxGiven ? 1.0 - this->Emissivity[patch] : this->Reflectance[k]);
+    materials.push_back(isFluxGiven ? -1.0 : emits);
   }
   return materials;
 }

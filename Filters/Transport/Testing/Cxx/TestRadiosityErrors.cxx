@@ -155,6 +155,102 @@ void TestArrays()
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeThermalScene()
+{
+  auto room = MakeRoom(2);
+  AddArray(room, "Temperature", { 300.0 });
+  AddArray(room, "Emissivity", { 0.5 });
+  return room;
+}
+
+//------------------------------------------------------------------------------
+void TestGivenFluxes()
+{
+  auto scene = MakeThermalScene();
+  vtkDoubleArray* flux = AddArray(scene, "PrescribedNetFlux", { 10.0 });
+  Expect(scene, "nothing says where it holds");
+  vtkDoubleArray* condition = AddArray(scene, "BoundaryCondition", { 0.0 });
+  condition->SetValue(5, 2.0);
+  Expect(scene, "\"BoundaryCondition\" is 2.000000 at polygon 5");
+  condition->SetValue(5, 0.5);
+  Expect(scene, "must be 0");
+  condition->SetValue(5, 1.0);
+  flux->SetValue(5, vtkMath::Nan());
+  Expect(scene, "not finite");
+  flux->SetValue(5, 10.0);
+  vtkDataArray* emissivity = scene->GetCellData()->GetArray("Emissivity");
+  emissivity->SetComponent(5, 0, 0.0);
+  Expect(scene, "\"Emissivity\" is 0 at polygon 5");
+  emissivity->SetComponent(5, 0, 0.5);
+  Expect(scene, "no BandLimits",
+    [](vtkRadiosity* radiosity)
+    {
+      radiosity->AddBandLimit(0.0);
+      radiosity->AddBandLimit(10.0);
+    });
+  condition->Fill(1.0);
+  Expect(scene, "each closed part of the scene needs a patch with a given temperature");
+  // Where there are no temperatures the same arrays belong to something else.
+  auto other = MakeScene();
+  AddArray(other, "BoundaryCondition", { 7.0 });
+  AddArray(other, "PrescribedNetFlux", { vtkMath::Nan() });
+  vtkNew<vtkRadiosity> radiosity;
+  radiosity->SetInputData(other);
+  radiosity->Update();
+  Check(radiosity->GetPolyDataOutput()->GetCellData()->HasArray("Radiosity"), "ignored arrays");
+}
+
+//------------------------------------------------------------------------------
+void TestBandsAndBackground()
+{
+  const auto setLimits = [](const std::vector<double>& limits)
+  {
+    return [limits](vtkRadiosity* radiosity)
+    {
+      for (const double limit : limits)
+      {
+        radiosity->AddBandLimit(limit);
+      }
+    };
+  };
+  auto scene = MakeThermalScene();
+  for (const auto& limits : std::vector<std::vector<double>>{ { 5.0 }, { 5.0, 5.0 }, { 5.0, 3.0 },
+         { -1.0, 3.0 }, { 0.0, vtkMath::Nan() }, { vtkMath::Nan(), 1.0 } })
+  {
+    Expect(scene, "BandLimits are no limits", setLimits(limits));
+  }
+  AddArray(scene, "Emissivity", { 0.5, 0.5, 0.5 });
+  Expect(scene, "set BandLimits");
+  Expect(scene, "\"Emissivity\" has 3 components where BandLimits has 2", setLimits({ 0, 5, 9 }));
+  Expect(scene, "\"Emissivity\" has 3 components where BandLimits has 1", setLimits({ 0, 5 }));
+  AddArray(scene, "Temperature", { 300.0, 300.0, 300.0 });
+  Expect(scene, "one temperature", setLimits({ 0, 5, 9, 20 }));
+
+  auto light = MakeScene();
+  AddArray(light, "Emission", { 1.0, 2.0 });
+  Expect(light, "BackgroundTemperature gives the total of one band",
+    [](vtkRadiosity* radiosity) { radiosity->SetBackgroundTemperature(3.0); });
+  for (const double bad : { -1.0, vtkMath::Nan(), vtkMath::Inf() })
+  {
+    Expect(light, "BackgroundRadiance at least 0",
+      [bad](vtkRadiosity* radiosity) { radiosity->SetBackgroundRadiance(bad); });
+  }
+  Expect(light, "BackgroundTemperature must be",
+    [](vtkRadiosity* radiosity) { radiosity->SetBackgroundTemperature(vtkMath::Nan()); });
+  Expect(light, "BackgroundRadiance has 3 components",
+    [](vtkRadiosity* radiosity)
+    {
+      for (int band = 0; band < 3; ++band)
+      {
+        radiosity->AddBackgroundRadiance(1.0);
+      }
+    });
+  light->GetCellData()->RemoveArray("Emission");
+  Expect(light, "Nothing emits",
+    [](vtkRadiosity* radiosity) { radiosity->SetBackgroundRadiance(0.0); });
+}
+
+//------------------------------------------------------------------------------
 void TestSolvers()
 {
   auto scene = MakeScene();
@@ -229,6 +325,8 @@ int TestRadiosityErrors(int, char*[])
 {
   TestGeometry();
   TestArrays();
+  TestGivenFluxes();
+  TestBandsAndBackground();
   TestSolvers();
   TestAbort();
   return Result();
