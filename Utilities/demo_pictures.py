@@ -3,36 +3,15 @@
 """Pictures of results, off screen, for demo.py and for the tests."""
 
 import vtklighttransport as lt
-import vtkmodules.vtkRenderingOpenGL2  # The mappers of OpenGL register here.
-from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkPolyDataMapper,
-    vtkRenderer,
-    vtkWindowToImageFilter,
+from vtklighttransport.pictures import (
+    color_by_array,
+    make_actor,
+    make_window,
+    render_light,
+    write_picture,
 )
-
-
-def make_window(renderer, size):
-    window = lt.vtkOffScreenOpenGLRenderWindow()
-    window.SetSize(size, size)
-    window.SetMultiSamples(0)
-    window.AddRenderer(renderer)
-    return window
-
-
-def write_picture(window, file):
-    window.Render()
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.SetInputBufferTypeToRGB()
-    grab.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetFileName(file)
-    writer.SetInputConnection(grab.GetOutputPort())
-    writer.Write()
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 
 def look_into_cornell_box(renderer):
@@ -47,22 +26,12 @@ def look_into_cornell_box(renderer):
 
 def render_colored_by_array(file, surface, name, color_range, look, size=512):
     """As ParaView colours a surface by an array: a lookup table through a scalar mapper. `look` places the camera."""
-    table = vtkLookupTable()
-    table.SetHueRange(0.667, 0.0)
-    table.Build()
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(surface)
-    mapper.SetScalarModeToUsePointFieldData()
-    mapper.SelectColorArray(name)
-    mapper.SetLookupTable(table)
-    mapper.SetScalarRange(color_range)
-    mapper.InterpolateScalarsBeforeMappingOn()
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().LightingOff()
+    actor = make_actor(surface)
+    actor.GetProperty().BackfaceCullingOff()
+    color_by_array(actor, name, color_range)
     renderer = vtkRenderer()
     renderer.AddActor(actor)
-    window = make_window(renderer, size)
+    window = make_window(renderer, (size, size))
     look(renderer)
     write_picture(window, file)
     window.Finalize()
@@ -70,21 +39,7 @@ def render_colored_by_array(file, surface, name, color_range, look, size=512):
 
 def render_cornell_box(file, surface, size=512):
     """Radiosity as light: the lamp is far beyond white, the room fills the range."""
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(surface)
-    mapper.ScalarVisibilityOff()
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().BackfaceCullingOn()
-    light = lt.vtkRadiosityPass()
-    light.SetExposure(8.0)
-    renderer = vtkRenderer()
-    renderer.AddActor(actor)
-    renderer.SetPass(light)
-    window = make_window(renderer, size)
-    look_into_cornell_box(renderer)
-    write_picture(window, file)
-    window.Finalize()
+    render_light(file, surface, 8.0, look_into_cornell_box, (size, size))
 
 
 def render_bunny(file, surface, refractive_index, light, size=512):
@@ -111,7 +66,7 @@ def render_bunny(file, surface, refractive_index, light, size=512):
     renderer.AddLight(light)
     renderer.AddActor(actor)
     renderer.SetPass(scattered)
-    window = make_window(renderer, size)
+    window = make_window(renderer, (size, size))
     camera = renderer.GetActiveCamera()
     camera.SetPosition(0.0, 8.0, 30.0)
     camera.SetFocalPoint(0.0, 4.8, 0.0)

@@ -14,7 +14,7 @@ packages=(
   paraview-dev python3-paraview libopenmpi-dev openmpi-bin
   libdouble-conversion-dev libfreetype-dev libglew-dev libegl-dev libopengl-dev libosmesa6-dev
   libcgal-dev libeigen3-dev libembree-dev libopenexr-dev
-  python3-numpy python3-matplotlib)
+  python3-numpy)
 
 say()
 {
