@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m vtklighttransport report: its table, its page, its pictures, what it says when it cannot."""
+"""python3 -m vtklighttransport report: its table, its page, its pictures and its messages."""
 
 import csv
 import math
@@ -22,15 +22,15 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all", "bytes", "links",
-           "iterations", "error_bound")
+NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all", "bytes",
+           "links", "iterations", "error_bound")
 ERRORS = ("error_l2", "error_max", "error_irradiance")
 COLUMNS = {"method", "solver", "reference", "device", *NUMBERS, *ERRORS}
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
 def make_room(bands=3):
-    """A lit cube seen from inside, without its far side (z = 1), and a screen that hides much of it."""
+    """A lit cube seen from inside, without its far side (z = 1), and a screen that hides much."""
     points = [(corner & 1, corner >> 1 & 1, corner >> 2) for corner in range(8)]
     points += [(0.3, 0.2, 0.5), (0.7, 0.2, 0.45), (0.7, 0.8, 0.5), (0.3, 0.8, 0.55)]
     polygons = [face for face in FACES if face != (4, 6, 7, 5)]
@@ -63,7 +63,7 @@ class TestReport(unittest.TestCase):
     def save(self, name, surface):
         writer = vtkXMLPolyDataWriter()
         writer.SetInputData(surface)
-        # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+        # Encoded: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
         writer.SetDataModeToBinary()
         writer.SetFileName(self.path(name))
         self.assertEqual(writer.Write(), 1)
@@ -74,8 +74,8 @@ class TestReport(unittest.TestCase):
                 "--device", "cpu", *arguments]
 
     def run_command(self, *arguments, **options):
-        return subprocess.run(self.make_command(*arguments, **options), capture_output=True, text=True,
-                              timeout=200, check=False)
+        return subprocess.run(self.make_command(*arguments, **options), capture_output=True,
+                              text=True, timeout=200, check=False)
 
     def read_table(self):
         with open(self.path("report", "report.csv"), newline="", encoding="utf-8") as stream:
@@ -108,8 +108,8 @@ class TestReport(unittest.TestCase):
     def test_report(self):
         source = self.save("room.vtp", make_room())
         result = self.run_command(
-            source, "--levels", "1", "--dense-tolerances", "1e-1,1e-3", "--link-tolerances", "1e-1,1e-2",
-            "--reference-tolerance", "1e-5")
+            source, "--levels", "1", "--dense-tolerances", "1e-1,1e-3",
+            "--link-tolerances", "1e-1,1e-2", "--reference-tolerance", "1e-5")
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = self.read_table()
         self.check_rows(rows)
@@ -139,14 +139,14 @@ class TestReport(unittest.TestCase):
         for name in ERRORS:
             coarse, fine = (float(row[name]) for row in dense)
             self.assertLess(fine, coarse / 3.0)
-            # Rows of the matrix are off by less than their tolerance, and light fades by 0.6 a bounce.
+            # Rows of the matrix are off by less than their tolerance; a bounce leaves 0.6.
             self.assertLess(coarse, 0.1 / (1.0 - 0.6))
             self.assertLess(fine, 1e-3 / (1.0 - 0.6))
         for row in rows[1:]:
             self.assertEqual(row["reference"], "Dense 1e-05")
 
     def test_above_the_limit(self):
-        """Nothing dense there: the finest of the other methods is the reference, or nothing is left."""
+        """Nothing dense there: the finest of the other methods is the reference."""
         source = self.save("room.vtp", make_room(1))
         result = self.run_command(source, "--levels", "1", "--dense-tolerances", "1e-1",
                                   "--link-tolerances", "1e-1,1e-3", "--reference-limit", "20")
@@ -194,8 +194,8 @@ class TestReport(unittest.TestCase):
                 ((room,), "taken", 1, "taken: it is a file, not a folder"),
                 ((room,), "taken/report", 1, "taken/report: Not a directory"),
                 ((room, "--levels", "-1"), "report", 2, "--levels: -1 is out of range"),
-                ((room, "--dense-tolerances", "1e-2,5"), "report", 2, "--dense-tolerances: 5 is out"),
-                ((room, "--dense-tolerances", "1e-2;5"), "report", 2, "--dense-tolerances: '1e-2;5'"),
+                ((room, "--dense-tolerances", "1e-2,5"), "report", 2, "tolerances: 5 is out of range"),
+                ((room, "--dense-tolerances", "1e-2;5"), "report", 2, "-tolerances: '1e-2;5'"),
                 ((room, "--solvers", "auto,magic"), "report", 2, "'magic' is none of auto, "),
                 ((room, "--view", "1,2"), "report", 2, "'1,2' is not X,Y,Z")):
             result = self.run_command(*arguments, folder=folder)

@@ -173,8 +173,8 @@ def make_parser():
     radiosity = add_filter(
         commands, "radiosity", "diffuse interreflection: B = E + rho F B",
         "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the "
-        "cell arrays Emission and Reflectance, or Temperature and Emissivity; with a light Emission "
-        "may be missing.")
+        "cell arrays Emission and Reflectance, or Temperature and Emissivity; with a light "
+        "Emission may be missing.")
     add_properties(radiosity, "vtkRadiosity", RADIOSITY)
     scatter = add_filter(
         commands, "scatter", "diffuse subsurface scattering",
@@ -217,8 +217,8 @@ def add_report(commands):
     command = add_command(
         commands, "report", "error of radiosity against run time",
         "Computes the radiosity of a scene by several methods, at several tolerances, on the scene "
-        "as it is and subdivided, and writes report.csv, report.html and their pictures. Ctrl-C ends "
-        "it with what was measured until then.")
+        "as it is and subdivided, and writes report.csv, report.html and their pictures. Ctrl-C "
+        "ends it with what was measured until then.")
     command.add_argument("folder", help="where the report goes; made when missing")
     choices = find_choices(lt.vtkRadiosity, "SOLVER_") if hasattr(lt, "vtkRadiosity") else {}
     command.add_argument("--solvers", type=make_list_parser(str, choices), default=["auto"],
@@ -254,7 +254,8 @@ def join_negative_values(arguments):
     """`--light -1,0,0` as `--light=-1,0,0`: argparse takes what begins with - for an option."""
     joined = []
     for argument in arguments:
-        if joined and joined[-1] in ("--light", "--point-light", "--view") and re.match(r"-[\d.]", argument):
+        if (joined and joined[-1] in ("--light", "--point-light", "--view")
+                and re.match(r"-[\d.]", argument)):
             joined[-1] += "=" + argument
         else:
             joined.append(argument)
@@ -267,7 +268,7 @@ def write(data, options, messages):
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetFileName(unfinished)
-    # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+    # Encoded: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
     writer.SetDataModeToBinary()
     try:
         if not writer.Write() or messages.errors:

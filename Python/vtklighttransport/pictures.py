@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of surfaces and their arrays, off screen, as PNG; needs numpy and the Rendering module."""
+"""Pictures of surfaces and their arrays, off screen, as PNG.
+
+Needs numpy and the Rendering module.
+"""
 
 import math
 

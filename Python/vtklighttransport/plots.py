@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of lines on logarithmic axes, by VTK's charts, as PNG; needs numpy and the Rendering module."""
+"""Plots of lines on logarithmic axes, by VTK's charts, as PNG.
+
+Needs numpy and the Rendering module.
+"""
 
 import colorsys
 import math

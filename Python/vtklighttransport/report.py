@@ -162,12 +162,13 @@ class Report:
         if surface.GetNumberOfCells() > self.options.reference_limit:
             return None
         return self.measure(dense, self.options.reference_tolerance, surface, None,
-                            REFERENCE_SOLVER_TOLERANCE)
+                            REFERENCE_SOLVER_TOLERANCE, repeat=1)
 
-    def measure(self, method, tolerance, surface, reference, solver_tolerance=None):
+    def measure(self, method, tolerance, surface, reference, solver_tolerance=None, repeat=None):
         """A row of the table; returns the reference that it is where there was none."""
         try:
-            solution = self.compute(method, tolerance, surface, solver_tolerance)
+            solution = self.compute(method, tolerance, surface, solver_tolerance,
+                                    repeat or self.options.repeat)
         except Failure:
             self.note(f"{method.name} {tolerance:g}, {surface.GetNumberOfCells():,} patches: "
                       f"{self.take_errors()}")
@@ -185,10 +186,10 @@ class Report:
             self.worst[method.name, method.solver] = (solution, errors)
         return None
 
-    def compute(self, method, tolerance, surface, solver_tolerance=None):
-        """Runs the filter as often as asked for; the times are medians."""
+    def compute(self, method, tolerance, surface, solver_tolerance=None, repeat=1):
+        """The times are medians over the runs."""
         times = []
-        for _ in range(self.options.repeat):
+        for _ in range(repeat):
             radiosity = self.make_filter(method, tolerance, solver_tolerance)
             stage = Stage(f"{method.name} {tolerance:g}", radiosity,
                           self.options.quiet or not sys.stderr.isatty())
@@ -199,7 +200,7 @@ class Report:
                           get_summary(result, "SolverSeconds"), seconds))
         if not get_summary(result, "Converged"):
             self.note(f"{method.name} {tolerance:g}, {surface.GetNumberOfCells():,} patches: the "
-                      "solver stopped before it reached its tolerance; the row shows how far it came")
+                      "solver stopped before its tolerance; the row shows how far it came")
         values = get_cell_array(result, "Radiosity").reshape(result.GetNumberOfCells(), -1)
         row = dict.fromkeys(COLUMNS, "")
         links, solver, everything = (statistics.median(column) for column in zip(*times))
@@ -268,7 +269,8 @@ def get_first(result, *names):
 def count_links(result):
     links = get_summary(result, "NumberOfLinks")
     if links is None:
-        links = sum(get_summary(result, name) for name in ("PairsUnobstructed", "PairsPartlyVisible"))
+        links = sum(get_summary(result, name)
+                    for name in ("PairsUnobstructed", "PairsPartlyVisible"))
     return int(links)
 
 
@@ -321,7 +323,8 @@ def run(options, messages, arrays, surface):
     except FileExistsError as error:
         raise Failure(f"cannot write {options.folder}: it is a file, not a folder") from error
     except OSError as error:
-        raise Failure(f"cannot write {error.filename or options.folder}: {error.strerror}") from error
+        name = error.filename or options.folder
+        raise Failure(f"cannot write {name}: {error.strerror}") from error
     finally:
         if report.stream:
             report.stream.close()

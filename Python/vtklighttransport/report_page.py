@@ -17,7 +17,8 @@ from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 STYLE = """
-body { font: 16px/1.5 sans-serif; max-width: 60em; margin: 0 auto; padding: 0 1em 2em; color: #222; }
+body { font: 16px/1.5 sans-serif; color: #222; max-width: 60em; margin: 0 auto; }
+body { padding: 0 1em 2em; }
 h1, h2 { line-height: 1.2; }
 img { max-width: 100%; height: auto; }
 figure { margin: 1em 0; }
@@ -108,7 +109,7 @@ class Page:
             "Patches": ", ".join(f"{size:,}" for size in sizes) or "none were computed",
             "Solver": f"to a relative error bound of {options.solver_tolerance:g}",
             "Times": "of one run each" if options.repeat == 1
-                     else f"medians of {options.repeat} runs each",
+                     else f"medians of {options.repeat} runs each, dense references of one",
             "Machine": describe_machine(),
             "Versions": f"vtkLightTransport {lt.__version__}, VTK {vtkVersion.GetVTKVersion()}, "
                         f"Python {platform.python_version()}",
@@ -121,14 +122,16 @@ class Page:
                                   for name, text in facts.items()) + "</dl>")
         self.add_paragraph(
             "Errors are differences from a reference on the same patches, so they tell what links, "
-            "their tolerances and the solver cost, and nothing of the patches themselves. L2 is the root "
-            "mean square over area and bands, relative to that of the reference; L2 of H is the same for "
-            "irradiance; the largest error and the bound are relative to the largest radiosity. The "
-            "bound is the solver's own, and knows nothing of errors of the links.")
+            "their tolerances and the solver cost, and nothing of the patches themselves. L2 is the "
+            "root mean square over area and bands, relative to that of the reference; L2 of H is the "
+            "same for irradiance, which no emission hides; the largest error and the bound are "
+            "relative to the largest radiosity. The bound is the solver's own, and knows nothing of "
+            "errors of the links.")
         if any(row["reference"] == ITSELF and row["method"] != "Dense" for row in self.rows):
             self.add_paragraph(
-                "Above --reference-limit patches nothing dense was computed: there the reference is the "
-                "finest result of another method (column \"reference\"), and errors are relative to it.")
+                "Above --reference-limit patches nothing dense was computed: there the reference is "
+                "the finest result of another method (column \"reference\"), and its own error is "
+                "not known.")
 
     def add_errors(self):
         self.add("<h2>Error against run time</h2>")
@@ -147,10 +150,11 @@ class Page:
         if not groups:
             return
         self.add("<h2>Growth with the number of patches</h2>")
-        for name, column, title in (("growth_links.png", "links", "links"),
-                                    ("growth_seconds.png", "seconds_links", "seconds for the links")):
-            self.add_figure(name, f"{title[0].upper()}{title[1:]} against patches.",
-                            lambda file, c=column, t=title: plot_growth(file, groups, c, t))
+        for name, column, title in (
+                ("growth_links.png", "links", "Links"),
+                ("growth_seconds.png", "seconds_links", "Seconds for the links")):
+            self.add_figure(name, f"{title} against patches.",
+                            lambda file, c=column, t=title: plot_growth(file, groups, c, t.lower()))
         columns = ("links", "bytes", "seconds_links", "seconds_solver")
         self.add_paragraph(
             f"Exponents k of patches^k, fitted to the largest {SIZES_TO_FIT} sizes of each line:")
@@ -183,8 +187,8 @@ class Page:
             lambda file: draw_solution(file, solution, look))
         for number, (worst, errors) in enumerate(self.report.worst.values()):
             place = find_middle(worst.surface, int(errors.argmax()))
-            caption = (f"Where the error is: {describe(worst.row)}, {worst.row['patches']:,} patches. "
-                       f"It is largest, {errors.max():.1e} of the largest radiosity, on patch "
+            caption = (f"Where the error is: {describe(worst.row)}, {worst.row['patches']:,} "
+                       f"patches. It is largest, {errors.max():.1e} of the largest radiosity, on patch "
                        f"{int(errors.argmax())} at ({place}).")
             self.add_figure(f"error_{number + 1}.png", caption,
                             lambda file, w=worst, e=errors: draw_error(file, w.surface, e, look))
