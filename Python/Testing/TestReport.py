@@ -73,9 +73,12 @@ class TestReport(unittest.TestCase):
         return [sys.executable, "-m", "vtklighttransport", "report", source, self.path(folder),
                 "--device", "cpu", *arguments]
 
-    def run_command(self, *arguments, **options):
+    def run_command(self, *arguments, window="", **options):
+        environment = dict(os.environ)
+        if window:
+            environment["VTK_DEFAULT_OPENGL_WINDOW"] = window
         return subprocess.run(self.make_command(*arguments, **options), capture_output=True,
-                              text=True, timeout=200, check=False)
+                              text=True, timeout=200, check=False, env=environment)
 
     def read_table(self):
         with open(self.path("report", "report.csv"), newline="", encoding="utf-8") as stream:
@@ -109,7 +112,7 @@ class TestReport(unittest.TestCase):
         source = self.save("room.vtp", make_room())
         result = self.run_command(
             source, "--levels", "1", "--dense-tolerances", "1e-1,1e-3",
-            "--link-tolerances", "1e-1,1e-2", "--reference-tolerance", "1e-5")
+            "--link-tolerances", "1e-1,1e-2", "--reference-tolerance", "1e-4")
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = self.read_table()
         self.check_rows(rows)
@@ -124,7 +127,7 @@ class TestReport(unittest.TestCase):
             self.assertGreaterEqual(len(re.findall(rf"^\w.* {patches} .* CPU$", result.stdout,
                                                    re.MULTILINE)), len(own))
         text, pictures = self.read_page()
-        for words in ("room.vtp", "14, 56", "Dense 1e-05", "cores used", lt.__version__):
+        for words in ("room.vtp", "14, 56", "Dense 0.0001", "cores used", lt.__version__):
             self.assertIn(words, text)
         self.assertNotIn(self.folder, text)
         self.assertEqual(len(pictures), 4 + len(methods))
@@ -132,7 +135,7 @@ class TestReport(unittest.TestCase):
 
     def check_errors(self, rows):
         reference = rows[0]
-        self.assertEqual((reference["method"], reference["tolerance"]), ("Dense", "1e-05"))
+        self.assertEqual((reference["method"], reference["tolerance"]), ("Dense", "0.0001"))
         self.assertEqual([reference[name] for name in ERRORS], [""] * 3)
         dense = [row for row in rows[1:] if row["method"] == "Dense"]
         self.assertEqual([row["tolerance"] for row in dense], ["0.1", "0.001"])
@@ -143,7 +146,7 @@ class TestReport(unittest.TestCase):
             self.assertLess(coarse, 0.1 / (1.0 - 0.6))
             self.assertLess(fine, 1e-3 / (1.0 - 0.6))
         for row in rows[1:]:
-            self.assertEqual(row["reference"], "Dense 1e-05")
+            self.assertEqual(row["reference"], "Dense 0.0001")
 
     def test_above_the_limit(self):
         """Nothing dense there: the finest of the other methods is the reference."""
@@ -164,6 +167,17 @@ class TestReport(unittest.TestCase):
                          [("Hierarchical", "0.001", "is the reference"),
                           ("Hierarchical", "0.1", "Hierarchical 0.001")])
         self.assertIn("finest result of another method", text)
+
+    def test_without_context(self):
+        source = self.save("room.vtp", make_room())
+        arguments = ("--levels", "0", "--dense-tolerances", "1e-1", "--link-tolerances", "1e-1")
+        result = self.run_command(source, *arguments, window="none")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.check_rows(self.read_table())
+        text, pictures = self.read_page()
+        self.assertEqual(pictures, [])
+        self.assertEqual(text.count("Plots and pictures: No OpenGL context"), 1)
+        self.assertEqual(sorted(os.listdir(self.path("report"))), ["report.csv", "report.html"])
 
     def test_interrupted(self):
         """Rows are written as they come; the page tells of them."""

@@ -75,15 +75,19 @@ class Page:
                 f"<h1>{escape(self.title)}</h1>\n{body}\n</body>\n</html>\n")
 
     def add_figure(self, name, caption, draw):
-        """A picture that `draw(file)` makes; where it cannot, the page says why."""
+        """A picture that `draw(file)` makes; the first that cannot be made is the last one tried."""
         if self.without_pictures:
             return
         file = os.path.join(self.report.options.folder, name)
         if os.path.exists(file):
             os.remove(file)
         draw(file)
-        if self.report.messages.errors or not os.path.exists(file):
-            self.report.note(f"{name}: {self.report.take_errors() or 'it could not be drawn'}")
+        if self.report.messages.errors:
+            self.without_pictures = self.report.take_errors()
+            self.report.note("Plots and pictures: " + self.without_pictures)
+            # Whatever there is, it is blank.
+            if os.path.exists(file):
+                os.remove(file)
             return
         self.add(f'<figure><img src="{name}" alt="{escape(caption)}"/>'
                  f"<figcaption>{escape(caption)}</figcaption></figure>")
@@ -183,7 +187,8 @@ class Page:
         self.add("<h2>Pictures</h2>")
         self.add_figure(
             "solution.png", f"The reference with {solution.row['patches']:,} patches: "
-            f"{describe(solution.row)}. Patches are seen from their front only.",
+            f"{describe(solution.row)}. Patches are seen from their front only; the brightest "
+            "twentieth of the area may be beyond the range of the picture.",
             lambda file: draw_solution(file, solution, look))
         for number, (worst, errors) in enumerate(self.report.worst.values()):
             place = find_middle(worst.surface, int(errors.argmax()))
