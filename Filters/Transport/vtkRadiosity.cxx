@@ -73,7 +73,6 @@ struct vtkRadiosity::Problem
   const std::vector<double>* Areas = nullptr; // in the exchange matrix's unit
   std::vector<double> Irradiance;             // patches x bands
   vtkRadiositySolution Solution;
-  std::string SolverUsed;
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
@@ -137,7 +136,7 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
     return 0;
   }
   AddBackground(viewFactors, problem);
-  if (!this->Solve(viewFactors, problem, vtkTable::GetData(outputs, 1)))
+  if (!this->Solve(scene, viewFactors, problem, vtkTable::GetData(outputs, 1)))
   {
     return 0;
   }
@@ -147,22 +146,15 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
 }
 
 //------------------------------------------------------------------------------
-int vtkRadiosity::GetChosenSolver() const
-{
-  return this->Solver == SOLVER_AUTO ? SOLVER_CONJUGATE_GRADIENT : this->Solver;
-}
-
-//------------------------------------------------------------------------------
 bool vtkRadiosity::CheckSolver()
 {
-  const int chosen = this->GetChosenSolver();
-  if (!vtkRadiositySolvers::IsSequential(chosen))
+  if (!vtkRadiositySolvers::IsSequential(this->Solver))
   {
     return this->CheckDevice(this->Device);
   }
   if (this->Device == DEVICE_OPENGL || this->GetNumberOfRanks() > 1)
   {
-    vtkErrorMacro(<< vtkRadiositySolvers::GetName(chosen)
+    vtkErrorMacro(<< vtkRadiositySolvers::GetName(this->Solver)
                   << " goes from patch to patch and runs on the CPU of one process: set Device to "
                      "Auto or CPU on one process, or use Jacobi, Chebyshev or ConjugateGradient.");
     return false;
@@ -221,12 +213,12 @@ void vtkRadiosity::AddBackground(const vtkViewFactors* viewFactors, Problem& pro
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence)
+bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
+  vtkTable* convergence)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
-  const int chosen = this->GetChosenSolver();
   vtkExchangeMatrix* exchange = viewFactors->GetExchange();
-  const int device = vtkRadiositySolvers::IsSequential(chosen) ? DEVICE_CPU : this->Device;
+  const int device = vtkRadiositySolvers::IsSequential(this->Solver) ? DEVICE_CPU : this->Device;
   auto links = this->MakeLinkOperator(device, exchange, problem.Materials.NumberOfBands,
     problem.DeviceExplanation);
   auto reference =
@@ -239,7 +231,7 @@ bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable
   vtkRadiosityProblem equation;
   equation.Operator = links;
   equation.Reference = reference;
-  equation.Solver = chosen;
+  equation.Solver = this->Solver;
   equation.NumberOfPatches = exchange->GetNumberOfPatches();
   equation.NumberOfBands = problem.Materials.NumberOfBands;
   equation.Areas = problem.Areas;
@@ -254,11 +246,11 @@ bool vtkRadiosity::Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable
   }
   equation.Tolerance = this->Tolerance;
   equation.MaximumNumberOfIterations = this->MaximumNumberOfIterations;
+  equation.GetPolygon = [&scene](vtkIdType patch) { return scene.GetPolygon(patch); };
   this->SetProgressStage(ViewFactorsDone, SolverDone);
   this->RecordConvergence(equation, convergence, begin);
 
   problem.Solution = vtkRadiositySolvers::Solve(equation);
-  problem.SolverUsed = vtkRadiositySolvers::GetName(chosen);
   problem.DeviceUsed = links->GetDeviceName();
   problem.SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
   return this->Finish(reference, problem);
@@ -314,15 +306,13 @@ bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
     vtkErrorMacro(<< solution.Error << hint);
     return false;
   }
-  if (solution.Aborted)
+  if (solution.Status == vtkRadiosityStatus::Aborted)
   {
     return false;
   }
-  if (!solution.Converged)
+  if (!solution.Warning.empty())
   {
-    vtkWarningMacro(<< problem.SolverUsed << " stopped after " << solution.NumberOfIterations
-                    << " iterations with an error bound of " << solution.ErrorBound
-                    << ": raise MaximumNumberOfIterations or Tolerance, or use ConjugateGradient.");
+    vtkWarningMacro(<< solution.Warning);
   }
   problem.Irradiance.resize(solution.Radiosity.size());
   if (!links->SetVector(0, solution.Radiosity.data()) || !links->Multiply(1, 0) ||
@@ -359,12 +349,15 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
   this->WriteThermal(scene, problem, flux, output);
 
   vtkFieldData* fields = output->GetFieldData();
-  AddSummary(fields, "SolverUsed", problem.SolverUsed);
+  const vtkRadiositySolution& solution = problem.Solution;
+  AddSummary(fields, "SolverUsed", std::string(vtkRadiositySolvers::GetName(solution.Solver)));
+  AddSummary(fields, "SolverExplanation", solution.Explanation);
+  AddSummary(fields, "SolverStatus", std::string(vtkRadiositySolvers::GetName(solution.Status)));
   AddSummary(fields, "DeviceUsed", problem.DeviceUsed);
   AddSummary(fields, "DeviceExplanation", problem.DeviceExplanation);
-  AddSummary(fields, "NumberOfIterations", problem.Solution.NumberOfIterations);
-  AddSummary(fields, "ErrorBound", problem.Solution.ErrorBound);
-  AddSummary(fields, "Converged", problem.Solution.Converged ? 1.0 : 0.0);
+  AddSummary(fields, "NumberOfIterations", solution.NumberOfIterations);
+  AddSummary(fields, "ErrorBound", solution.ErrorBound);
+  AddSummary(fields, "Converged", solution.HasConverged() ? 1.0 : 0.0);
   AddSummary(fields, "SolverSeconds", problem.SolverSeconds);
   viewFactors->AddSummaries(fields);
 }

@@ -30,20 +30,30 @@
  * given, T with q = emissivity (sigma T^4 - H), and 0 with a warning where more is taken out than
  * any temperature allows; for an adiabatic patch of emissivity 0 the limit for small emissivities,
  * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); in field data SolverUsed,
- * DeviceUsed, NumberOfIterations, ErrorBound, Converged, SolverSeconds and the summaries of
- * vtkViewFactors. Output port 1: vtkTable "Convergence" with a row per iteration: Iteration,
- * Seconds (since the solver began), Residual (largest |E + rho H - B|) and ErrorBound (largest
- * |error of B|).
+ * SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations, ErrorBound,
+ * Converged, SolverSeconds and the summaries of vtkViewFactors. Output port 1: vtkTable
+ * "Convergence" with a row per iteration: Iteration, Seconds (since the solver began), Residual
+ * (largest |E + rho H - B|) and ErrorBound (largest |error of B|).
  *
  * The error bound is algebraic: with w > 0 such that d = (I - rho F) w > 0, |error_i| <= w_i max_j
  * |r_j| / d_j. w = 1 gives the row-sum bound; where that is infinite (rho times row sum reaches 1)
  * w is found by solving for a right-hand side of ones. The error of the discretisation (patches of
  * constant B) is another number and not in it.
  *
- * Solvers: Jacobi and Gauss-Seidel are those of Carr, Hall and Hart (2003). ConjugateGradient, the
- * choice of Auto, works on the symmetrised system (I - s G s) y = s G E with s = sqrt(rho / A) and
- * B = E + s y, all bands in lockstep. Gauss-Seidel and Southwell go from patch to patch and run on
- * the CPU of one process.
+ * Solvers: Jacobi (B' = B + E - K B, K = I - rho F) and Gauss-Seidel are those of Carr, Hall and
+ * Hart (2003). Southwell is progressive refinement (Cohen et al. 1988) with the overshooting of
+ * Feda and Purgathofer (1992). Chebyshev needs no sums over vectors. ConjugateGradient works on the
+ * symmetrised system (I - s G s) y = s G E with s = sqrt(rho / A) and B = E + s y, all bands in
+ * lockstep. Auto takes conjugate gradients, or Jacobi where so little is reflected that it needs no
+ * more products. Gauss-Seidel and Southwell go from patch to patch and run on the CPU of one
+ * process.
+ *
+ * SolverStatus is "Converged", or with a warning that names the remedy: "IterationsUsedUp",
+ * "Stagnated" (rounding lets the residual fall no further), "Diverged" (it grows). Where the
+ * equation has no unique solution (a closed part reflects all that it receives, view factors of a
+ * row sum to more than 1 / rho) or errors of the view factors decide what it is, an error names the
+ * polygon where that is so. A warning tells where they may change B by more than a tenth, and where
+ * row sums say that patches overlap.
  */
 #ifndef vtkRadiosity_h
 #define vtkRadiosity_h
@@ -78,7 +88,7 @@ public:
   };
 
   ///@{
-  /// The solver. Default SOLVER_AUTO: conjugate gradients.
+  /// The solver. Default SOLVER_AUTO: the one that needs fewest products with the links.
   vtkSetClampMacro(Solver, int, SOLVER_AUTO, SOLVER_CONJUGATE_GRADIENT);
   vtkGetMacro(Solver, int);
   void SetSolverToAuto() { this->SetSolver(SOLVER_AUTO); }
@@ -195,12 +205,12 @@ private:
   void operator=(const vtkRadiosity&) = delete;
 
   struct Problem;
-  int GetChosenSolver() const;
   bool CheckSolver();
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem);
   static void AddBackground(const vtkViewFactors* viewFactors, Problem& problem);
-  bool Solve(vtkViewFactors* viewFactors, Problem& problem, vtkTable* convergence);
+  bool Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
+    vtkTable* convergence);
   void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
   bool Finish(vtkCPULinkOperator* links, Problem& problem);
   void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,

@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Solvers for B = E + (rho / A) G B, all bands in lockstep, written against vtkLinkOperator: those
- * that only multiply and combine vectors run on any device without moving a vector per iteration.
- *
- * Sources: Jacobi and Gauss-Seidel as in Carr, Hall and Hart (2003); Southwell: progressive
- * refinement, Cohen et al. (1988); Chebyshev: Saad, Iterative Methods for Sparse Linear Systems
- * (2003), algorithm 12.1; conjugate gradients: ibid., algorithm 6.18.
+ * Solves B = E + (rho / A) G B, all bands in lockstep, with any of the methods of
+ * vtkRadiosityMethods. A solution comes with its error bound (vtkRadiosityBound), how it ended, and
+ * messages that name problem, place and remedy.
  */
 #ifndef vtkRadiositySolvers_h
 #define vtkRadiositySolvers_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkType.h"
 
 #include <functional>
@@ -20,13 +18,22 @@
 class vtkCPULinkOperator;
 class vtkLinkOperator;
 
+enum class vtkRadiosityStatus
+{
+  Converged,
+  IterationsUsedUp,
+  Stagnated, ///< rounding does not let the residual fall any further
+  Diverged,  ///< the residual grows
+  Aborted
+};
+
 struct vtkRadiosityProblem
 {
   vtkLinkOperator* Operator = nullptr;
   /// The same links on the CPU: what goes from patch to patch works on it, and residuals in double
   /// precision come from it.
   vtkCPULinkOperator* Reference = nullptr;
-  int Solver = 0; ///< vtkRadiosity::SolverType, not SOLVER_AUTO
+  int Solver = 0; ///< vtkRadiosity::SolverType
   vtkIdType NumberOfPatches = 0;
   int NumberOfBands = 0;
   const std::vector<double>* Areas = nullptr;
@@ -39,25 +46,40 @@ struct vtkRadiosityProblem
   /// Called after every iteration with its number, the largest residual and the error bound;
   /// returns false to stop (abort).
   std::function<bool(int, double, double)> Report;
+  /// The number that users know a patch by; empty: the same.
+  std::function<vtkIdType(vtkIdType)> GetPolygon;
 };
 
 struct vtkRadiositySolution
 {
+  bool HasConverged() const { return this->Status == vtkRadiosityStatus::Converged; }
+
   std::vector<double> Radiosity; ///< patches x bands
   int NumberOfIterations = 0;
   double ErrorBound = 0.0; ///< largest over bands and patches
-  bool Converged = false;
-  bool Aborted = false;
+  vtkRadiosityStatus Status = vtkRadiosityStatus::Converged;
+  int Solver = 0;          ///< vtkRadiosity::SolverType, never SOLVER_AUTO
+  std::string Explanation; ///< which solver and why
+  /// Not empty where there is a solution that users should doubt: why, and the remedy.
+  std::string Warning;
   /// Not empty after an error: the problem and the remedy.
   std::string Error;
 };
 
 namespace vtkRadiositySolvers
 {
-vtkRadiositySolution Solve(const vtkRadiosityProblem& problem);
+/**
+ * Solve, look at the residual in double precision, and where it is not yet small enough (single
+ * precision devices, the drift of a recurrence) solve again for the correction. Auto takes the
+ * method that needs the fewest products with the links.
+ */
+VTKLIGHTTRANSPORTFILTERS_EXPORT vtkRadiositySolution Solve(const vtkRadiosityProblem& problem);
 
 /// "Jacobi", "GaussSeidel", ...
-const char* GetName(int solver);
+VTKLIGHTTRANSPORTFILTERS_EXPORT const char* GetName(int solver);
+
+/// "Converged", "IterationsUsedUp", ...
+VTKLIGHTTRANSPORTFILTERS_EXPORT const char* GetName(vtkRadiosityStatus status);
 
 /// True for the solvers that go from patch to patch, which run on the CPU of one process.
 bool IsSequential(int solver);
