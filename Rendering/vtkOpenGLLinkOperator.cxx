@@ -3,20 +3,13 @@
 #include "vtkOpenGLLinkOperator.h"
 
 #include "vtkFloatTextures.h"
-#include "vtkFloatTexturesCombineFS.h"
-#include "vtkFloatTexturesPartialProductFS.h"
-#include "vtkFloatTexturesReduceFS.h"
-#include "vtkFloatTexturesScaleFS.h"
-#include "vtkFloatTexturesSumPartsFS.h"
+#include "vtkFloatVectors.h"
 #include "vtkLightTransportOpenGL.h"
+#include "vtkProductGL.h"
 
-#include "vtkExchangeMatrix.h"
+#include "vtkExchange.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkShaderProgram.h"
-
-#include <algorithm>
-#include <cmath>
 
 // Registers this class with VTK's object factory whenever the library is loaded, also where nobody
 // calls the module's own initialisation, as in a ParaView plugin.
@@ -24,432 +17,34 @@ VTK_MODULE_INIT(vtkLightTransportRendering);
 
 vtkStandardNewMacro(vtkOpenGLLinkOperator);
 
-namespace
-{
-using Group = vtkFloatTextures::Group;
-
-constexpr int TileSize = vtkExchangeMatrix::TileSize;
-/// Block that one fragment reduces, in each direction (vtkFloatTexturesReduceFS.glsl).
-constexpr int ReductionBlock = 16;
-/// No matrix texture is larger: drivers refuse huge ones long before the memory is full.
-constexpr vtkIdType MaximumMatrixTexels = vtkIdType(1) << 24;
-/// Rows times ranges of columns that keep a large GPU busy.
-constexpr vtkIdType WantedFragments = vtkIdType(1) << 18;
-/// Below this a range of columns is not worth a fragment.
-constexpr int MinimumTexelsPerSplit = 8;
-/// Textures that one draw can write everywhere.
-constexpr int MaximumOutputs = 8;
-
-constexpr int DivideUp(vtkIdType dividend, vtkIdType divisor)
-{
-  return static_cast<int>((dividend + divisor - 1) / divisor);
-}
-
-/// The largest power of two that is not above `limit`.
-int FloorPowerOfTwo(vtkIdType limit)
-{
-  int power = 1;
-  while (2 * static_cast<vtkIdType>(power) <= limit)
-  {
-    power *= 2;
-  }
-  return power;
-}
-} // namespace
-
 struct vtkOpenGLLinkOperator::Internals
 {
-  /// A piece of the matrix: all rows from FirstRow that fit, and texels (columns, or four columns
-  /// each) from FirstTexel.
-  struct MatrixTile
-  {
-    int FirstRow;
-    int Rows;
-    int FirstTexel;
-    int Texels;
-    Group Textures;
-  };
-
   vtkWeakPointer<vtkOpenGLRenderWindow> UserWindow;
   bool UsesUserWindow = false;
   vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> SharedWindow;
   std::string DeviceName = "OpenGL";
   bool Hardware = false;
 
+  ///@{ All or none of them are there.
   std::unique_ptr<vtkFloatTextures> Engine;
-  int Groups = 0;
-  bool SharedKernel = true;
-  int Rows = 0;
-  int Width = 0;
-  int Height = 0;
-  int Splits = 0;
-  /// Rows of the matrix that a fragment multiplies: 4, 2 or 1.
-  int RowsPerFragment = 1;
-  int TexelsPerSplit = 0;
-  int MaximumSize = 0;
-  int ColumnsPerTexel = 4;
-  /// Row by row; the tiles of one column range lie TilesAcross apart.
-  std::vector<MatrixTile> Tiles;
-  int TilesAcross = 0;
-  std::map<int, Group> Slots;
-  Group Spare;
-  Group Parts;
-  std::vector<Group> Reductions;
+  std::unique_ptr<vtkFloatVectors> Vectors;
+  std::unique_ptr<vtkProductGL> Product;
+  ///@}
 
   vtkOpenGLRenderWindow* GetWindow()
   {
     return this->UsesUserWindow ? this->UserWindow.Get() : this->SharedWindow.Get();
   }
 
+  bool IsAlive() const { return this->Product && this->Engine->IsAlive(); }
+
   void Clear()
   {
-    this->Tiles.clear();
-    this->Slots.clear();
-    this->Spare.clear();
-    this->Parts.clear();
-    this->Reductions.clear();
+    this->Product.reset();
+    this->Vectors.reset();
     this->Engine.reset();
   }
-
-  std::string GetDefines(int outputs, const std::string& extra = "") const
-  {
-    return "#define GROUPS " + std::to_string(this->Groups) + "\n#define MATRIX_GROUPS " +
-      std::to_string(this->SharedKernel ? 1 : this->Groups) + "\n#define ROWS " +
-      std::to_string(this->RowsPerFragment) + "\n#define OUTPUTS " + std::to_string(outputs) +
-      "\n#define SHARED_KERNEL " + (this->SharedKernel ? "1\n" : "0\n") + extra;
-  }
-
-  bool ChooseSizes(vtkIdType patches, int bands, int kernels, int maximumSize);
-  double GetMatrixBytes() const;
-  bool AllocateMatrix();
-  bool AllocateVectors();
-  void UploadMatrix(vtkExchangeMatrix* exchange);
-  void UploadBlock(int rowBlock, int columnBlock, int group, const float* texels);
-  Group& GetSlot(int slot);
-  void GetVector(const Group& vector, int bands, std::vector<float>& texels, double* values);
-
-  bool DrawPartialProducts(const Group& vector, int across);
-  bool DrawSumOfParts(const Group& target, const Group& previous, bool accumulate);
-  bool DrawCombination(const Group& target, const Group& x, const Group& y,
-    const std::vector<float>& a, const std::vector<float>& b);
-  bool DrawProduct(const Group& target, const Group& x, const Group& y);
-  bool DrawReduction(const Group& x, const Group& y, const char* name, const char* nextName);
-  bool DrawReductionStep(const Group& target, const Group& x, const Group& y, const char* name);
 };
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::ChooseSizes(vtkIdType patches, int bands, int kernels,
-  int maximumSize)
-{
-  this->MaximumSize = this->Engine->GetMaximumTextureSize();
-  if (maximumSize > 0)
-  {
-    this->MaximumSize = std::min(this->MaximumSize, std::max(maximumSize, 4));
-  }
-  this->Groups = DivideUp(bands, 4);
-  this->SharedKernel = kernels == 1;
-  this->RowsPerFragment = std::min(FloorPowerOfTwo(std::max(MaximumOutputs / this->Groups, 1)), 4);
-  this->ColumnsPerTexel = this->SharedKernel ? 4 : 1;
-  this->Rows = static_cast<int>(patches);
-  // A power of two: the rows of the vector's textures then hold whole matrix texels of four
-  // columns.
-  const vtkIdType widest = std::min(std::max<vtkIdType>(2 * patches - 1, 4), vtkIdType(1024));
-  this->Width = FloorPowerOfTwo(std::min<vtkIdType>(widest, this->MaximumSize));
-  this->Height = DivideUp(patches, this->Width);
-  if (this->Height > this->MaximumSize)
-  {
-    return false;
-  }
-  const int texels = DivideUp(patches, this->ColumnsPerTexel);
-  const int tileTexels = std::min(texels, this->MaximumSize);
-  this->TilesAcross = DivideUp(texels, tileTexels);
-  const int most = std::max(
-    std::min(DivideUp(tileTexels, MinimumTexelsPerSplit), this->MaximumSize / this->Height), 1);
-  this->Splits = std::min(DivideUp(WantedFragments * this->RowsPerFragment, patches), most);
-  this->TexelsPerSplit = DivideUp(tileTexels, this->Splits);
-
-  // Whole rows of the vector's textures, so that the rows of a tile are a rectangle of them.
-  const vtkIdType rowsThatFit =
-    std::min<vtkIdType>(this->MaximumSize, MaximumMatrixTexels / tileTexels);
-  const int tileRows =
-    static_cast<int>(std::max<vtkIdType>(rowsThatFit / this->Width, 1)) * this->Width;
-  for (int row = 0; row < this->Rows; row += tileRows)
-  {
-    for (int texel = 0; texel < texels; texel += tileTexels)
-    {
-      this->Tiles.push_back({ row, std::min(tileRows, this->Rows - row), texel,
-        std::min(tileTexels, texels - texel), {} });
-    }
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-double vtkOpenGLLinkOperator::Internals::GetMatrixBytes() const
-{
-  double texels = 0.0;
-  for (const MatrixTile& tile : this->Tiles)
-  {
-    texels += static_cast<double>(tile.Rows) * tile.Texels;
-  }
-  return texels * 4 * sizeof(float) * (this->SharedKernel ? 1 : this->Groups);
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::AllocateMatrix()
-{
-  const auto count = static_cast<std::size_t>(this->SharedKernel ? 1 : this->Groups);
-  for (MatrixTile& tile : this->Tiles)
-  {
-    tile.Textures = this->Engine->Allocate(count, tile.Texels, tile.Rows);
-    if (tile.Textures.empty())
-    {
-      return false;
-    }
-    // What is not uploaded is zero.
-    this->Engine->Clear(tile.Textures);
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::AllocateVectors()
-{
-  const auto count = static_cast<std::size_t>(this->Groups);
-  this->Spare = this->Engine->Allocate(count, this->Width, this->Height);
-  this->Parts = this->Engine->Allocate(count * static_cast<std::size_t>(this->RowsPerFragment),
-    this->Width / this->RowsPerFragment, this->Height * this->Splits);
-  bool good = !this->Spare.empty() && !this->Parts.empty();
-  int width = this->Width;
-  int height = this->Height;
-  do
-  {
-    width = DivideUp(width, ReductionBlock);
-    height = DivideUp(height, ReductionBlock);
-    this->Reductions.push_back(this->Engine->Allocate(count, width, height));
-    good = good && !this->Reductions.back().empty();
-  } while (width * height > 1);
-  return good;
-}
-
-//------------------------------------------------------------------------------
-void vtkOpenGLLinkOperator::Internals::UploadMatrix(vtkExchangeMatrix* exchange)
-{
-  const std::size_t blockValues = static_cast<std::size_t>(TileSize) * TileSize;
-  const int kernels = exchange->GetNumberOfKernels();
-  std::vector<float> texels(this->SharedKernel ? blockValues : 4 * blockValues);
-  const int groups = this->SharedKernel ? 1 : this->Groups;
-  for (const vtkExchangeMatrix::Tile& tile : exchange->GetTiles())
-  {
-    if (!tile.Values)
-    {
-      continue;
-    }
-    const int row = static_cast<int>(tile.Row);
-    const int column = static_cast<int>(tile.Column);
-    for (int group = 0; group < groups; ++group)
-    {
-      const int lanes = this->SharedKernel ? 1 : 4;
-      for (int transposed = 0; transposed < (row == column ? 1 : 2); ++transposed)
-      {
-        for (int lane = 0; lane < lanes && 4 * group + lane < kernels; ++lane)
-        {
-          const float* values = tile.Values + (4 * group + lane) * blockValues;
-          for (int i = 0; i < TileSize; ++i)
-          {
-            for (int j = 0; j < TileSize; ++j)
-            {
-              texels[static_cast<std::size_t>((i * TileSize + j) * lanes + lane)] =
-                transposed ? values[j * TileSize + i] : values[i * TileSize + j];
-            }
-          }
-        }
-        this->UploadBlock(transposed ? column : row, transposed ? row : column, group,
-          texels.data());
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkOpenGLLinkOperator::Internals::UploadBlock(int rowBlock, int columnBlock, int group,
-  const float* texels)
-{
-  const int length = TileSize / this->ColumnsPerTexel;
-  const int firstRow = rowBlock * TileSize;
-  const int firstTexel = columnBlock * length;
-  for (const MatrixTile& tile : this->Tiles)
-  {
-    const int rowBegin = std::max(firstRow, tile.FirstRow);
-    const int rowEnd = std::min(firstRow + TileSize, tile.FirstRow + tile.Rows);
-    const int texelBegin = std::max(firstTexel, tile.FirstTexel);
-    const int texelEnd = std::min(firstTexel + length, tile.FirstTexel + tile.Texels);
-    if (rowBegin < rowEnd && texelBegin < texelEnd)
-    {
-      const int region[4] = { texelBegin - tile.FirstTexel, rowBegin - tile.FirstRow,
-        texelEnd - texelBegin, rowEnd - rowBegin };
-      const int start = (rowBegin - firstRow) * length + (texelBegin - firstTexel);
-      this->Engine->Upload(tile.Textures[static_cast<std::size_t>(group)], region, length,
-        texels + 4 * start);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-Group& vtkOpenGLLinkOperator::Internals::GetSlot(int slot)
-{
-  Group& vector = this->Slots[slot];
-  if (vector.empty())
-  {
-    vector =
-      this->Engine->Allocate(static_cast<std::size_t>(this->Groups), this->Width, this->Height);
-  }
-  return vector;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::DrawPartialProducts(const Group& vector, int across)
-{
-  for (std::size_t index = static_cast<std::size_t>(across); index < this->Tiles.size();
-       index += static_cast<std::size_t>(this->TilesAcross))
-  {
-    const MatrixTile& tile = this->Tiles[index];
-    vtkShaderProgram* program = this->Engine->Use("PartialProduct",
-      vtkFloatTexturesPartialProductFS, this->GetDefines(static_cast<int>(this->Parts.size())));
-    if (!program)
-    {
-      return false;
-    }
-    this->Engine->SetTextures(program, "matrix", tile.Textures);
-    this->Engine->SetTextures(program, "vector", vector);
-    program->SetUniformi("width", this->Width);
-    program->SetUniformi("splits", this->Splits);
-    program->SetUniformi("numberOfRows", this->Rows);
-    program->SetUniformi("firstRow", tile.FirstRow);
-    program->SetUniformi("firstColumn", tile.FirstTexel * this->ColumnsPerTexel);
-    program->SetUniformi("numberOfTexels", tile.Texels);
-    program->SetUniformi("texelsPerSplit", this->TexelsPerSplit);
-    const int firstLine = tile.FirstRow / this->Width * this->Splits;
-    const int lines = DivideUp(tile.Rows, this->Width) * this->Splits;
-    const int region[4] = { 0, firstLine, this->Width / this->RowsPerFragment, lines };
-    this->Engine->Draw(this->Parts, region);
-    // A bunch of work at a time: a GPU that draws a screen as well is taken away from whoever keeps
-    // it for seconds.
-    glFlush();
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::DrawSumOfParts(const Group& target, const Group& previous,
-  bool accumulate)
-{
-  vtkShaderProgram* program =
-    this->Engine->Use("SumParts", vtkFloatTexturesSumPartsFS, this->GetDefines(this->Groups));
-  if (!program)
-  {
-    return false;
-  }
-  this->Engine->SetTextures(program, "parts", this->Parts);
-  this->Engine->SetTextures(program, "previous", previous);
-  program->SetUniformi("splits", this->Splits);
-  program->SetUniformi("accumulate", accumulate ? 1 : 0);
-  const int region[4] = { 0, 0, this->Width, this->Height };
-  this->Engine->Draw(target, region);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::DrawCombination(const Group& target, const Group& x,
-  const Group& y, const std::vector<float>& a, const std::vector<float>& b)
-{
-  vtkShaderProgram* program =
-    this->Engine->Use("Combine", vtkFloatTexturesCombineFS, this->GetDefines(this->Groups));
-  if (!program)
-  {
-    return false;
-  }
-  this->Engine->SetTextures(program, "x", x);
-  this->Engine->SetTextures(program, "y", y);
-  program->SetUniform4fv("a", this->Groups, a.data());
-  program->SetUniform4fv("b", this->Groups, b.data());
-  const int region[4] = { 0, 0, this->Width, this->Height };
-  this->Engine->Draw(target, region);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::DrawProduct(const Group& target, const Group& x,
-  const Group& y)
-{
-  vtkShaderProgram* program =
-    this->Engine->Use("Scale", vtkFloatTexturesScaleFS, this->GetDefines(this->Groups));
-  if (!program)
-  {
-    return false;
-  }
-  this->Engine->SetTextures(program, "x", x);
-  this->Engine->SetTextures(program, "y", y);
-  const int region[4] = { 0, 0, this->Width, this->Height };
-  this->Engine->Draw(target, region);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::DrawReductionStep(const Group& target, const Group& x,
-  const Group& y, const char* name)
-{
-  const std::string define = "#define " + std::string(name) + " 1\n";
-  vtkShaderProgram* program =
-    this->Engine->Use(name, vtkFloatTexturesReduceFS, this->GetDefines(this->Groups, define));
-  if (!program)
-  {
-    return false;
-  }
-  this->Engine->SetTextures(program, "x", x);
-  this->Engine->SetTextures(program, "y", y);
-  const int size[2] = { static_cast<int>(x[0]->GetWidth()), static_cast<int>(x[0]->GetHeight()) };
-  program->SetUniform2i("size", size);
-  const int region[4] = { 0, 0, static_cast<int>(target[0]->GetWidth()),
-    static_cast<int>(target[0]->GetHeight()) };
-  this->Engine->Draw(target, region);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Internals::DrawReduction(const Group& x, const Group& y,
-  const char* name, const char* nextName)
-{
-  bool good = this->DrawReductionStep(this->Reductions[0], x, y, name);
-  for (std::size_t step = 1; step < this->Reductions.size() && good; ++step)
-  {
-    const Group& source = this->Reductions[step - 1];
-    good = this->DrawReductionStep(this->Reductions[step], source, source, nextName);
-  }
-  return good;
-}
-
-//------------------------------------------------------------------------------
-void vtkOpenGLLinkOperator::Internals::GetVector(const Group& vector, int bands,
-  std::vector<float>& texels, double* values)
-{
-  const int width = static_cast<int>(vector[0]->GetWidth());
-  const int height = static_cast<int>(vector[0]->GetHeight());
-  const int count = std::min(this->Rows, width * height);
-  texels.resize(static_cast<std::size_t>(4) * width * height);
-  for (int group = 0; group < this->Groups; ++group)
-  {
-    this->Engine->Download(vector, static_cast<std::size_t>(group), width, height, texels.data());
-    for (int patch = 0; patch < count; ++patch)
-    {
-      for (int lane = 0; lane < 4 && 4 * group + lane < bands; ++lane)
-      {
-        values[static_cast<vtkIdType>(patch) * bands + 4 * group + lane] =
-          texels[static_cast<std::size_t>(4 * patch + lane)];
-      }
-    }
-  }
-}
 
 //------------------------------------------------------------------------------
 vtkOpenGLLinkOperator::vtkOpenGLLinkOperator() : Self(new Internals) {}
@@ -466,7 +61,7 @@ void vtkOpenGLLinkOperator::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DeviceName: " << this->Self->DeviceName << "\n";
   os << indent << "MaximumTextureSize: " << this->MaximumTextureSize << "\n";
-  os << indent << "NumberOfBytesRead: " << this->NumberOfBytesRead << "\n";
+  os << indent << "NumberOfBytesRead: " << this->GetNumberOfBytesRead() << "\n";
   os << indent << "RenderWindow: " << this->GetRenderWindow() << "\n";
 }
 
@@ -541,14 +136,15 @@ const char* vtkOpenGLLinkOperator::GetDeviceName()
 }
 
 //------------------------------------------------------------------------------
-int vtkOpenGLLinkOperator::GetNumberOfMatrixTextures()
+int vtkOpenGLLinkOperator::GetNumberOfLinkTextures()
 {
-  std::size_t count = 0;
-  for (const Internals::MatrixTile& tile : this->Self->Tiles)
-  {
-    count += tile.Textures.size();
-  }
-  return static_cast<int>(count);
+  return this->Self->Product ? this->Self->Product->GetNumberOfLinkTextures() : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkOpenGLLinkOperator::GetNumberOfBytesRead()
+{
+  return this->Self->Vectors ? this->Self->Vectors->GetNumberOfBytesRead() : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -573,17 +169,9 @@ void vtkOpenGLLinkOperator::ReleaseGraphicsResources(vtkWindow* window)
 bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
 {
   this->Self->Clear();
-  this->NumberOfBytesRead = 0;
   if (!exchange || exchange->GetNumberOfPatches() == 0)
   {
-    vtkErrorMacro("The exchange matrix is empty: fill it before Initialize().");
-    return false;
-  }
-  auto* matrix = vtkExchangeMatrix::SafeDownCast(exchange);
-  if (!matrix)
-  {
-    vtkErrorMacro(<< "OpenGL does not apply a " << exchange->GetClassName()
-                  << ": set Device to CPU.");
+    vtkErrorMacro("The exchange is empty: fill it before Initialize().");
     return false;
   }
   const int kernels = exchange->GetNumberOfKernels();
@@ -597,9 +185,9 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
   }
   if (exchange->GetNumberOfParts() > 1)
   {
-    vtkErrorMacro("OpenGL holds a whole matrix, not " << exchange->GetNumberOfParts()
-                                                      << " parts of one: set Device to CPU in "
-                                                         "parallel runs.");
+    vtkErrorMacro("OpenGL holds all links, not one of " << exchange->GetNumberOfParts()
+                                                        << " parts of them: set Device to CPU in "
+                                                           "parallel runs.");
     return false;
   }
   std::string reason;
@@ -610,8 +198,9 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
   }
   this->NumberOfPatches = exchange->GetNumberOfPatches();
   this->NumberOfBands = numberOfBands;
-  if (!this->InitializeOnDevice(matrix))
+  if (!this->InitializeOnDevice(exchange, reason))
   {
+    vtkErrorMacro(<< reason << ": set Device to CPU.");
     this->Release();
     return false;
   }
@@ -619,47 +208,50 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::InitializeOnDevice(vtkExchangeMatrix* exchange)
+bool vtkOpenGLLinkOperator::InitializeOnDevice(vtkExchange* exchange, std::string& reason)
 {
   Internals& self = *this->Self;
   self.Engine = std::make_unique<vtkFloatTextures>(self.GetWindow());
   if (!self.Engine->IsAlive())
   {
-    vtkErrorMacro("This OpenGL cannot make floating-point textures: set Device to CPU.");
+    reason = "This OpenGL cannot make floating-point textures";
     return false;
   }
   const vtkFloatTextures::Session session(self.GetWindow());
-  if (!self.ChooseSizes(this->NumberOfPatches, this->NumberOfBands, exchange->GetNumberOfKernels(),
-        this->MaximumTextureSize) ||
-    self.Groups > self.Engine->GetMaximumGroupSize())
+  self.Vectors = std::make_unique<vtkFloatVectors>(*self.Engine);
+  if (!self.Vectors->Initialize(this->NumberOfPatches, this->NumberOfBands,
+        this->MaximumTextureSize, reason))
   {
-    vtkErrorMacro(<< this->NumberOfPatches << " patches and " << this->NumberOfBands
-                  << " bands are too many for OpenGL's textures of at most " << self.MaximumSize
-                  << " texels a side: set Device to CPU.");
     return false;
   }
-  const double available = self.Engine->GetAvailableBytes();
-  const bool fits = available < 0.0 || self.GetMatrixBytes() < available;
-  if (!fits || !self.AllocateMatrix() || !self.AllocateVectors())
+  self.Product = vtkProductGL::New(exchange, *self.Engine, self.Vectors->GetLayout(), reason);
+  if (self.Product && !vtkFloatTextures::CheckErrors(reason))
   {
-    vtkErrorMacro("The matrix of " << this->NumberOfPatches
-                                   << " patches does not fit into the memory of " << self.DeviceName
-                                   << ": set Device to CPU.");
+    reason = "OpenGL failed in taking the links with " + reason + " on " + self.DeviceName;
     return false;
   }
-  self.UploadMatrix(exchange);
-  return this->Finish(true, "taking the matrix");
+  return self.Product != nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool vtkOpenGLLinkOperator::IsReady()
+{
+  if (!this->Self->IsAlive())
+  {
+    vtkErrorMacro("There are no links, or their window has gone: call Initialize() first.");
+    return false;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkOpenGLLinkOperator::IsReady(int slot)
 {
-  if (!this->Self->Engine || !this->Self->Engine->IsAlive())
+  if (!this->IsReady())
   {
-    vtkErrorMacro("There is no matrix, or its window has gone: call Initialize() first.");
     return false;
   }
-  if (this->Self->Slots.count(slot) == 0)
+  if (!this->Self->Vectors->Has(slot))
   {
     vtkErrorMacro("Slot " << slot << " is read before it has been written.");
     return false;
@@ -689,30 +281,12 @@ bool vtkOpenGLLinkOperator::Finish(bool drawn, const char* what)
 //------------------------------------------------------------------------------
 bool vtkOpenGLLinkOperator::SetVector(int slot, const double* values)
 {
-  Internals& self = *this->Self;
-  if (!self.Engine || !self.Engine->IsAlive())
+  if (!this->IsReady())
   {
-    vtkErrorMacro("There is no matrix, or its window has gone: call Initialize() first.");
     return false;
   }
-  const vtkFloatTextures::Session session(self.GetWindow());
-  const Group& vector = self.GetSlot(slot);
-  const int region[4] = { 0, 0, self.Width, self.Height };
-  for (std::size_t group = 0; group < vector.size(); ++group)
-  {
-    std::vector<float> texels(static_cast<std::size_t>(4) * self.Width * self.Height, 0.0f);
-    for (vtkIdType patch = 0; patch < this->NumberOfPatches; ++patch)
-    {
-      for (int band = 4 * static_cast<int>(group), lane = 0; lane < 4 && band < this->NumberOfBands;
-           ++band, ++lane)
-      {
-        texels[static_cast<std::size_t>(4 * patch + lane)] =
-          static_cast<float>(values[patch * this->NumberOfBands + band]);
-      }
-    }
-    self.Engine->Upload(vector[group], region, self.Width, texels.data());
-  }
-  return this->Finish(!vector.empty(), "SetVector");
+  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  return this->Finish(this->Self->Vectors->Set(slot, values), "SetVector");
 }
 
 //------------------------------------------------------------------------------
@@ -722,11 +296,8 @@ bool vtkOpenGLLinkOperator::GetVector(int slot, double* values)
   {
     return false;
   }
-  Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.GetWindow());
-  std::vector<float> texels;
-  self.GetVector(self.Slots[slot], this->NumberOfBands, texels, values);
-  this->NumberOfBytesRead += static_cast<vtkTypeInt64>(texels.size() * sizeof(float)) * self.Groups;
+  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  this->Self->Vectors->Read(slot, values);
   return this->Finish(true, "GetVector");
 }
 
@@ -744,14 +315,8 @@ bool vtkOpenGLLinkOperator::Multiply(int y, int x)
   }
   Internals& self = *this->Self;
   const vtkFloatTextures::Session session(self.GetWindow());
-  Group& target = self.GetSlot(y);
-  bool drawn = !target.empty();
-  for (int across = 0; across < self.TilesAcross && drawn; ++across)
-  {
-    drawn = self.DrawPartialProducts(self.Slots[x], across) &&
-      self.DrawSumOfParts(self.Spare, target, across > 0);
-    std::swap(self.Spare, target);
-  }
+  vtkFloatVectors::Group& target = self.Vectors->Get(y);
+  const bool drawn = !target.empty() && self.Product->Draw(target, self.Vectors->Get(x));
   return this->Finish(drawn, "Multiply");
 }
 
@@ -762,20 +327,8 @@ bool vtkOpenGLLinkOperator::Combine(int z, const double* a, int x, const double*
   {
     return false;
   }
-  Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.GetWindow());
-  std::vector<float> factorsOfX(static_cast<std::size_t>(4) * self.Groups, 0.0f);
-  std::vector<float> factorsOfY(factorsOfX);
-  for (int band = 0; band < this->NumberOfBands; ++band)
-  {
-    factorsOfX[static_cast<std::size_t>(band)] = static_cast<float>(a[band]);
-    factorsOfY[static_cast<std::size_t>(band)] = static_cast<float>(b[band]);
-  }
-  Group& target = self.GetSlot(z);
-  const bool drawn = !target.empty() &&
-    self.DrawCombination(self.Spare, self.Slots[x], self.Slots[y], factorsOfX, factorsOfY);
-  std::swap(self.Spare, target);
-  return this->Finish(drawn, "Combine");
+  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  return this->Finish(this->Self->Vectors->Combine(z, a, x, b, y), "Combine");
 }
 
 //------------------------------------------------------------------------------
@@ -785,12 +338,8 @@ bool vtkOpenGLLinkOperator::Scale(int z, int x, int y)
   {
     return false;
   }
-  Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.GetWindow());
-  Group& target = self.GetSlot(z);
-  const bool drawn = !target.empty() && self.DrawProduct(self.Spare, self.Slots[x], self.Slots[y]);
-  std::swap(self.Spare, target);
-  return this->Finish(drawn, "Scale");
+  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  return this->Finish(this->Self->Vectors->Scale(z, x, y), "Scale");
 }
 
 //------------------------------------------------------------------------------
@@ -800,11 +349,8 @@ bool vtkOpenGLLinkOperator::Dot(int x, int y, double* result)
   {
     return false;
   }
-  Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.GetWindow());
-  const bool drawn =
-    self.DrawReduction(self.Slots[x], self.Slots[y], "REDUCE_PRODUCT", "REDUCE_SUM");
-  return this->ReadReduction(drawn, "Dot", result);
+  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  return this->Finish(this->Self->Vectors->Dot(x, y, result), "Dot");
 }
 
 //------------------------------------------------------------------------------
@@ -814,23 +360,6 @@ bool vtkOpenGLLinkOperator::MaxNorm(int x, double* result)
   {
     return false;
   }
-  Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.GetWindow());
-  const bool drawn =
-    self.DrawReduction(self.Slots[x], self.Slots[x], "REDUCE_MAXIMUM", "REDUCE_MAXIMUM");
-  return this->ReadReduction(drawn, "MaxNorm", result);
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::ReadReduction(bool drawn, const char* what, double* result)
-{
-  Internals& self = *this->Self;
-  if (drawn)
-  {
-    std::vector<float> texels;
-    self.GetVector(self.Reductions.back(), this->NumberOfBands, texels, result);
-    this->NumberOfBytesRead +=
-      static_cast<vtkTypeInt64>(texels.size() * sizeof(float)) * self.Groups;
-  }
-  return this->Finish(drawn, what);
+  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  return this->Finish(this->Self->Vectors->MaxNorm(x, result), "MaxNorm");
 }

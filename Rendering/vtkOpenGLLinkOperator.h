@@ -4,20 +4,23 @@
  * @class vtkOpenGLLinkOperator
  * @brief the links applied on the GPU, by fragment shaders over floating-point textures
  *
- * What OpenGL 3.2 offers is enough. The exchange matrix is expanded to full rows in textures and
- * stays there; vectors are RGBA textures, a texel per patch and a texture per four bands, up to 32
- * bands, which are all drawn in one pass over the matrix. A product is two passes: partial sums
- * over ranges of columns, so that a GPU has enough to do at once, then their compensated sum. Only
- * GetVector, and one number per band in Dot and MaxNorm, are read back.
+ * What OpenGL 3.2 offers is enough. The links are put into textures once and stay there: a
+ * vtkExchangeMatrix expanded to full rows, a vtkExchangeHierarchy as its tables. Vectors are RGBA
+ * textures, a texel per patch and a texture per four bands, up to 32 bands, which are all drawn in
+ * one pass over the links. A product is a few passes without a way back to the CPU. With a
+ * matrix: partial sums over ranges of columns, so that a GPU has enough to do at once, then their
+ * compensated sum. With a hierarchy: the up-sweep, a draw per level, sums over pieces of the rows
+ * of links, and the down-sweep. Only GetVector, and one number per band in Dot and MaxNorm, are
+ * read back.
  *
- * Where the matrix is larger than the largest texture, in either direction, it is cut into tiles.
+ * Links that are more than one texture holds are cut into tiles.
  *
  * The context is the one of SetRenderWindow, if given, else that of an off-screen window
  * (vtkOffScreenOpenGLRenderWindow) shared by all operators of the process. Calls leave the context
  * that was current before them current again.
  *
- * Values are single precision: 4 bytes per pair of patches for one kernel, 16 bytes per pair and
- * four bands for one kernel per band.
+ * Values are single precision. A matrix takes 4 bytes per pair of patches for one kernel, 16 bytes
+ * per pair and four bands for one kernel per band; a hierarchy 16 bytes per link.
  *
  * Method of ping-pong textures: N. A. Carr, J. D. Hall, J. C. Hart, GPU algorithms for radiosity
  * and subsurface scattering, Graphics Hardware 2003.
@@ -30,7 +33,6 @@
 
 #include <memory> // for std::unique_ptr
 
-class vtkExchangeMatrix;
 class vtkRenderWindow;
 class vtkWindow;
 
@@ -76,7 +78,7 @@ public:
   ///@{
   /**
    * Largest width and height of textures, at least 4. Default 0: what the context offers. Takes
-   * effect at the next Initialize(); meant for tests, which force the matrix into tiles with it.
+   * effect at the next Initialize(); meant for tests, which force the links into tiles with it.
    */
   vtkSetClampMacro(MaximumTextureSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumTextureSize, int);
@@ -84,9 +86,9 @@ public:
 
   ///@{
   /// Bytes read back from the context since the last Initialize(), and textures that hold the
-  /// matrix.
-  vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
-  int GetNumberOfMatrixTextures();
+  /// links.
+  vtkTypeInt64 GetNumberOfBytesRead();
+  int GetNumberOfLinkTextures();
   ///@}
 
 protected:
@@ -97,13 +99,12 @@ private:
   vtkOpenGLLinkOperator(const vtkOpenGLLinkOperator&) = delete;
   void operator=(const vtkOpenGLLinkOperator&) = delete;
 
-  bool InitializeOnDevice(vtkExchangeMatrix* exchange);
+  bool InitializeOnDevice(vtkExchange* exchange, std::string& reason);
+  bool IsReady();
   bool IsReady(int slot);
   bool Finish(bool drawn, const char* what);
-  bool ReadReduction(bool drawn, const char* what, double* result);
 
   int MaximumTextureSize = 0;
-  vtkTypeInt64 NumberOfBytesRead = 0;
 
   struct Internals;
   std::unique_ptr<Internals> Self;

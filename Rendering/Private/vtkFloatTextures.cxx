@@ -69,6 +69,12 @@ bool vtkFloatTextures::IsAlive() const
 }
 
 //------------------------------------------------------------------------------
+std::string vtkFloatTextures::GetDeviceName() const
+{
+  return this->Window->GetState()->GetRenderer();
+}
+
+//------------------------------------------------------------------------------
 int vtkFloatTextures::GetMaximumTextureSize() const
 {
   return vtkTextureObject::GetMaximumTextureSize(this->Window);
@@ -162,6 +168,21 @@ void vtkFloatTextures::Clear(const Group& group)
   for (int index = 0; index < static_cast<int>(group.size()); ++index)
   {
     glClearBufferfv(GL_COLOR, index, zeros);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkFloatTextures::Copy(const Group& target, const Group& source, const int region[4])
+{
+  this->Attach(source);
+  for (std::size_t index = 0; index < source.size(); ++index)
+  {
+    this->Framebuffer->ActivateReadBuffer(static_cast<unsigned int>(index));
+    // vtkTextureObject::CopyFromFrameBuffer makes another texture, of 8 bits a value.
+    target[index]->Activate();
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region[0], region[1], region[0], region[1], region[2],
+      region[3]);
+    target[index]->Deactivate();
   }
 }
 

@@ -30,6 +30,16 @@ public:
   /// Textures of one size that are read and written together.
   using Group = std::vector<vtkSmartPointer<vtkTextureObject>>;
 
+  static constexpr int BytesPerTexel = 4 * sizeof(float);
+  /// No texture for large tables has more: drivers refuse huge ones long before the memory is full.
+  /// Also what single precision counts exactly.
+  static constexpr vtkIdType MaximumTexels = vtkIdType(1) << 24;
+
+  static constexpr int DivideUp(vtkIdType dividend, vtkIdType divisor)
+  {
+    return static_cast<int>((dividend + divisor - 1) / divisor);
+  }
+
   /// Makes the context current and sets the state that computing needs; the destructor puts
   /// everything back.
   class Session
@@ -63,6 +73,9 @@ public:
 
   vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
 
+  /// The renderer's own name, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+  std::string GetDeviceName() const;
+
   /// Width and height that the context offers.
   int GetMaximumTextureSize() const;
 
@@ -84,6 +97,9 @@ public:
   /// Write a region (x, y, width, height) of a texture; `rowLength` texels lie between the starts
   /// of two rows of `rgba`.
   void Upload(vtkTextureObject* texture, const int region[4], int rowLength, const float* rgba);
+
+  /// Copy a region (x, y, width, height) between groups of as many textures.
+  void Copy(const Group& target, const Group& source, const int region[4]);
 
   /// Read the left lower width x height texels of one texture of a group.
   void Download(const Group& group, std::size_t index, int width, int height, float* rgba);

@@ -4,9 +4,16 @@
 #extension GL_ARB_explicit_attrib_location : enable
 #extension GL_ARB_gpu_shader5 : enable
 
-// GROUPS: textures per vector, four bands each. MATRIX_GROUPS: 1 where all bands share one kernel, else GROUPS. ROWS: rows of the
-// matrix that one fragment multiplies. OUTPUTS: textures written.
+// GROUPS: textures per vector, four bands each. OUTPUTS: textures written. WIDTH_BITS: of the number of texels in a line. Products
+// define more.
 //VTK::LightTransport::Define
+
+const int WIDTH = 1 << WIDTH_BITS;
+
+ivec2 GetPlace(int texel)
+{
+  return ivec2(texel & (WIDTH - 1), texel >> WIDTH_BITS);
+}
 
 // Keeps the compiler from simplifying compensated sums away, where the context knows how.
 #ifdef GL_ARB_gpu_shader5

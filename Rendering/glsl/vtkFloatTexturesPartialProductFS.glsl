@@ -1,8 +1,8 @@
 // One range of columns of the product of a matrix tile with a vector. Fragment (x, y) computes ROWS rows, which share what is fetched
-// of the vector, from row (y / splits) * width + x * ROWS on, over the (y % splits)-th range of columns.
+// of the vector, from row (y / splits) * WIDTH + x * ROWS on, over the (y % splits)-th range of columns.
+// MATRIX_GROUPS: 1 where all bands share one kernel (SHARED_KERNEL), else GROUPS.
 uniform sampler2D matrix[MATRIX_GROUPS];
 uniform sampler2D vector[GROUPS];
-uniform int width;
 uniform int splits;
 uniform int numberOfRows;
 uniform int firstRow;
@@ -33,7 +33,7 @@ const int BLOCK = 16;
 void main()
 {
   ivec2 place = ivec2(gl_FragCoord.xy);
-  int row = (place.y / splits) * width + place.x * ROWS;
+  int row = (place.y / splits) * WIDTH + place.x * ROWS;
   int begin = (place.y % splits) * texelsPerSplit;
   int end = row < numberOfRows ? min(begin + texelsPerSplit, numberOfTexels) : begin;
   vec4 sum[ROWS * GROUPS];
@@ -55,8 +55,7 @@ void main()
     {
 #if SHARED_KERNEL
       // A texel holds four columns; the vector's rows hold a multiple of four patches.
-      int column = firstColumn + 4 * texel;
-      ivec2 at = ivec2(column % width, column / width);
+      ivec2 at = GetPlace(firstColumn + 4 * texel);
       vec4 links[ROWS];
       for (int r = 0; r < ROWS; ++r)
       {
@@ -75,8 +74,7 @@ void main()
       }
 #else
       // A texel holds one column of four bands.
-      int column = firstColumn + texel;
-      ivec2 at = ivec2(column % width, column / width);
+      ivec2 at = GetPlace(firstColumn + texel);
 #define ADD(g) \
       { \
         vec4 x = texelFetch(vector[g], at, 0); \

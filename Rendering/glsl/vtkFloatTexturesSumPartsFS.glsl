@@ -1,8 +1,9 @@
 // The sum of a row's partial products, and of the sum so far where the matrix has several tiles side by side.
 uniform sampler2D parts[ROWS * GROUPS];
+#if ACCUMULATE
 uniform sampler2D previous[GROUPS];
+#endif
 uniform int splits;
-uniform int accumulate;
 
 #define PART_ROW(g, r) texelFetch(parts[r * GROUPS + g], from, 0)
 #if ROWS == 1
@@ -19,8 +20,12 @@ void main()
   int row = place.x % ROWS;
   vec4 sum[GROUPS];
   vec4 lost[GROUPS];
-#define CLEAR(g) sum[g] = accumulate != 0 ? texelFetch(previous[g], place, 0) : vec4(0.0); lost[g] = vec4(0.0);
-  FOR_ALL_GROUPS(CLEAR)
+#if ACCUMULATE
+#define BEGIN(g) sum[g] = texelFetch(previous[g], place, 0); lost[g] = vec4(0.0);
+#else
+#define BEGIN(g) sum[g] = vec4(0.0); lost[g] = vec4(0.0);
+#endif
+  FOR_ALL_GROUPS(BEGIN)
   for (int split = 0; split < splits; ++split)
   {
     ivec2 from = ivec2(place.x / ROWS, place.y * splits + split);

@@ -212,8 +212,8 @@ bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
   {
     return false;
   }
-  bool good = Check(device->GetNumberOfMatrixTextures() == setting.MatrixTextures,
-    Describe(setting) + ", " + std::to_string(device->GetNumberOfMatrixTextures()) +
+  bool good = Check(device->GetNumberOfLinkTextures() == setting.MatrixTextures,
+    Describe(setting) + ", " + std::to_string(device->GetNumberOfLinkTextures()) +
       " matrix textures");
   good = TestProducts(device, exchange, setting) && good;
   return TestVectorAlgebra(device, setting) && good;

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The product with a vtkExchangeHierarchy: up-sweep, gather and down-sweep, with the tables of
+ * vtkHierarchyLayout.
+ *
+ * OpenGL 3.2 does not let a texture be read while it is drawn into: what a sweep draws for one
+ * level of the tree is drawn beside and copied in. Gathering sums pieces of rows, and the
+ * down-sweep adds them up, compensated.
+ */
+#ifndef vtkHierarchicalProductGL_h
+#define vtkHierarchicalProductGL_h
+
+#include "vtkHierarchyLayout.h"
+#include "vtkProductGL.h"
+
+class vtkHierarchicalProductGL : public vtkProductGL
+{
+public:
+  vtkHierarchicalProductGL(vtkFloatTextures& engine, const Layout& layout);
+
+  bool Initialize(vtkExchangeHierarchy* hierarchy, std::string& reason);
+  bool Draw(Group& target, const Group& source) override;
+  int GetNumberOfLinkTextures() const override { return static_cast<int>(this->Links.size()); }
+
+private:
+  using Range = vtkHierarchyLayout::Range;
+  using Tile = vtkHierarchyLayout::Tile;
+
+  bool Allocate(const vtkHierarchyLayout& tables);
+  void Upload(const vtkHierarchyLayout& tables);
+  void UploadTable(const Group& table, const std::vector<float>& texels);
+  void UploadLinks(const vtkHierarchyLayout& tables);
+
+  vtkShaderProgram* Use(const char* name, const char* body, const std::string& extra = "");
+  bool SweepUp(const Group& source);
+  bool GatherLinks();
+  bool SweepDown(const Group& target);
+  bool DrawSums(const Group& target, const Range& range, bool ofPatches);
+  void DrawBeside(const Range& range, const Group& target);
+
+  std::vector<Range> Levels; ///< of nodes
+  Range Patches{};
+  std::vector<Tile> Tiles;
+  std::vector<Group> Links; ///< of each tile
+  Group Children;
+  Group Rows;
+  Group Lines;
+  Group Sent;     ///< by slots
+  Group Received; ///< by nodes
+  Group Beside;   ///< a level of either
+  Group Parts;    ///< by pieces
+};
+
+#endif

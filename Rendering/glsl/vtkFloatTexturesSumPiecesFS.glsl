@@ -1,0 +1,34 @@
+// What slots receive: the sum over the pieces of their row, and what the parent received. With PATCHES the result is theirs, weighted;
+// their lines begin at firstLine.
+uniform sampler2D rows[1];
+uniform sampler2D parts[GROUPS];
+uniform sampler2D received[GROUPS];
+#if PATCHES
+uniform int firstLine;
+#else
+const int firstLine = 0;
+#endif
+
+void main()
+{
+  vec4 row = texelFetch(rows[0], ivec2(gl_FragCoord.xy) + ivec2(0, firstLine), 0);
+  int begin = int(row.x);
+  int end = begin + int(row.y);
+  ivec2 parent = GetPlace(int(max(row.z, 0.0)));
+  vec4 sum[GROUPS];
+  vec4 lost[GROUPS];
+#define BEGIN(g) sum[g] = row.z < 0.0 ? vec4(0.0) : texelFetch(received[g], parent, 0); lost[g] = vec4(0.0);
+  FOR_ALL_GROUPS(BEGIN)
+  for (int piece = begin; piece < end; ++piece)
+  {
+    ivec2 place = GetPlace(piece);
+#define ADD(g) AddCompensated(sum[g], lost[g], texelFetch(parts[g], place, 0));
+    FOR_ALL_GROUPS(ADD)
+  }
+#if PATCHES
+#define STORE(g) result[g] = row.w * (sum[g] + lost[g]);
+#else
+#define STORE(g) result[g] = sum[g] + lost[g];
+#endif
+  FOR_ALL_GROUPS(STORE)
+}
