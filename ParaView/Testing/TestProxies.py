@@ -104,10 +104,29 @@ def check_light(name):
     return check_proxy(proxy, vtkRenderingCore.vtkLight())[0] if proxy else [f"there is no {name}"]
 
 
+def check_list(name, item):
+    """A property with any number of values: they replace those of before."""
+    proxy = servermanager.ProxyManager().NewProxy("filters", "LightTransportRadiosity")
+    prop = proxy.GetProperty(name)
+    for values in ([0.0, 8.0, 1e9], [5.0], []):
+        prop.SetNumberOfElements(len(values))
+        for index, value in enumerate(values):
+            prop.SetElement(index, value)
+        proxy.UpdateVTKObjects()
+        model = proxy.GetClientSideObject()
+        count = getattr(model, f"GetNumberOf{item}s")()
+        found = [getattr(model, "Get" + item)(index) for index in range(count)]
+        if found != values:
+            return [f"{name}: {values} in the proxy, {found} in the class"]
+    return []
+
+
 all_problems = []
 for filter_name in FILTERS:
     if hasattr(lt, filter_name):
         all_problems += check_filter(filter_name)
 for light_name in LIGHTS:
     all_problems += check_light(light_name)
+all_problems += check_list("BandLimits", "BandLimit")
+all_problems += check_list("BackgroundRadiance", "BackgroundRadiance")
 tools.finish(all_problems)

@@ -131,6 +131,32 @@ class TestCommandLine(unittest.TestCase):
         values = get_values(self.load("out.vtp"), "Radiosity")
         self.assertAlmostEqual(values[0][0], 1.0909, delta=1e-3)
 
+    def test_thermal(self):
+        # A warm body under a cold sky, one of its faces insulated from behind, in two bands.
+        sky, body = 5.670374419e-8 * 250.0**4, 5.670374419e-8 * 350.0**4
+        cube = add_array(make_cube(outside=True), "Temperature", [350.0] * 6)
+        add_array(cube, "Kind", [0, 0, 1, 0, 0, 0])
+        source = self.save("in.vtp", add_array(cube, "Emissivity", [0.6] * 6))
+        result = self.run_command(
+            "radiosity", source, self.path("out.vtp"), "--background-temperature", "250",
+            "--boundary-condition", "Kind", "--net-flux", "None")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        fluxes = get_values(self.load("out.vtp"), "NetFlux")
+        temperatures = get_values(self.load("out.vtp"), "SurfaceTemperature")
+        for face in range(6):
+            flux, temperature = (0.0, 250.0) if face == 2 else (0.6 * (body - sky), 350.0)
+            self.assertAlmostEqual(fluxes[face][0], flux, delta=1e-9)
+            self.assertAlmostEqual(temperatures[face][0], temperature, delta=1e-9)
+        result = self.run_command(
+            "radiosity", source, self.path("out.vtp"), "--band-limits", "0,8,inf",
+            "--background-radiance", f"{2.0 * sky / math.pi},{sky / math.pi}")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        totals = get_values(self.load("out.vtp"), "TotalNetFlux")
+        self.assertAlmostEqual(totals[3][0], 0.6 * (body - 3.0 * sky), delta=1e-9)
+        result = self.run_command(
+            "radiosity", source, self.path("out.vtp"), "--band-limits", "red,blue")
+        self.check_failure(result, 2, "'red,blue' is no list of numbers")
+
     @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
     def test_mesh(self):
         result = self.run_command(

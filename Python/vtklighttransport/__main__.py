@@ -18,9 +18,18 @@ from vtklighttransport.shell import (
     READERS, Failure, Messages, Stage, choose_arrays, find_choices, find_class, get_summary, read)
 from vtkmodules.vtkCommonCore import reference
 
+
+def parse_numbers(text):
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of numbers") from error
+
+
 # Options that set a property: flag, property, kind, help. The kind is a type, a number of values of
-# that type, True or False for a switch that sets it so, or the prefix of the class constants that
-# are its choices. Defaults come from the class.
+# that type, parse_numbers for any number of values that are added one by one, True or False for a
+# switch that sets it so, or the prefix of the class constants that are its choices. Defaults come
+# from the class.
 MESHER = (
     ("--mesh", "TargetEdgeLength", float,
      "remesh to patches of this edge length first, in the mesh's unit; 0 = diagonal / 50"),
@@ -38,6 +47,12 @@ RADIOSITY = (
     ("--view-factor-tolerance", "ViewFactorTolerance", float,
      "bound on the absolute error of each row of view factors"),
     ("--closure", "EnforceClosure", True, "make the view factors of closed scenes sum to 1"),
+    ("--band-limits", "BandLimit", parse_numbers,
+     "limits of spectral bands for temperatures: wavelengths in micrometres, such as 0,8,14,inf"),
+    ("--background-temperature", "BackgroundTemperature", float,
+     "temperature in kelvin of what is seen through the openings of the scene"),
+    ("--background-radiance", "BackgroundRadiance", parse_numbers,
+     "radiance that enters through them: a value, or one per band with commas between"),
     ("--feature-angle", "FeatureAngle", float,
      "edges sharper than this keep their own point values, in degrees"),
 )
@@ -66,6 +81,9 @@ RADIOSITY_ARRAYS = (
     ("--reflectance", 1, "cell array of diffuse reflectance, 0 to 1 [Reflectance]"),
     ("--temperature", 2, "cell array of temperatures in kelvin [Temperature]"),
     ("--emissivity", 3, "cell array of emissivity, 0 to 1 [Emissivity]"),
+    ("--boundary-condition", 5,
+     "cell array: 0 where the temperature is given, 1 where the net flux is [BoundaryCondition]"),
+    ("--net-flux", 6, "cell array of given net fluxes, W/m2; 0 without one [PrescribedNetFlux]"),
 )
 SCATTERING_ARRAYS = (
     ("--irradiance", 0,
@@ -80,8 +98,11 @@ def add_properties(parser, class_name, table):
         return
     model = kind()
     for flag, name, form, text in table:
-        default = getattr(model, "Get" + name)()
         arguments = {"dest": name, "default": None}
+        if form is parse_numbers:
+            parser.add_argument(flag, help=text, metavar="A,B,...", type=form, **arguments)
+            continue
+        default = getattr(model, "Get" + name)()
         if isinstance(form, bool):
             arguments.update(action="store_const", const=form)
         elif isinstance(form, str):
@@ -105,6 +126,10 @@ def apply_properties(options, algorithm, table):
     for flag, name, form, _text in table:
         value = getattr(options, name)
         if value is None:
+            continue
+        if form is parse_numbers:
+            for number in value:
+                getattr(algorithm, "Add" + name)(number)
             continue
         if isinstance(form, str):
             value = find_choices(type(algorithm), form)[value]

@@ -476,10 +476,11 @@ std::vector<double> vtkRadiosityMaterials::GetPointMaterials() const
   for (std::size_t k = 0; k < this->Reflectance.size(); ++k)
   {
     const std::size_t patch = k / this->NumberOfBands;
+    // Of a temperature every band has some, though it may be too little for a number.
+    const double source = this->IsThermal() ? this->Temperature[patch] : this->Emission[k];
     const bool isFluxGiven = this->IsThermal() && this->HasGivenFlux[patch];
-    const double emits = this->Emission[k] > 0.0 ? 1.0 : 0.0;
     materials.push_back(isFluxGiven ? 1.0 - this->Emissivity[patch] : this->Reflectance[k]);
-    materials.push_back(isFluxGiven ? -1.0 : emits);
+    materials.push_back(isFluxGiven ? -1.0 : (source > 0.0 ? 1.0 : 0.0));
   }
   return materials;
 }

@@ -10,6 +10,7 @@
 #ifndef vtkRadiosityMaterials_h
 #define vtkRadiosityMaterials_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkType.h"
 
 #include <string>
@@ -18,7 +19,7 @@
 class vtkDataObject;
 class vtkPatchScene;
 
-struct vtkRadiosityMaterials
+struct VTKLIGHTTRANSPORTFILTERS_EXPORT vtkRadiosityMaterials
 {
   /// The input arrays of vtkRadiosity by their index.
   enum InputArray
@@ -83,8 +84,8 @@ struct vtkRadiosityMaterials
 
   /**
    * What a patch is made of, as far as points are not averaged across a change of it: 2 values per
-   * patch and band. That a patch emits is part of it, how much is not: temperatures and emissions
-   * may vary from patch to patch.
+   * patch and band. That a patch emits, or that its net flux is given, is part of it, how much is
+   * not: temperatures, emissions and fluxes may vary from patch to patch.
    */
   std::vector<double> GetPointMaterials() const;
 };

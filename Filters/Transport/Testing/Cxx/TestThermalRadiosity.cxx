@@ -3,14 +3,17 @@
 // Heat exchange against closed forms: two-surface enclosures, given net fluxes, spectral bands,
 // backgrounds, series of temperatures.
 #include "LightTransportTesting.h"
+#include "RanksInThreads.h"
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPatchScene.h"
 #include "vtkPlanckFraction.h"
 #include "vtkPointData.h"
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkRadiosity.h"
+#include "vtkRadiosityMaterials.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkViewFactors.h"
@@ -542,6 +545,76 @@ void TestTimeSeries()
     seconds = now;
   }
 }
+
+//------------------------------------------------------------------------------
+std::string ReadMaterials(vtkPolyData* data, vtkMultiProcessController* controller,
+  vtkRadiosityMaterials& materials)
+{
+  std::vector<std::string> names;
+  for (int array = 0; array < vtkRadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  {
+    names.emplace_back(vtkRadiosityMaterials::GetDefaultName(array));
+  }
+  vtkPatchScene scene;
+  std::string error;
+  Check(scene.Build(data, controller, error), "the scene: " + error);
+  return materials.Read(data, scene, names, error) ? "" : error;
+}
+
+//------------------------------------------------------------------------------
+// Every rank knows all materials, also one that has no patch; and all agree on what is wrong.
+void TestRanks()
+{
+  constexpr int ranks = 3;
+  const auto makePart = [](int rank)
+  {
+    Surface surface;
+    for (int side = 0; side < 6; ++side)
+    {
+      // Both others share the sides.
+      if (rank < 0 || rank == 2 * (side / 3))
+      {
+        const double height = side;
+        surface.AddGrid({ 0, 0, height }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+      }
+    }
+    auto part = surface.Get();
+    vtkDoubleArray* temperature = AddArray(part, "Temperature", { 300.0 });
+    vtkDoubleArray* condition = AddArray(part, "BoundaryCondition", { 0.0 });
+    AddArray(part, "Emissivity", { 0.5 });
+    AddArray(part, "PrescribedNetFlux", { 42.0 });
+    for (vtkIdType cell = 0; cell < part->GetNumberOfCells(); ++cell)
+    {
+      const double height = part->GetCell(cell)->GetBounds()[4];
+      temperature->SetValue(cell, 100.0 + height);
+      condition->SetValue(cell, height == 4.0 ? 1.0 : 0.0);
+    }
+    return part;
+  };
+  vtkRadiosityMaterials whole;
+  Check(ReadMaterials(makePart(-1), nullptr, whole).empty(), "one rank reads");
+  std::vector<std::string> errors(ranks);
+  RunRanks(ranks,
+    [&](vtkMultiProcessController* controller, int rank)
+    {
+      auto part = makePart(rank);
+      vtkRadiosityMaterials materials;
+      const std::string error = ReadMaterials(part, controller, materials);
+      Check(error.empty(), "all ranks read: " + error);
+      Check(materials.Emission == whole.Emission && materials.Reflectance == whole.Reflectance &&
+          materials.HasGivenFlux == whole.HasGivenFlux,
+        "every rank knows all materials");
+      if (rank == 2)
+      {
+        part->GetCellData()->GetArray("BoundaryCondition")->SetComponent(1, 0, 3.0);
+      }
+      errors[rank] = ReadMaterials(part, controller, materials);
+    });
+  for (const std::string& error : errors)
+  {
+    Check(error.find("is 3.000000 at polygon 4") != std::string::npos, "all know: " + error);
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -557,5 +630,6 @@ int TestThermalRadiosity(int, char*[])
   TestOpenRoom();
   TestWhatBackgroundNeeds();
   TestTimeSeries();
+  TestRanks();
   return Result();
 }
