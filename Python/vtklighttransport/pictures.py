@@ -10,7 +10,6 @@ import math
 import numpy
 
 import vtklighttransport as lt
-import vtkmodules.vtkInteractionStyle  # Something that a render window asks for quietly.
 import vtkmodules.vtkRenderingFreeType  # Text is drawn by what registers here,
 import vtkmodules.vtkRenderingOpenGL2  # and surfaces by the mappers of OpenGL.
 from vtklighttransport.arrays import get_area_vectors
