@@ -37,15 +37,9 @@ MESHER = (
 IRRADIANCE = (
     ("--no-shadows", "Shadows", False, "let lights shine through patches"),
 )
-RADIOSITY = (
-    ("--solver", "Solver", "SOLVER_", "how the equation is solved; auto is conjugate gradients"),
+ENCLOSURE = (
     ("--device", "Device", "DEVICE_",
      "where the links are applied; auto takes OpenGL on a real GPU"),
-    ("--tolerance", "Tolerance", float,
-     "error bound to stop at, as a fraction of the largest radiosity"),
-    ("--iterations", "MaximumNumberOfIterations", int, "iterations at most"),
-    ("--view-factor-tolerance", "ViewFactorTolerance", float,
-     "bound on the absolute error of each row of view factors"),
     ("--closure", "EnforceClosure", True, "make the view factors of closed scenes sum to 1"),
     ("--band-limits", "BandLimit", parse_numbers,
      "limits of spectral bands for temperatures: wavelengths in micrometres, such as 0,8,14,inf"),
@@ -53,6 +47,14 @@ RADIOSITY = (
      "temperature in kelvin of what is seen through the openings of the scene"),
     ("--background-radiance", "BackgroundRadiance", parse_numbers,
      "radiance that enters through them: a value, or one per band with commas between"),
+)
+RADIOSITY = (
+    ("--solver", "Solver", "SOLVER_", "how the equation is solved; auto is conjugate gradients"),
+    ("--tolerance", "Tolerance", float,
+     "error bound to stop at, as a fraction of the largest radiosity"),
+    ("--iterations", "MaximumNumberOfIterations", int, "iterations at most"),
+    ("--view-factor-tolerance", "ViewFactorTolerance", float,
+     "bound on the absolute error of each row of view factors"),
     ("--feature-angle", "FeatureAngle", float,
      "edges sharper than this keep their own point values, in degrees"),
 )
@@ -157,21 +159,6 @@ def parse_direction(text):
     return parse_vector(text, (3,), "X,Y,Z")
 
 
-def make_list_parser(kind, choices=None):
-    """For values with commas between them, each of them once."""
-    def parse(text):
-        try:
-            values = [kind(part) for part in text.split(",")]
-        except ValueError as error:
-            raise argparse.ArgumentTypeError(f"'{text}': {error}") from error
-        for value in values:
-            if choices is not None and value not in choices:
-                raise argparse.ArgumentTypeError(
-                    f"'{value}' is none of {', '.join(map(str, choices))}")
-        return list(dict.fromkeys(values))
-    return parse
-
-
 def make_light(numbers, positional):
     from vtkmodules.vtkRenderingCore import vtkLight
     light = vtkLight()
@@ -200,7 +187,7 @@ def make_parser():
         "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the "
         "cell arrays Emission and Reflectance, or Temperature and Emissivity; with a light "
         "Emission may be missing.")
-    add_properties(radiosity, "vtkRadiosity", RADIOSITY)
+    add_properties(radiosity, "vtkRadiosity", RADIOSITY + ENCLOSURE)
     scatter = add_filter(
         commands, "scatter", "diffuse subsurface scattering",
         "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
@@ -245,17 +232,16 @@ def add_report(commands):
         "as it is and subdivided, and writes report.csv, report.html and their pictures. Ctrl-C "
         "ends it with what was measured until then.")
     command.add_argument("folder", help="where the report goes; made when missing")
-    choices = find_choices(lt.vtkRadiosity, "SOLVER_") if hasattr(lt, "vtkRadiosity") else {}
-    command.add_argument("--solvers", type=make_list_parser(str, choices), default=["auto"],
+    command.add_argument("--solvers", type=lambda text: text.split(","), default=["auto"],
                          metavar="NAME,...",
-                         help=f"how the equation is solved: {', '.join(choices)} [auto]")
+                         help="as --solver of radiosity, each with all kinds of links [auto]")
     for flag, values, text in (
             ("--dense-tolerances", [1e-2, 1e-3], "ViewFactorTolerance of dense links"),
             ("--link-tolerances", [1e-1, 1e-2, 1e-3], "LinkTolerance of hierarchical links"),
             ("--progressive-tolerances", [1e-1, 1e-2], "Tolerance of --progressive")):
         shown = ",".join(f"{value:g}" for value in values)
-        command.add_argument(flag, type=make_list_parser(float), default=values,
-                             metavar="VALUE,...", help=f"{text} [{shown}]")
+        command.add_argument(flag, type=parse_numbers, default=values, metavar="VALUE,...",
+                             help=f"{text} [{shown}]")
     command.add_argument("--progressive", action="store_true",
                          help="also progressive refinement on the GPU (Southwell, OpenGL)")
     for flag, kind, value, text in (
@@ -268,8 +254,7 @@ def add_report(commands):
             ("--repeat", int, 1, "runs of which times are the median")):
         command.add_argument(flag, type=kind, default=value, metavar="VALUE",
                              help=f"{text} [{value:g}]")
-    command.add_argument("--device", choices=("auto", "cpu", "opengl"), default="auto",
-                         help="where the links are applied; auto takes OpenGL on a real GPU [auto]")
+    add_properties(command, "vtkRadiosity", ENCLOSURE)
     command.add_argument("--view", metavar="X,Y,Z", type=parse_direction,
                          help="direction that pictures are seen from [where the scene is open]")
     return command
@@ -325,7 +310,7 @@ def prepare(options, messages, refractive_index):
 
 def run_radiosity(options, messages):
     radiosity = find_class("vtkRadiosity")()
-    apply_properties(options, radiosity, RADIOSITY)
+    apply_properties(options, radiosity, RADIOSITY + ENCLOSURE)
     choose_arrays(options, radiosity, RADIOSITY_ARRAYS)
     data = prepare(options, messages, 1.0)
     result = Stage("radiosity", radiosity, options.quiet).run(messages, data)
@@ -357,7 +342,15 @@ def run_report(options, messages):
     data = read(options, messages)
     if options.mesh:
         data = options.mesh.run(messages, data)
-    return report.run(options, messages, RADIOSITY_ARRAYS, data)
+    return report.run(options, messages, lambda: make_enclosure(options), data)
+
+
+def make_enclosure(options):
+    """A filter for the scene, without what the report chooses itself."""
+    radiosity = find_class("vtkRadiosity")()
+    apply_properties(options, radiosity, ENCLOSURE)
+    choose_arrays(options, radiosity, RADIOSITY_ARRAYS)
+    return radiosity
 
 
 def check_usage(options):
@@ -391,7 +384,11 @@ def check_report_usage(options):
             ("--reference-limit", options.reference_limit, 0, float("inf"))):
         if not low <= value <= high:
             options.parser.error(f"argument {flag}: {value:g} is out of range")
-    model = find_class("vtkRadiosity")()
+    model = make_enclosure(options)
+    solvers = find_choices(type(model), "SOLVER_")
+    for name in options.solvers:
+        if name not in solvers:
+            options.parser.error(f"argument --solvers: '{name}' is none of {', '.join(solvers)}")
     for flag, name, values in (
             ("--dense-tolerances", "ViewFactorTolerance", options.dense_tolerances),
             ("--reference-tolerance", "ViewFactorTolerance", [options.reference_tolerance]),

@@ -18,13 +18,13 @@ import numpy
 
 from vtklighttransport.arrays import divide_triangles, get_area_vectors, get_cell_array
 from vtklighttransport.shell import (
-    Failure, Stage, choose_arrays, find_choices, find_class, get_summary)
+    Failure, Stage, find_choices, find_class, get_summary)
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 # Column of the CSV: heading, alignment and format in print.
 COLUMNS = {
     "method": ("method", "<12", ""),
-    "solver": ("solver", "<17", ""),
+    "solver": ("solver", "<23", ""),
     "tolerance": ("tolerance", ">9", "g"),
     "patches": ("patches", ">9", ",d"),
     "seconds_links": ("links s", ">8", ".3g"),
@@ -74,10 +74,10 @@ class Reference:
 class Report:
     """What has been measured so far."""
 
-    def __init__(self, options, messages, arrays):
+    def __init__(self, options, messages, make_radiosity):
         self.options = options
         self.messages = messages
-        self.arrays = arrays
+        self.make_radiosity = make_radiosity
         self.rows = []
         self.left_out = []
         self.interrupted = False
@@ -200,12 +200,13 @@ class Report:
                           get_summary(result, "SolverSeconds"), seconds))
         if not get_summary(result, "Converged"):
             self.note(f"{method.name} {tolerance:g}, {surface.GetNumberOfCells():,} patches: the "
-                      "solver stopped before its tolerance; the row shows how far it came")
+                      "solver stopped before its tolerance "
+                      f"({get_first(result, 'SolverStatus')}); the row shows how far it came")
         values = get_cell_array(result, "Radiosity").reshape(result.GetNumberOfCells(), -1)
         row = dict.fromkeys(COLUMNS, "")
         links, solver, everything = (statistics.median(column) for column in zip(*times))
         row.update(
-            method=method.name, solver=get_summary(result, "SolverUsed"), tolerance=tolerance,
+            method=method.name, solver=describe_solver(method, result), tolerance=tolerance,
             patches=surface.GetNumberOfCells(), seconds_links=links, seconds_solver=solver,
             seconds_all=everything, bytes=int(get_first(result, "LinkBytes", "MatrixBytes")),
             links=count_links(result), iterations=int(get_summary(result, "NumberOfIterations")),
@@ -215,10 +216,8 @@ class Report:
         return Solution(row, result, values, irradiance)
 
     def make_filter(self, method, tolerance, solver_tolerance):
-        radiosity = find_class("vtkRadiosity")()
-        choose_arrays(self.options, radiosity, self.arrays)
+        radiosity = self.make_radiosity()
         radiosity.SetSolver(find_choices(type(radiosity), "SOLVER_")[method.solver])
-        radiosity.SetDevice(find_choices(type(radiosity), "DEVICE_")[self.options.device])
         radiosity.SetTolerance(solver_tolerance or self.options.solver_tolerance)
         radiosity.SetMaximumNumberOfIterations(100000)
         for name, value in method.settings.items():
@@ -250,8 +249,15 @@ def print_value(row, name):
 
 def name_family(row, rows):
     """The method of a row; with its solver where the method has been run with several."""
-    solvers = {other["solver"] for other in rows if other["method"] == row["method"]}
-    return row["method"] + (f", {row['solver']}" if len(solvers) > 1 else "")
+    def get_solver(row):
+        return row["solver"].split(":")[0]
+    solvers = {get_solver(other) for other in rows if other["method"] == row["method"]}
+    return row["method"] + (f", {get_solver(row)}" if len(solvers) > 1 else "")
+
+
+def describe_solver(method, result):
+    used = get_summary(result, "SolverUsed")
+    return f"Auto: {used}" if method.solver == "auto" else used
 
 
 def relative_error(values, exact, weights):
@@ -262,8 +268,8 @@ def relative_error(values, exact, weights):
 
 def get_first(result, *names):
     """The first of these summaries that the result has."""
-    return next(value for value in (get_summary(result, name) for name in names)
-                if value is not None)
+    return next((value for value in (get_summary(result, name) for name in names)
+                 if value is not None), "")
 
 
 def count_links(result):
@@ -305,11 +311,14 @@ def get_triangles(surface):
     return triangles.GetOutput()
 
 
-def run(options, messages, arrays, surface):
-    """The command: measures, then writes the page, also of what an interrupted run has measured."""
+def run(options, messages, make_radiosity, surface):
+    """The command: measures, then writes the page, also of what an interrupted run has measured.
+
+    `make_radiosity()` is a filter of which the report sets links, solver and tolerances.
+    """
     from vtklighttransport.report_page import write_page
 
-    report = Report(options, messages, arrays)
+    report = Report(options, messages, make_radiosity)
     try:
         os.makedirs(options.folder, exist_ok=True)
         try:
