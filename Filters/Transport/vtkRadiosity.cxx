@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 vtkStandardNewMacro(vtkRadiosity);
 vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
@@ -382,15 +383,18 @@ void vtkRadiosity::WriteThermal(const vtkPatchScene& scene, const Problem& probl
                        "around them a higher temperature.");
   }
   scene.AddArray(output, "SurfaceTemperature", temperatures, 1);
+  std::vector<double> totals(temperatures.size(), 0.0);
+  for (std::size_t k = 0; k < flux.size(); ++k)
+  {
+    totals[k / materials.NumberOfBands] += flux[k];
+  }
   if (materials.NumberOfBands > 1)
   {
-    std::vector<double> totals(temperatures.size(), 0.0);
-    for (std::size_t k = 0; k < flux.size(); ++k)
-    {
-      totals[k / materials.NumberOfBands] += flux[k];
-    }
     scene.AddArray(output, "TotalNetFlux", totals, 1);
   }
+  const std::vector<double>& areas = scene.GetAreas();
+  const double power = std::inner_product(areas.begin(), areas.end(), totals.begin(), 0.0);
+  AddSummary(output->GetFieldData(), "NetPower", power * scene.GetScale() * scene.GetScale());
 }
 
 //------------------------------------------------------------------------------

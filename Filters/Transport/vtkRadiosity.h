@@ -29,9 +29,11 @@
  * component per band; with temperatures also "SurfaceTemperature" (kelvin; where the net flux q is
  * given, T with q = emissivity (sigma T^4 - H), and 0 with a warning where more is taken out than
  * any temperature allows; for an adiabatic patch of emissivity 0 the limit for small emissivities,
- * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); in field data SolverUsed,
- * SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations, ErrorBound,
- * Converged, SolverSeconds and the summaries of vtkViewFactors. Output port 1: vtkTable
+ * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum), and in field data NetPower:
+ * all net fluxes times areas (W where lengths are in metres). In a closed scene it should be 0, and
+ * tells what errors of the view factors do to the balance (EnforceClosure mends it); in field data
+ * SolverUsed, SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations,
+ * ErrorBound, Converged, SolverSeconds and the summaries of vtkViewFactors. Output port 1: vtkTable
  * "Convergence" with a row per iteration: Iteration, Seconds (since the solver began), Residual
  * (largest |E + rho H - B|) and ErrorBound (largest |error of B|).
  *
@@ -136,7 +138,8 @@ public:
    * receives its "SkyFraction" (vtkViewFactors) times sigma T^4 W/m2, where T is the background's
    * temperature in kelvin (with BandLimits the part of each band), plus its sky fraction times pi
    * times the background's radiance, in the unit of the emission per steradian, one value per band
-   * or one for all. It is part of "Irradiance", and enters no closed scene. Defaults 0 K, range 0
+   * or one for all. It is part of "Irradiance", and enters no closed scene. A patch that sees both
+   * sky and back faces knows its sky fraction from 128 rays only. Defaults 0 K, range 0
    * to 1e30, and none.
    */
   vtkSetClampMacro(BackgroundTemperature, double, 0.0, 1e30);

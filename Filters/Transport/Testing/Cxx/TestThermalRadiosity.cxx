@@ -119,6 +119,8 @@ void TestTwoSurfaces()
       {
         CheckClose(Get(radiosity, "NetFlux", cell), cell < 6 ? power / 6.0 : -power / 54.0, 3e-6,
           "exchange between two surfaces");
+        CheckClose(GetSummary(radiosity->GetPolyDataOutput(), "NetPower") / power, 0.0, 3e-6,
+          "nothing leaves the closed scene");
         Check(Get(radiosity, "SurfaceTemperature", cell) == (cell < 6 ? 900.0 : 300.0),
           "a given temperature stays");
       }
@@ -349,6 +351,22 @@ void TestWindow()
 }
 
 //------------------------------------------------------------------------------
+void TestPlateUnderSky()
+{
+  Surface surface;
+  surface.AddGrid({ 0, 0, 0 }, { 2, 0, 0 }, { 0, 3, 0 }, 2, 1);
+  auto plate = surface.Get();
+  AddArray(plate, "Temperature", { 400.0 });
+  AddArray(plate, "Emissivity", { 0.25 });
+  auto radiosity = MakeFilter(plate);
+  radiosity->SetBackgroundTemperature(100.0);
+  AddLimits(radiosity, { 0.0, 5.0, 10.0, Infinity });
+  radiosity->Update();
+  CheckClose(GetSummary(radiosity->GetPolyDataOutput(), "NetPower"),
+    6.0 * 0.25 * (BlackFlux(400.0) - BlackFlux(100.0)), 1e-12, "power of a plate of 6 m2");
+}
+
+//------------------------------------------------------------------------------
 // A convex body under the open sky.
 void TestBodyUnderSky()
 {
@@ -436,6 +454,55 @@ void TestOpenRoom()
   {
     CheckClose(Get(furnace, "Radiosity", cell), 1.0, 1e-6, "white room under a white sky");
   }
+}
+
+//------------------------------------------------------------------------------
+// Heat that is put in leaves through the opening: what each patch sends into the sky less what the
+// sky sends it. A block shades the room.
+void TestHeatBalance()
+{
+  Surface surface;
+  surface.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 3);
+  surface.AddGrid({ 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, 3, 3);
+  surface.AddGrid({ 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, 3, 3);
+  surface.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 3, 3);
+  surface.AddGrid({ 1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 }, 3, 3);
+  constexpr double areaOfBlock = 0.04;
+  surface.AddGrid({ 0.4, 0.4, 0.2 }, { 0, 0.2, 0 }, { 0.2, 0, 0 }, 1, 1);
+  surface.AddGrid({ 0.4, 0.4, 0.4 }, { 0.2, 0, 0 }, { 0, 0.2, 0 }, 1, 1);
+  surface.AddGrid({ 0.4, 0.4, 0.2 }, { 0.2, 0, 0 }, { 0, 0, 0.2 }, 1, 1);
+  surface.AddGrid({ 0.4, 0.6, 0.2 }, { 0, 0, 0.2 }, { 0.2, 0, 0 }, 1, 1);
+  surface.AddGrid({ 0.4, 0.4, 0.2 }, { 0, 0, 0.2 }, { 0, 0.2, 0 }, 1, 1);
+  surface.AddGrid({ 0.6, 0.4, 0.2 }, { 0, 0.2, 0 }, { 0, 0, 0.2 }, 1, 1);
+  auto scene = surface.Get();
+  const vtkIdType cells = scene->GetNumberOfCells();
+  vtkDoubleArray* condition = AddArray(scene, "BoundaryCondition", { 0.0 });
+  AddArray(scene, "PrescribedNetFlux", { 800.0 });
+  AddArray(scene, "Temperature", { 350.0 });
+  AddArray(scene, "Emissivity", { 0.4 });
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    condition->SetValue(cell, cell % 3 == 0 ? 1.0 : 0.0);
+  }
+  vtkNew<vtkViewFactors> factors;
+  factors->SetInputData(scene);
+  factors->SetTolerance(1e-5);
+  factors->Update();
+  vtkDataArray* sky = factors->GetPolyDataOutput()->GetCellData()->GetArray("SkyFraction");
+  auto radiosity = MakeFilter(scene);
+  radiosity->SetViewFactors(factors);
+  radiosity->SetBackgroundTemperature(280.0);
+  radiosity->Update();
+  double escaping = 0.0, leaving = 0.0;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    const double area = cell < 45 ? 1.0 / 9.0 : areaOfBlock;
+    leaving += area * Get(radiosity, "NetFlux", cell);
+    escaping +=
+      area * sky->GetComponent(cell, 0) * (Get(radiosity, "Radiosity", cell) - BlackFlux(280.0));
+  }
+  CheckClose(leaving, escaping, 1e-4, "what leaves the surfaces leaves through the opening");
+  CheckClose(GetSummary(radiosity->GetPolyDataOutput(), "NetPower"), leaving, 1e-12, "net power");
 }
 
 //------------------------------------------------------------------------------
@@ -626,8 +693,10 @@ int TestThermalRadiosity(int, char*[])
   TestImpossibleTemperature();
   TestGreyBands();
   TestWindow();
+  TestPlateUnderSky();
   TestBodyUnderSky();
   TestOpenRoom();
+  TestHeatBalance();
   TestWhatBackgroundNeeds();
   TestTimeSeries();
   TestRanks();
