@@ -29,13 +29,13 @@
  * component per band; with temperatures also "SurfaceTemperature" (kelvin; where the net flux q is
  * given, T with q = emissivity (sigma T^4 - H), and 0 with a warning where more is taken out than
  * any temperature allows; for an adiabatic patch of emissivity 0 the limit for small emissivities,
- * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum), and in field data NetPower:
- * all net fluxes times areas (W where lengths are in metres). In a closed scene it should be 0, and
- * tells what errors of the view factors do to the balance (EnforceClosure mends it); in field data
- * SolverUsed, SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations,
- * ErrorBound, Converged, SolverSeconds and the summaries of vtkViewFactors. Output port 1: vtkTable
- * "Convergence" with a row per iteration: Iteration, Seconds (since the solver began), Residual
- * (largest |E + rho H - B|) and ErrorBound (largest |error of B|).
+ * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); in field data SolverUsed,
+ * SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations, ErrorBound,
+ * Converged, SolverSeconds, the summaries of vtkViewFactors, and with temperatures NetPower: all
+ * net fluxes times areas (W where lengths are in metres), which should be 0 in a closed scene and
+ * tells what errors of the view factors do to the balance (EnforceClosure mends it). Output port 1:
+ * vtkTable "Convergence" with a row per iteration: Iteration, Seconds (since the solver began),
+ * Residual (largest |E + rho H - B|) and ErrorBound (largest |error of B|).
  *
  * The error bound is algebraic: with w > 0 such that d = (I - rho F) w > 0, |error_i| <= w_i max_j
  * |r_j| / d_j. w = 1 gives the row-sum bound; where that is infinite (rho times row sum reaches 1)
