@@ -41,6 +41,7 @@ void AddUp(vtkSMPThreadLocal<std::vector<double>>& sums, double* target, long si
 struct TileProducts
 {
   const std::vector<vtkExchangeMatrix::Tile>& Tiles;
+  const std::vector<double>& Remainders;
   int Kernels;
   int Bands;
   long Stride;
@@ -56,6 +57,10 @@ struct TileProducts
     for (vtkIdType index = begin; index < end; ++index)
     {
       const vtkExchangeMatrix::Tile& tile = this->Tiles[index];
+      if (tile.Row == tile.Column && !this->Remainders.empty())
+      {
+        this->AddRemainders(tile.Row * N, y);
+      }
       if (!tile.Values)
       {
         continue;
@@ -69,6 +74,19 @@ struct TileProducts
       {
         const long offset = kernel * this->Stride;
         this->MultiplyKernel(tile, tile.Values + kernel * N * N, 1, this->X + offset, y + offset);
+      }
+    }
+  }
+
+  void AddRemainders(vtkIdType row, double* y) const
+  {
+    const auto end = std::min(row + N, static_cast<vtkIdType>(this->Remainders.size()));
+    for (int band = 0; band < this->Bands; ++band)
+    {
+      const long offset = band * this->Stride;
+      for (vtkIdType i = row; i < end; ++i)
+      {
+        y[offset + i] += this->Remainders[i] * this->X[offset + i];
       }
     }
   }
@@ -184,8 +202,8 @@ void vtkDenseLinkOperator::MultiplyPart(const Vector& x, Vector& y)
     std::fill(y.begin(), y.end(), 0.0);
     return;
   }
-  TileProducts products{ tiles, this->NumberOfKernels, this->NumberOfBands, this->Stride, x.data(),
-    y.data(), {} };
+  TileProducts products{ tiles, this->Exchange->GetRemainders(), this->NumberOfKernels,
+    this->NumberOfBands, this->Stride, x.data(), y.data(), {} };
   vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), TilesPerTask, products);
 }
 
@@ -214,6 +232,7 @@ bool vtkDenseLinkOperator::Sweep(int x, int e, int left)
                   "use Jacobi, Chebyshev or ConjugateGradient on several.");
     return false;
   }
+  const std::vector<double>& remainders = this->Exchange->GetRemainders();
   Vector sums;
   for (vtkIdType row = 0; row < this->Exchange->GetNumberOfTileRows(); ++row)
   {
@@ -230,6 +249,7 @@ bool vtkDenseLinkOperator::Sweep(int x, int e, int left)
       {
         const float* g = tile.Values ? tile.Values + (kernel * N + i) * N : RowOfZeros;
         double sum = sums[band * N + i];
+        sum += remainders.empty() ? 0.0 : remainders[row * N + i] * block[i];
         for (int j = 0; j < patches; ++j)
         {
           sum += g[j] * block[j];

@@ -83,6 +83,7 @@ void vtkExchangeMatrix::AllocateSparse(const std::vector<double>& areas, int num
 {
   this->Areas = areas;
   this->Tiles.clear();
+  this->Remainders.clear();
   this->FreeTiles.clear();
   this->Chunks.clear();
   this->TilesOfNextChunk = TilesOfFirstChunk;
@@ -201,8 +202,17 @@ double vtkExchangeMatrix::GetValue(vtkIdType i, vtkIdType j, int kernel) const
   {
     return 0.0;
   }
+  const double remainder = i == j && !this->Remainders.empty() ? this->Remainders[i] : 0.0;
   const float* values = this->Tiles[index / this->NumberOfParts].Values;
-  return values ? values[kernel * TileValues + (i % TileSize) * TileSize + j % TileSize] : 0.0;
+  return remainder +
+    (values ? values[kernel * TileValues + (i % TileSize) * TileSize + j % TileSize] : 0.0);
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeMatrix::SetRemainders(const std::vector<double>& remainders)
+{
+  this->Remainders = remainders;
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------

@@ -91,6 +91,17 @@ public:
   static void SetValue(Tile& tile, int row, int column, int kernel, double value);
 
   ///@{
+  /**
+   * What is added to the diagonal, one value per patch, in double precision: what rows that must
+   * keep an exact sum have lost in the rounding of their entries (about 1e-7 of the area, either
+   * sign). None by default. For matrices of one kernel; of several parts each adds what is on its
+   * own tiles. Operators in single precision leave it out.
+   */
+  void SetRemainders(const std::vector<double>& remainders);
+  const std::vector<double>& GetRemainders() const { return this->Remainders; }
+  ///@}
+
+  ///@{
   /// Tiles of this part that are stored, and their bytes. Not while threads allocate or release.
   vtkIdType GetNumberOfStoredTiles() const;
   double GetNumberOfBytes() const override;
@@ -112,6 +123,7 @@ private:
   bool AddChunk(vtkIdType numberOfTiles);
 
   std::vector<Tile> Tiles;
+  std::vector<double> Remainders;
   /// Memory is had in chunks that many tiles are cut from.
   std::vector<std::unique_ptr<float, FreeChunk>> Chunks;
   std::vector<float*> FreeTiles; ///< cut but not in use, the next one last

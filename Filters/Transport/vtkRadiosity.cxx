@@ -28,8 +28,8 @@ vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
 
 namespace
 {
-// What storing view factors in single precision costs a row sum.
-constexpr double SinglePrecision = 1e-7;
+// What sums of view factors lose by rounding in double precision.
+constexpr double DoublePrecision = 1e-14;
 
 // The stages of a run as fractions of its progress.
 constexpr double ViewFactorsDone = 0.8;
@@ -41,13 +41,13 @@ double GetRowSumError(vtkViewFactors* viewFactors)
 {
   const std::vector<double>& errors = viewFactors->GetRowErrors();
   const std::vector<double>& sums = viewFactors->GetRowSums();
-  double largest = 0.0;
+  double largest = DoublePrecision;
   for (std::size_t row = 0; row < errors.size(); ++row)
   {
     const double gap = viewFactors->HasClosedRows() ? std::abs(1.0 - sums[row]) : errors[row];
     largest = std::max(largest, std::min(errors[row], gap));
   }
-  return largest + SinglePrecision;
+  return largest;
 }
 
 //------------------------------------------------------------------------------

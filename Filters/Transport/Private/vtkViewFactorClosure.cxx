@@ -21,6 +21,8 @@ constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
 
 // Row sums closer to 1 than this are closed: single precision storage loses more.
 constexpr double Goal = 1e-8;
+// What is missing in a closed row by no more than this has been rounded away.
+constexpr double Rounding = 2e-7;
 // Each round lets go of the entries that met their bounds in the one before. Rounds end earlier
 // when none helps any more.
 constexpr int MaximumRounds = 20;
@@ -331,6 +333,22 @@ private:
   Array Multipliers;
   bool Ok = false;
 };
+
+//------------------------------------------------------------------------------
+void AddRemainders(vtkExchangeMatrix& exchange, const std::vector<bool>& closed,
+  const std::vector<double>& sums)
+{
+  std::vector<double> remainders(sums.size(), 0.0);
+  for (std::size_t row = 0; row < sums.size(); ++row)
+  {
+    const double missing = 1.0 - sums[row];
+    if (closed[row] && std::abs(missing) <= Rounding)
+    {
+      remainders[row] = missing * exchange.GetAreas()[row];
+    }
+  }
+  exchange.SetRemainders(remainders);
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -343,6 +361,7 @@ bool vtkViewFactorClosure::Close(vtkViewFactorsResult& result,
   {
     return false;
   }
+  AddRemainders(*result.Exchange, closed, closing.GetRowSums());
   result.RowSums = closing.GetRowSums();
   report.Gap = 0.0;
   for (std::size_t row = 0; row < closed.size(); ++row)

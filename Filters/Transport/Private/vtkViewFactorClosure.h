@@ -6,6 +6,10 @@
  * Mass Transfer 32, 1989, weights with the view factors themselves), so that an entry moves in
  * proportion to its own error estimate; bounded, so that no entry becomes negative or larger than
  * with nothing between the two patches (plus the error bound of that number itself).
+ *
+ * What storage in single precision rounds away of a closed row (6e-8) goes to the diagonal in
+ * double precision (vtkExchangeMatrix::SetRemainders): the sums are then exact to 1e-15, which
+ * reflectances next to 1 need.
  */
 #ifndef vtkViewFactorClosure_h
 #define vtkViewFactorClosure_h

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -24,7 +25,7 @@ using Tile = vtkExchangeMatrix::Tile;
 constexpr int N = vtkExchangeMatrix::TileSize;
 constexpr std::size_t LineLength = 40;
 constexpr char Format[] = "vtkLightTransport view factors ";
-constexpr char Version[] = "1";
+constexpr char Version[] = "2";
 constexpr Count ByteOrder = 0x0102030405060708;
 constexpr Count SwappedByteOrder = 0x0807060504030201;
 
@@ -59,7 +60,10 @@ using Row = std::vector<double> vtkViewFactorsResult::*;
 constexpr Row Rows[] = { &vtkViewFactorsResult::RawRowSums, &vtkViewFactorsResult::RowSums,
   &vtkViewFactorsResult::RowErrors, &vtkViewFactorsResult::SkyFractions,
   &vtkViewFactorsResult::BackFaceFractions };
-constexpr Count BytesPerPatch = sizeof(double) * (1 + std::size(Rows));
+/// Beside the rows: areas and remainders.
+constexpr Count BytesPerPatch = sizeof(double) * (2 + std::size(Rows));
+/// The largest remainder of a row, relative to its area.
+constexpr double LargestRemainder = 1e-6;
 
 //------------------------------------------------------------------------------
 std::string MakeLine()
@@ -130,6 +134,17 @@ bool AreUsable(const std::vector<double>& values, Row row)
 }
 
 //------------------------------------------------------------------------------
+bool AreRemainders(const std::vector<double>& remainders, const std::vector<double>& areas)
+{
+  bool good = remainders.empty() || remainders.size() == areas.size();
+  for (std::size_t row = 0; good && row < remainders.size(); ++row)
+  {
+    good = std::abs(remainders[row]) <= LargestRemainder * areas[row];
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
 // What the link operators count on: padding is zero, tiles of the diagonal are symmetric.
 bool IsUsable(const Tile& tile, vtkIdType numberOfPatches)
 {
@@ -172,6 +187,9 @@ public:
     {
       this->PutValues(result.*row);
     }
+    std::vector<double> remainders = result.Exchange->GetRemainders();
+    remainders.resize(result.Exchange->GetAreas().size(), 0.0);
+    this->PutValues(remainders);
     for (const auto& [name, value] : result.Summaries)
     {
       const Count length = name.size();
@@ -285,6 +303,7 @@ private:
   Checksum Sum;
   Header Head;
   std::vector<double> Areas;
+  std::vector<double> Remainders;
 };
 
 //------------------------------------------------------------------------------
@@ -379,6 +398,8 @@ bool Reader::GetRows()
     good = good && this->GetValues(this->Result.*row);
     usable = usable && good && AreUsable(this->Result.*row, row);
   }
+  good = good && this->GetValues(this->Remainders);
+  usable = usable && good && AreRemainders(this->Remainders, this->Areas);
   if (good && !usable)
   {
     return this->Fail(
@@ -425,6 +446,11 @@ bool Reader::MakeMatrix()
   }
   this->Result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
   this->Result.Exchange->AllocateSparse(this->Areas, 1);
+  if (std::any_of(this->Remainders.begin(), this->Remainders.end(),
+        [](double remainder) { return remainder != 0.0; }))
+  {
+    this->Result.Exchange->SetRemainders(this->Remainders);
+  }
   return true;
 }
 
@@ -495,7 +521,8 @@ bool CanBeWritten(const vtkViewFactorsResult& result)
     return false;
   }
   const std::vector<double>& areas = exchange->GetAreas();
-  bool good = AreUsable(areas.data(), areas.size(), 0.0);
+  bool good =
+    AreUsable(areas.data(), areas.size(), 0.0) && AreRemainders(exchange->GetRemainders(), areas);
   for (Row row : Rows)
   {
     good = good && (result.*row).size() == areas.size() && AreUsable(result.*row, row);

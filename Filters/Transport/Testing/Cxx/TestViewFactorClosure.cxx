@@ -16,6 +16,7 @@ namespace
 {
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
 constexpr double Single = 3e-7;
+constexpr double Double = 2e-15;
 
 //------------------------------------------------------------------------------
 // A sphere, some pairs of which are known badly: between the exchange with nothing between and 0,
@@ -167,7 +168,10 @@ Comparison Compare(const Case& scene, const vtkViewFactorsResult& result)
       if (scene.GetExact(i, j) > 0.0 && !listed[i * scene.GetNumberOfPatches() + j])
       {
         const double exact = static_cast<float>(scene.GetExact(i, j));
-        comparison.Unlisted = std::max(comparison.Unlisted, std::abs(value / exact - 1.0));
+        // The diagonal also takes what its row has lost in single precision.
+        const double lost = i == j ? 2e-7 * scene.Areas[i] : 0.0;
+        const double change = std::max(0.0, std::abs(value - exact) - lost);
+        comparison.Unlisted = std::max(comparison.Unlisted, change / exact);
       }
     }
   }
@@ -183,12 +187,12 @@ void TestClosedScene(vtkIdType patches, double relativeError)
   scene.Perturb(5, 0.3);
   vtkViewFactorsResult result;
   const vtkViewFactorClosure::Report report = scene.Close(result, relativeError);
-  Check(report.Gap < Single, "no gap is left" + what);
+  Check(report.Gap < Double, "no gap is left" + what);
   double worst = 0.0;
   for (vtkIdType i = 0; i < patches; ++i)
   {
-    CheckClose(SumRow(result, i), 1.0, Single, "closed row" + what);
-    CheckClose(result.RowSums[i], SumRow(result, i), 1e-13, "row sum as stored" + what);
+    CheckClose(SumRow(result, i), 1.0, Double, "closed row" + what);
+    CheckClose(result.RowSums[i], SumRow(result, i), Double, "row sum as stored" + what);
     worst = std::max(worst, std::abs(1.0 - result.RowSums[i]));
   }
   CheckClose(report.Gap, worst, 1e-14, "the gap" + what);
@@ -223,7 +227,7 @@ void TestSphereWithinSphere()
   }
   vtkViewFactorClosure::Report report;
   vtkViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, nullptr, report);
-  Check(report.Gap < Single, "sphere within a sphere");
+  Check(report.Gap < Double, "sphere within a sphere");
   const Comparison comparison = Compare(scene, result);
   Check(comparison.Unlisted < 1.5e-4, "entries of the sphere within");
   Check(comparison.After < comparison.Before, "the sphere within is closer to the exact matrix");
@@ -273,7 +277,7 @@ void TestBounds()
   }
   vtkViewFactorsResult result;
   const vtkViewFactorClosure::Report report = scene.Close(result, 1e-7);
-  Check(report.Gap < Single, "closed at the bounds");
+  Check(report.Gap < Double, "closed at the bounds");
   const Comparison comparison = Compare(scene, result);
   Check(comparison.After < comparison.Before, "closer to the exact matrix at the bounds");
   vtkIdType atBounds = 0;
@@ -299,7 +303,7 @@ void TestOpenRows()
   const vtkViewFactorsResult before = scene.MakeResult(pairs);
   vtkViewFactorsResult result;
   const vtkViewFactorClosure::Report report = scene.Close(result, 1e-5);
-  Check(report.Gap < Single, "closed rows beside open ones");
+  Check(report.Gap < Double, "closed rows beside open ones");
   for (vtkIdType i = 0; i < 300; ++i)
   {
     for (vtkIdType j = 0; !scene.Closed[i] && j < 300; ++j)
@@ -307,7 +311,7 @@ void TestOpenRows()
       Check(result.Exchange->GetValue(i, j) == before.Exchange->GetValue(i, j),
         "entries of open rows stay");
     }
-    CheckClose(SumRow(result, i), scene.Closed[i] ? 1.0 : SumRow(before, i), Single, "row sum");
+    CheckClose(SumRow(result, i), scene.Closed[i] ? 1.0 : SumRow(before, i), Double, "row sum");
   }
 }
 
@@ -355,7 +359,7 @@ void TestNothing()
   Case scene(50);
   vtkViewFactorsResult result;
   vtkViewFactorClosure::Report report = scene.Close(result, 1e-3);
-  Check(report.Change < 1e-7 && report.Gap < Single, "a matrix that is closed stays");
+  Check(report.Change < 1e-7 && report.Gap < Double, "a matrix that is closed stays");
   scene.Closed.assign(50, false);
   scene.Perturb(2, 0.5);
   report = scene.Close(result, 1e-3);
@@ -383,7 +387,7 @@ void TestRanks()
         vtkViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5, controller, report),
         "closure on several ranks");
       CheckClose(report.Change, expected.Change, 1e-6, "change on several ranks");
-      Check(report.Gap < Single, "gap on several ranks");
+      Check(report.Gap < Double, "gap on several ranks");
     });
   for (vtkIdType i = 0; i < 700; i += 3)
   {

@@ -66,6 +66,12 @@ vtkViewFactorsResult MakeResult(vtkIdType patches)
   {
     *values = row();
   }
+  std::vector<double> remainders = row();
+  for (std::size_t k = 0; k < remainders.size(); ++k)
+  {
+    remainders[k] = (remainders[k] - 0.5) * 1e-7 * result.Exchange->GetAreas()[k];
+  }
+  result.Exchange->SetRemainders(remainders);
   result.Summaries = { { "NumberOfPairs", 1e15 / 3.0 }, { "", -0.0 },
     { "MaximumRowError", std::numeric_limits<double>::infinity() } };
   for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
@@ -96,8 +102,8 @@ bool IsSame(const std::vector<double>& a, const std::vector<double>& b)
 //------------------------------------------------------------------------------
 bool IsSame(const vtkExchangeMatrix* a, const vtkExchangeMatrix* b)
 {
-  return IsSame(a->GetAreas(), b->GetAreas()) && b->GetNumberOfKernels() == 1 &&
-    b->GetNumberOfParts() == 1 &&
+  return IsSame(a->GetAreas(), b->GetAreas()) && IsSame(a->GetRemainders(), b->GetRemainders()) &&
+    b->GetNumberOfKernels() == 1 && b->GetNumberOfParts() == 1 &&
     std::equal(a->GetTiles().begin(), a->GetTiles().end(), b->GetTiles().begin(),
       b->GetTiles().end(),
       [](const vtkExchangeMatrix::Tile& s, const vtkExchangeMatrix::Tile& t)
@@ -162,7 +168,7 @@ std::string Sign(std::string bytes)
   std::uint64_t patches, summaries, length;
   std::memcpy(&patches, &bytes[Patches], 8);
   std::memcpy(&summaries, &bytes[Summaries], 8);
-  std::size_t next = Areas + 48 * patches;
+  std::size_t next = Areas + 56 * patches;
   add(bytes.data(), next);
   for (; summaries > 0; --summaries)
   {
@@ -205,11 +211,11 @@ void TestRoundTrip(const Folder& folder)
     Check(folder.GetNumberOfFiles() == 1, what + "one file");
   }
   const std::string bytes = GetBytes(name);
-  Check(bytes.rfind("vtkLightTransport view factors 1", 0) == 0 && bytes[Line - 1] == '\n',
+  Check(bytes.rfind("vtkLightTransport view factors 2", 0) == 0 && bytes[Line - 1] == '\n',
     "a line to read");
   const vtkViewFactorsResult result = MakeResult(1000);
   CheckClose(static_cast<double>(bytes.size()),
-    Areas + 48.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Exchange->GetNumberOfStoredTiles() +
+    Areas + 56.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Exchange->GetNumberOfStoredTiles() +
       result.Exchange->GetNumberOfBytes() + 8,
     0.0, "length of the file");
   Check(Sign(bytes) == bytes, "the checksum is what its description says");
@@ -221,8 +227,8 @@ void TestTruncation(const Folder& folder, const std::string& bytes)
   const std::string name = folder.Get("short");
   const std::size_t end = bytes.size();
   for (const std::size_t length : { std::size_t(0), std::size_t(1), std::size_t(31), Line, Line + 1,
-         Order + 8, Tiles, Areas - 1, Areas, Areas + 8, Areas + 48 * 300 - 1, Areas + 48 * 300,
-         Areas + 48 * 300 + 8, Areas + 48 * 300 + 60, Areas + 48 * 300 + 90, end - 4 * N * N - 30,
+         Order + 8, Tiles, Areas - 1, Areas, Areas + 8, Areas + 56 * 300 - 1, Areas + 56 * 300,
+         Areas + 56 * 300 + 8, Areas + 56 * 300 + 60, Areas + 56 * 300 + 90, end - 4 * N * N - 30,
          end - 4 * N * N - 9, end - 4 * N * N - 8, end - 12, end - 8, end - 1 })
   {
     PutBytes(name, bytes.substr(0, length));
@@ -242,7 +248,7 @@ void TestFlippedBytes(const Folder& folder, const std::string& bytes)
   for (std::size_t k = 0; k < 900; ++k)
   {
     const std::size_t offset = k < Areas + 16 ? k
-      : k < 600                               ? generator() % (Areas + 48 * 300 + 100)
+      : k < 600                               ? generator() % (Areas + 56 * 300 + 100)
                                               : generator() % bytes.size();
     std::string damaged = bytes;
     damaged[offset] = static_cast<char>(damaged[offset] ^ (1 << (generator() % 8)));
@@ -254,8 +260,8 @@ void TestFlippedBytes(const Folder& folder, const std::string& bytes)
   }
   // The same bit of two words: what a plain sum or exclusive or would not see.
   std::string damaged = bytes;
-  damaged[Areas + 7] = static_cast<char>(damaged[Areas + 7] ^ 1);
-  damaged[Areas + 15] = static_cast<char>(damaged[Areas + 15] ^ 1);
+  damaged[Areas + 8 * 300 + 7] = static_cast<char>(damaged[Areas + 8 * 300 + 7] ^ 1);
+  damaged[Areas + 8 * 300 + 15] = static_cast<char>(damaged[Areas + 8 * 300 + 15] ^ 1);
   PutBytes(name, damaged);
   ExpectError(name, "checksum", "two changed bytes");
 }
@@ -277,7 +283,7 @@ void TestMadeUp(const Folder& folder, const std::string& bytes)
     expect(Replace(bytes, Tiles, count), "cut short", "tiles that are not there");
     expect(Replace(bytes, Summaries, count), count == 301 ? "" : "damaged",
       "summaries that are not there");
-    expect(Replace(bytes, Areas + 48 * 300, count), count == 301 ? "" : "damaged",
+    expect(Replace(bytes, Areas + 56 * 300, count), count == 301 ? "" : "damaged",
       "a name that is not there");
     expect(Replace(bytes, Patches, count), count == 301 ? "" : "cut short",
       "patches that are not there");
@@ -297,6 +303,11 @@ void TestMadeUp(const Folder& folder, const std::string& bytes)
   for (std::size_t row = 4; row < 6; ++row)
   {
     expect(Sign(Replace(bytes, Areas + 8 * (300 * row + 299), nan)), "areas or sums", "a NaN");
+  }
+  for (const double value : { nan, infinity, 1e-3, -1e-3 })
+  {
+    expect(Sign(Replace(bytes, Areas + 8 * (300 * 6 + 11), value)), "areas or sums",
+      "a remainder that cannot be");
   }
 
   // Two tiles are stored: (0, 0) and, at the end, (1, 1).
@@ -334,7 +345,7 @@ void TestMemory(const Folder& folder, const std::string& bytes)
   head = Replace(head, Tiles, std::uint64_t(0));
   PutBytes(name, head);
   std::error_code problem;
-  fs::resize_file(fs::u8path(name), Areas + 48 * patches + 8, problem);
+  fs::resize_file(fs::u8path(name), Areas + 56 * patches + 8, problem);
   if (!problem)
   {
     ExpectError(name, "of memory", "a great many patches");
@@ -353,8 +364,8 @@ void TestForeign(const Folder& folder, const std::string& bytes)
   };
   expect(std::string(100000, '\0'), "not a file of view factors", "zeros");
   expect("# vtk DataFile Version 5.1\n", "not a file of view factors", "another format");
-  expect(Replace(bytes, 31, '2'), "not version 1", "a later version");
-  expect(Replace(bytes, Order + 8, std::uint64_t(128)), "not version 1", "another size of tiles");
+  expect(Replace(bytes, 31, '3'), "not version 2", "a later version");
+  expect(Replace(bytes, Order + 8, std::uint64_t(128)), "not version 2", "another size of tiles");
   std::string swapped = bytes;
   for (std::size_t word = Order; word < Areas; word += 8)
   {
@@ -418,6 +429,7 @@ void TestWriteErrors(const Folder& folder)
   expect([](auto& result) { result.RowSums[5] = vtkMath::Nan(); }, "a NaN");
   expect([](auto& result) { result.Tolerance = -1.0; }, "a tolerance that cannot be");
   expect([](auto& result) { result.Exchange->GetTiles()[0].Values[3] = -1.0f; }, "a negative");
+  expect([](auto& result) { result.Exchange->SetRemainders({ 0.0 }); }, "remainders of few rows");
   expect([](auto& result) { result.Summaries.resize(1001); }, "too many summaries");
   expect([](auto& result) { result.Summaries[0].first.resize(1001); }, "too long a name");
   const std::vector<double> areas(300, 1.0);
