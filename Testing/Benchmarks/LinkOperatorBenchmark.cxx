@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Iterations per second of the dense Jacobi step B <- E + rho G B / A, on the CPU and with OpenGL,
- * and the memory bandwidth that this amounts to, beside a plain loop that reads the same bytes of
- * the same matrix with the same number of threads.
+ * Iterations per second of the Jacobi step B <- E + rho G B / A, on the CPU and with OpenGL: dense
+ * for given numbers of patches, and hierarchical for given numbers of random links between
+ * clusters. Beside each stands the bandwidth that this amounts to, in bytes of links as they are
+ * stored, and what the same memory does without computing, measured in turn: on the CPU a plain
+ * loop that reads the same bytes with the same number of threads; with OpenGL copying, as bytes
+ * read and written by a shader that multiplies a vector of 64 MB with itself.
  *
  * Not a test: timings depend on the machine and on what else it does. For orientation, Carr, Hall
  * and Hart (Graphics Hardware 2003) report about 30 iterations per second on their GPU and 40 on
@@ -11,7 +14,9 @@
  */
 #include "vtkDenseLinkOperator.h"
 #include "vtkDeviceLinkOperator.h"
+#include "vtkExchangeHierarchy.h"
 #include "vtkExchangeMatrix.h"
+#include "vtkHierarchicalLinkOperator.h"
 #include "vtkNew.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
@@ -23,6 +28,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -39,9 +45,10 @@
 namespace
 {
 constexpr const char* Usage =
-  "usage: LinkOperatorBenchmark [--sizes N,N,...] [--bands N,N,...] [--device all|cpu|opengl]\n"
-  "                             [--seconds S] [--csv FILE]\n"
-  "  --sizes    numbers of patches (1530,4096,16384)\n"
+  "usage: LinkOperatorBenchmark [--sizes N,N,...] [--links N,N,...] [--bands N,N,...]\n"
+  "                             [--device all|cpu|opengl] [--seconds S] [--csv FILE]\n"
+  "  --sizes    numbers of patches of a dense matrix, 0 for none (1530,4096,16384)\n"
+  "  --links    numbers of links between clusters, 0 for none (1000000)\n"
   "  --bands    numbers of bands (1,3)\n"
   "  --device   what to measure (all); a software OpenGL renderer is measured up to 4,096 "
   "patches,\n"
@@ -50,12 +57,16 @@ constexpr const char* Usage =
   "  --csv      write the table to a file as well\n";
 
 constexpr vtkIdType LargestForSoftwareRenderers = 4096;
+constexpr vtkIdType LinksPerPatch = 16;
+/// Of the vector that is copied, with four bands, in single precision.
+constexpr int CopiedPatches = 1 << 22;
 constexpr int NumberOfSamples = 9;
 constexpr double Reflectance = 0.7;
 
 struct Options
 {
   std::vector<int> Sizes = { 1530, 4096, 16384 };
+  std::vector<int> Links = { 1000000 };
   std::vector<int> Bands = { 1, 3 };
   std::string Device = "all";
   double Seconds = 2.0;
@@ -72,13 +83,28 @@ struct Row
 {
   std::string Device;
   vtkIdType Patches;
+  /// Between clusters; 0 for a matrix.
+  vtkIdType Links;
   int Bands;
   double Bytes;
   /// Iterations per second.
   Sample Step;
-  /// Passes over the matrix per second of the plain loop; 0 where it says nothing (OpenGL has
-  /// memory of its own).
-  Sample Read;
+  /// Bytes per second of what only reads or copies.
+  Sample Plain;
+};
+
+/// What the memory does without computing: seconds for a number of passes, and bytes of a pass.
+struct PlainWork
+{
+  std::function<double(int passes)> Time;
+  double Bytes = 0.0;
+};
+
+/// Memory that a plain loop reads.
+struct Block
+{
+  const void* Begin;
+  std::size_t Bytes;
 };
 
 /// Slots of the operator's vectors.
@@ -99,7 +125,7 @@ bool ParseIntegers(const char* text, std::vector<int>& values)
   while (std::getline(stream, item, ','))
   {
     values.push_back(std::atoi(item.c_str()));
-    if (values.back() < 1)
+    if (values.back() < 0)
     {
       return false;
     }
@@ -119,9 +145,14 @@ bool ParseOptions(int argc, char* argv[], Options& options)
     {
       valid = ParseIntegers(value, options.Sizes);
     }
+    else if (name == "--links")
+    {
+      valid = ParseIntegers(value, options.Links);
+    }
     else if (name == "--bands")
     {
-      valid = ParseIntegers(value, options.Bands);
+      valid = ParseIntegers(value, options.Bands) &&
+        *std::min_element(options.Bands.begin(), options.Bands.end()) > 0;
     }
     else if (name == "--device")
     {
@@ -194,6 +225,96 @@ void FillMatrix(vtkExchangeMatrix* matrix)
 }
 
 //------------------------------------------------------------------------------
+/// A tree of eight children each, with up to eight patches in a leaf.
+std::vector<vtkExchangeHierarchy::Node> MakeTree(int patches)
+{
+  std::vector<int> levels = { (patches + 7) / 8 };
+  while (levels.back() > 1)
+  {
+    levels.push_back((levels.back() + 7) / 8);
+  }
+  std::reverse(levels.begin(), levels.end());
+  levels.push_back(patches);
+  std::vector<vtkExchangeHierarchy::Node> nodes;
+  int first = 1;
+  for (std::size_t level = 0; level + 1 < levels.size(); ++level)
+  {
+    const int children = levels[level + 1];
+    for (int node = 0; node < levels[level]; ++node)
+    {
+      nodes.push_back({ first + 8 * node, first + std::min(8 * node + 8, children) });
+    }
+    first += children;
+  }
+  return nodes;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Random links with row sums of about 1, for patches of area 1: half of them between any two
+ * slots, which are mostly patches, half with one end on any level, so that rows differ in length as
+ * they do in scenes.
+ */
+bool FillHierarchy(vtkExchangeHierarchy* hierarchy, int links)
+{
+  const int patches = static_cast<int>(std::max<vtkIdType>(links / LinksPerPatch, 1));
+  if (!hierarchy->SetTree(std::vector<double>(patches, 1.0), MakeTree(patches)))
+  {
+    return false;
+  }
+  const int slots = hierarchy->GetNumberOfSlots();
+  const std::vector<int>& levels = hierarchy->GetLevels();
+  std::uint64_t count = 0;
+  const auto random = [&](int begin, int end)
+  { return begin + static_cast<int>(PairValue(++count, 1) * static_cast<float>(end - begin)); };
+  std::vector<int> sizes(slots, 1);
+  for (int slot = slots - 1; slot > 0; --slot)
+  {
+    const int parent = hierarchy->GetParents()[slot];
+    sizes[parent] += slot < hierarchy->GetNumberOfNodes() ? sizes[slot] - 1 : 1;
+  }
+  std::vector<vtkExchangeHierarchy::Link> table(links);
+  for (int link = 0; link < links; ++link)
+  {
+    const int level = random(0, static_cast<int>(levels.size()) - 1);
+    const int i = link % 2 == 0 ? random(0, slots) : random(levels[level], levels[level + 1]);
+    const int j = random(0, slots);
+    // Each link adds as much to the sum of all rows.
+    const double pairs = static_cast<double>(sizes[i]) * sizes[j];
+    table[link] = { i, j, static_cast<float>(patches / (2.0 * links * pairs)) };
+  }
+  return hierarchy->SetLinks(table);
+}
+
+//------------------------------------------------------------------------------
+std::vector<Block> GetBlocks(const vtkExchangeMatrix* matrix)
+{
+  std::vector<Block> blocks;
+  for (const vtkExchangeMatrix::Tile& tile : matrix->GetTiles())
+  {
+    blocks.push_back(
+      { tile.Values, sizeof(float) * vtkExchangeMatrix::TileSize * vtkExchangeMatrix::TileSize });
+  }
+  return blocks;
+}
+
+//------------------------------------------------------------------------------
+/// In pieces, so that threads share them evenly.
+std::vector<Block> GetBlocks(const vtkExchangeHierarchy* hierarchy)
+{
+  std::vector<Block> blocks;
+  const std::size_t values = hierarchy->GetValues().size();
+  const std::size_t most = 65536;
+  for (std::size_t first = 0; first < values; first += most)
+  {
+    const std::size_t bytes = 4 * std::min(most, values - first);
+    blocks.push_back({ hierarchy->GetColumns().data() + first, bytes });
+    blocks.push_back({ hierarchy->GetValues().data() + first, bytes });
+  }
+  return blocks;
+}
+
+//------------------------------------------------------------------------------
 /// Integers, so that the compiler may add them in any order and with any width.
 WIDEST_VECTORS std::uint32_t Sum(const std::uint32_t* values, std::size_t count)
 {
@@ -206,11 +327,9 @@ WIDEST_VECTORS std::uint32_t Sum(const std::uint32_t* values, std::size_t count)
 }
 
 //------------------------------------------------------------------------------
-/// Seconds that `threads` threads take to read the whole matrix `passes` times.
-double TimeReading(const vtkExchangeMatrix* matrix, int threads, int passes)
+/// Seconds that `threads` threads take to read all blocks `passes` times.
+double TimeReading(const std::vector<Block>& blocks, int threads, int passes)
 {
-  const std::vector<vtkExchangeMatrix::Tile>& tiles = matrix->GetTiles();
-  const std::size_t count = vtkExchangeMatrix::TileSize * vtkExchangeMatrix::TileSize;
   std::vector<std::uint32_t> sums(threads);
   std::vector<std::thread> workers;
   const double begin = GetSeconds();
@@ -219,14 +338,15 @@ double TimeReading(const vtkExchangeMatrix* matrix, int threads, int passes)
     workers.emplace_back(
       [&, t]()
       {
-        const std::size_t first = tiles.size() * t / threads;
-        const std::size_t last = tiles.size() * (t + 1) / threads;
+        const std::size_t first = blocks.size() * t / threads;
+        const std::size_t last = blocks.size() * (t + 1) / threads;
         std::uint32_t sum = 0;
         for (int pass = 0; pass < passes; ++pass)
         {
-          for (std::size_t tile = first; tile < last; ++tile)
+          for (std::size_t block = first; block < last; ++block)
           {
-            sum += Sum(reinterpret_cast<const std::uint32_t*>(tiles[tile].Values), count);
+            sum += Sum(static_cast<const std::uint32_t*>(blocks[block].Begin),
+              blocks[block].Bytes / sizeof(std::uint32_t));
           }
         }
         sums[t] = sum;
@@ -243,6 +363,61 @@ double TimeReading(const vtkExchangeMatrix* matrix, int threads, int passes)
     keep = keep + sum;
   }
   return seconds;
+}
+
+//------------------------------------------------------------------------------
+PlainWork MakeReading(const std::vector<Block>& blocks, int threads)
+{
+  PlainWork work;
+  for (const Block& block : blocks)
+  {
+    work.Bytes += static_cast<double>(block.Bytes);
+  }
+  work.Time = [=](int passes) { return TimeReading(blocks, threads, passes); };
+  return work;
+}
+
+//------------------------------------------------------------------------------
+/// An operator on the same device, and in the same context, as another, with a vector of four bands
+/// in slot 0; null where the device cannot hold it.
+vtkSmartPointer<vtkLinkOperator> MakeVectorOnDevice(vtkDeviceLinkOperator* device, int patches)
+{
+  vtkNew<vtkExchangeHierarchy> tree;
+  vtkSmartPointer<vtkLinkOperator> links;
+  links.TakeReference(device->NewInstance());
+  const std::vector<double> values(4 * static_cast<std::size_t>(patches), 0.5);
+  if (!tree->SetTree(std::vector<double>(patches, 1.0), MakeTree(patches)) ||
+    !links->Initialize(tree, 4) || !links->SetVector(0, values.data()))
+  {
+    links = nullptr;
+  }
+  return links;
+}
+
+//------------------------------------------------------------------------------
+/// Without a time where the device cannot hold the vectors.
+PlainWork MakeCopying(vtkDeviceLinkOperator* device)
+{
+  PlainWork work;
+  const vtkSmartPointer<vtkLinkOperator> large = MakeVectorOnDevice(device, CopiedPatches);
+  const vtkSmartPointer<vtkLinkOperator> small = MakeVectorOnDevice(device, 1);
+  if (large && small)
+  {
+    work.Bytes = 2.0 * 4.0 * sizeof(float) * CopiedPatches;
+    work.Time = [=](int passes)
+    {
+      const double begin = GetSeconds();
+      for (int pass = 0; pass < passes; ++pass)
+      {
+        large->Scale(1, 0, 0);
+      }
+      // Reading one number back waits for all that the context has drawn before.
+      double norm[4];
+      small->MaxNorm(0, norm);
+      return GetSeconds() - begin;
+    };
+  }
+  return work;
 }
 
 //------------------------------------------------------------------------------
@@ -294,12 +469,8 @@ Sample Summarize(std::vector<double> rates)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Measure one operator, and with `threads` > 0 the plain loop in turn with it, so that both see the
- * same machine.
- */
-bool Measure(vtkLinkOperator* links, const vtkExchangeMatrix* matrix, int threads, double seconds,
-  Row& row)
+/// Measure one operator, and the plain work in turn with it, so that both see the same machine.
+bool Measure(vtkLinkOperator* links, const PlainWork& plain, double seconds, Row& row)
 {
   if (!PrepareVectors(links) || !Iterate(links, 2))
   {
@@ -313,20 +484,20 @@ bool Measure(vtkLinkOperator* links, const vtkExchangeMatrix* matrix, int thread
   }
   const int iterations = std::max(1, static_cast<int>(share / once));
   int passes = 0;
-  if (threads > 0)
+  if (plain.Time)
   {
-    TimeReading(matrix, threads, 2);
-    passes = std::max(1, static_cast<int>(share / TimeReading(matrix, threads, 1)));
+    plain.Time(2);
+    passes = std::max(1, static_cast<int>(share / plain.Time(1)));
   }
   std::vector<double> steps;
-  std::vector<double> reads;
+  std::vector<double> rates;
   for (int sample = 0; sample < NumberOfSamples; ++sample)
   {
     steps.push_back(iterations / TimeIterations(links, iterations));
-    reads.push_back(threads > 0 ? passes / TimeReading(matrix, threads, passes) : 0.0);
+    rates.push_back(plain.Time ? plain.Bytes * passes / plain.Time(passes) : 0.0);
   }
   row.Step = Summarize(steps);
-  row.Read = Summarize(reads);
+  row.Plain = Summarize(rates);
   return true;
 }
 
@@ -357,18 +528,23 @@ double GetRelativeDifference(const std::vector<double>& a, const std::vector<dou
 }
 
 //------------------------------------------------------------------------------
+double GetShare(const Row& row)
+{
+  return 100.0 * row.Bytes * row.Step.Median / row.Plain.Median;
+}
+
+//------------------------------------------------------------------------------
 void PrintRow(const Row& row)
 {
   const double step = row.Bytes * row.Step.Median * 1e-9;
-  std::cout << std::fixed << std::setw(7) << row.Patches << std::setw(6) << row.Bands
-            << std::setprecision(1) << std::setw(10) << row.Bytes * 1e-6 << std::setw(11)
-            << row.Step.Median << std::setw(11) << row.Step.Best << std::setprecision(2)
-            << std::setw(9) << step;
-  if (row.Read.Median > 0.0)
+  std::cout << std::fixed << std::setw(7) << row.Patches << std::setw(9) << row.Links
+            << std::setw(6) << row.Bands << std::setprecision(1) << std::setw(10)
+            << row.Bytes * 1e-6 << std::setw(11) << row.Step.Median << std::setw(11)
+            << row.Step.Best << std::setprecision(2) << std::setw(9) << step;
+  if (row.Plain.Median > 0.0)
   {
-    std::cout << std::setw(9) << row.Bytes * row.Read.Median * 1e-9 << std::setw(9)
-              << row.Bytes * row.Read.Best * 1e-9 << std::setprecision(0) << std::setw(6)
-              << 100.0 * row.Step.Median / row.Read.Median << " %";
+    std::cout << std::setw(11) << row.Plain.Median * 1e-9 << std::setw(9) << row.Plain.Best * 1e-9
+              << std::setprecision(0) << std::setw(6) << GetShare(row) << " %";
   }
   std::cout << "  " << row.Device << std::endl;
 }
@@ -377,18 +553,18 @@ void PrintRow(const Row& row)
 bool WriteTable(const std::string& file, const std::vector<Row>& rows, int threads)
 {
   std::ofstream stream(file);
-  stream << "device,threads,patches,bands,matrix_bytes,iterations_per_second_median,"
-            "iterations_per_second_best,matrix_gb_per_second_median,read_gb_per_second_median,"
-            "read_gb_per_second_best,percent_of_read\n";
+  stream << "device,threads,patches,links,bands,link_bytes,iterations_per_second_median,"
+            "iterations_per_second_best,link_gb_per_second_median,plain_gb_per_second_median,"
+            "plain_gb_per_second_best,percent_of_plain\n";
   for (const Row& row : rows)
   {
-    stream << '"' << row.Device << "\"," << threads << ',' << row.Patches << ',' << row.Bands << ','
-           << std::setprecision(12) << row.Bytes << std::setprecision(6) << ',' << row.Step.Median
-           << ',' << row.Step.Best << ',' << row.Bytes * row.Step.Median * 1e-9 << ',';
-    if (row.Read.Median > 0.0)
+    stream << '"' << row.Device << "\"," << threads << ',' << row.Patches << ',' << row.Links << ','
+           << row.Bands << ',' << std::setprecision(12) << row.Bytes << std::setprecision(6) << ','
+           << row.Step.Median << ',' << row.Step.Best << ',' << row.Bytes * row.Step.Median * 1e-9
+           << ',';
+    if (row.Plain.Median > 0.0)
     {
-      stream << row.Bytes * row.Read.Median * 1e-9 << ',' << row.Bytes * row.Read.Best * 1e-9 << ','
-             << 100.0 * row.Step.Median / row.Read.Median;
+      stream << row.Plain.Median * 1e-9 << ',' << row.Plain.Best * 1e-9 << ',' << GetShare(row);
     }
     else
     {
@@ -413,27 +589,30 @@ public:
   {
     std::cout << "Instruction set of the CPU operator: "
               << vtkDenseLinkOperator::GetInstructionSet() << ", " << this->Threads
-              << " threads. One kernel, symmetric storage in single precision. Medians of "
-              << NumberOfSamples << " samples.\n";
+              << " threads. One kernel, single precision. Medians of " << NumberOfSamples
+              << " samples. Plain: reading on the CPU, copying with OpenGL.\n";
     if (this->Settings.Device != "cpu")
     {
       this->OpenDevice();
     }
-    std::cout << "patches bands matrix MB      it/s  best it/s     GB/s read GB/s     best  "
-                 "share\n";
-    for (int patches : this->Settings.Sizes)
+    std::cout << "patches    links bands  links MB      it/s  best it/s     GB/s plain GB/s     "
+                 "best  share\n";
+    bool done = true;
+    for (std::size_t i = 0; i < this->Settings.Sizes.size() && done; ++i)
     {
-      if (!this->RunSize(patches))
-      {
-        return false;
-      }
+      done = this->Settings.Sizes[i] == 0 || this->RunMatrix(this->Settings.Sizes[i]);
     }
-    if (!this->Settings.File.empty() && !WriteTable(this->Settings.File, this->Rows, this->Threads))
+    for (std::size_t i = 0; i < this->Settings.Links.size() && done; ++i)
+    {
+      done = this->Settings.Links[i] == 0 || this->RunHierarchy(this->Settings.Links[i]);
+    }
+    if (done && !this->Settings.File.empty() &&
+      !WriteTable(this->Settings.File, this->Rows, this->Threads))
     {
       std::cerr << "Cannot write " << this->Settings.File << ".\n";
       return false;
     }
-    return true;
+    return done;
   }
 
 private:
@@ -446,11 +625,13 @@ private:
     {
       std::cout << "OpenGL is left out: " << reason << "\n";
       this->Device = nullptr;
+      return;
     }
+    this->Copying = MakeCopying(this->Device);
   }
 
   //------------------------------------------------------------------------------
-  bool RunSize(int patches)
+  bool RunMatrix(int patches)
   {
     vtkNew<vtkExchangeMatrix> matrix;
     if (!matrix->Allocate(std::vector<double>(patches, 1.0), 1))
@@ -459,40 +640,60 @@ private:
       return false;
     }
     FillMatrix(matrix);
-    for (int bands : this->Settings.Bands)
+    Row row{ "", patches, 0, 0, matrix->GetNumberOfBytes(), {}, {} };
+    vtkNew<vtkDenseLinkOperator> links;
+    const PlainWork reading = MakeReading(GetBlocks(matrix), this->Threads);
+    const bool tooSlow = this->Device && !this->Device->IsHardware() &&
+      patches > LargestForSoftwareRenderers && this->Settings.Device == "all";
+    // The device holds, and reads, full rows.
+    const double bytesOnDevice = std::pow(static_cast<double>(patches), 2) * sizeof(float);
+    return this->RunOperators(matrix, links, reading, tooSlow ? 0.0 : bytesOnDevice, row);
+  }
+
+  //------------------------------------------------------------------------------
+  bool RunHierarchy(int count)
+  {
+    vtkNew<vtkExchangeHierarchy> hierarchy;
+    if (!FillHierarchy(hierarchy, count))
     {
+      std::cerr << "Not enough memory for " << count << " links: leave this number out.\n";
+      return false;
+    }
+    const PlainWork reading = MakeReading(GetBlocks(hierarchy), this->Threads);
+    Row row{ "", hierarchy->GetNumberOfPatches(), count, 0, reading.Bytes, {}, {} };
+    vtkNew<vtkHierarchicalLinkOperator> links;
+    return this->RunOperators(hierarchy, links, reading, reading.Bytes, row);
+  }
+
+  //------------------------------------------------------------------------------
+  /// On the CPU, and on the device if `bytesOnDevice` is not 0.
+  bool RunOperators(vtkExchange* exchange, vtkLinkOperator* links, const PlainWork& reading,
+    double bytesOnDevice, Row row)
+  {
+    bool done = true;
+    for (std::size_t i = 0; i < this->Settings.Bands.size() && done; ++i)
+    {
+      row.Bands = this->Settings.Bands[i];
       std::vector<double> expected;
-      if (this->Settings.Device != "opengl")
+      done = this->Settings.Device == "opengl" ||
+        this->RunOperator(links, exchange, reading, row, expected);
+      if (done && this->Device && bytesOnDevice > 0.0)
       {
-        vtkNew<vtkDenseLinkOperator> links;
-        if (!this->RunOperator(links, matrix, bands, this->Threads, expected))
-        {
-          return false;
-        }
-      }
-      const bool tooSlow = this->Device && !this->Device->IsHardware() &&
-        patches > LargestForSoftwareRenderers && this->Settings.Device == "all";
-      if (this->Device && !tooSlow && !this->RunOperator(this->Device, matrix, bands, 0, expected))
-      {
-        return false;
+        Row onDevice = row;
+        onDevice.Bytes = bytesOnDevice;
+        done = this->RunOperator(this->Device, exchange, this->Copying, onDevice, expected);
       }
     }
-    return true;
+    return done;
   }
 
   //------------------------------------------------------------------------------
   /// `expected` is the result to compare with, or receives the first one.
-  bool RunOperator(vtkLinkOperator* links, vtkExchangeMatrix* matrix, int bands, int readers,
+  bool RunOperator(vtkLinkOperator* links, vtkExchange* exchange, const PlainWork& plain, Row row,
     std::vector<double>& expected)
   {
-    Row row{ "", matrix->GetNumberOfPatches(), bands, matrix->GetNumberOfBytes(), {}, {} };
-    if (vtkDeviceLinkOperator::SafeDownCast(links))
-    {
-      // The device holds, and reads, full rows.
-      row.Bytes = std::pow(static_cast<double>(row.Patches), 2) * sizeof(float);
-    }
-    if (!links->Initialize(matrix, bands) ||
-      !Measure(links, matrix, readers, this->Settings.Seconds, row))
+    if (!links->Initialize(exchange, row.Bands) ||
+      !Measure(links, plain, this->Settings.Seconds, row))
     {
       return false;
     }
@@ -521,6 +722,7 @@ private:
   Options Settings;
   int Threads;
   vtkSmartPointer<vtkDeviceLinkOperator> Device;
+  PlainWork Copying;
   std::vector<Row> Rows;
 };
 } // end of anonymous namespace
