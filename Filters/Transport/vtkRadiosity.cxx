@@ -4,6 +4,7 @@
 
 #include "vtkCPULinkOperator.h"
 #include "vtkDataObject.h"
+#include "vtkDeviceShooter.h"
 #include "vtkDoubleArray.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkFieldData.h"
@@ -13,6 +14,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPatchScene.h"
+#include "vtkProgressiveRadiosity.h"
 #include "vtkRadiosityMaterials.h"
 #include "vtkRadiositySolvers.h"
 #include "vtkTable.h"
@@ -77,6 +79,7 @@ struct vtkRadiosity::Problem
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
+  int Shots = 0; // of the solver that keeps no view factors
 };
 
 //------------------------------------------------------------------------------
@@ -131,13 +134,11 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
   {
     return 0;
   }
-  vtkViewFactors* viewFactors = this->UpdateViewFactors(scene, problem);
-  if (!viewFactors)
-  {
-    return 0;
-  }
-  AddBackground(viewFactors, problem);
-  if (!this->Solve(scene, viewFactors, problem, vtkTable::GetData(outputs, 1)))
+  vtkTable* convergence = vtkTable::GetData(outputs, 1);
+  const bool shoots = this->ShootsOnDevice();
+  vtkViewFactors* viewFactors = shoots ? nullptr : this->UpdateViewFactors(scene, problem);
+  if (shoots ? !this->Shoot(scene, problem, convergence)
+             : !viewFactors || !this->Solve(scene, viewFactors, problem, convergence))
   {
     return 0;
   }
@@ -147,9 +148,16 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
 }
 
 //------------------------------------------------------------------------------
+// Southwell on OpenGL finds what patches see while it goes, and keeps no links.
+bool vtkRadiosity::ShootsOnDevice() const
+{
+  return this->Solver == SOLVER_SOUTHWELL && this->Device == DEVICE_OPENGL;
+}
+
+//------------------------------------------------------------------------------
 bool vtkRadiosity::CheckSolver()
 {
-  if (!vtkRadiositySolvers::IsSequential(this->Solver))
+  if (!vtkRadiositySolvers::IsSequential(this->Solver) || this->ShootsOnDevice())
   {
     return this->CheckDevice(this->Device);
   }
@@ -218,6 +226,7 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
   vtkTable* convergence)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
+  AddBackground(viewFactors, problem);
   vtkExchangeMatrix* exchange = viewFactors->GetExchange();
   const int device = vtkRadiositySolvers::IsSequential(this->Solver) ? DEVICE_CPU : this->Device;
   auto links = this->MakeLinkOperator(device, exchange, problem.Materials.NumberOfBands,
@@ -229,24 +238,12 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
     return false;
   }
   problem.Areas = &exchange->GetAreas();
-  vtkRadiosityProblem equation;
+  vtkRadiosityProblem equation = this->DescribeEquation(problem);
   equation.Operator = links;
   equation.Reference = reference;
-  equation.Solver = this->Solver;
-  equation.NumberOfPatches = exchange->GetNumberOfPatches();
-  equation.NumberOfBands = problem.Materials.NumberOfBands;
   equation.Areas = problem.Areas;
   equation.RowSums = &viewFactors->GetRowSums();
   equation.RowSumError = GetRowSumError(viewFactors);
-  equation.Reflectance = problem.Materials.Reflectance;
-  equation.Emission = problem.Materials.Emission;
-  for (std::size_t k = 0; k < equation.Emission.size(); ++k)
-  {
-    equation.Emission[k] +=
-      problem.Materials.Reflectance[k] * problem.Materials.DirectIrradiance[k];
-  }
-  equation.Tolerance = this->Tolerance;
-  equation.MaximumNumberOfIterations = this->MaximumNumberOfIterations;
   equation.GetPolygon = [&scene](vtkIdType patch) { return scene.GetPolygon(patch); };
   this->SetProgressStage(ViewFactorsDone, SolverDone);
   this->RecordConvergence(equation, convergence, begin);
@@ -255,6 +252,64 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
   problem.DeviceUsed = links->GetDeviceName();
   problem.SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
   return this->Finish(reference, problem);
+}
+
+//------------------------------------------------------------------------------
+// The other way to solve: an iteration is a shot here, and shots bring the irradiance.
+bool vtkRadiosity::Shoot(const vtkPatchScene& scene, Problem& problem, vtkTable* convergence)
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
+  auto shooter = vtkSmartPointer<vtkDeviceShooter>::Take(vtkDeviceShooter::New());
+  std::string reason = "no loaded module shoots on it.";
+  if (!shooter || !shooter->Open(reason))
+  {
+    vtkErrorMacro("Device is OpenGL, but " << reason << " Or set Device to Auto or CPU.");
+    return false;
+  }
+  if (problem.Materials.HasBackground())
+  {
+    vtkErrorMacro("Southwell on OpenGL computes no sky fractions, which a background needs: set "
+                  "Device to Auto or CPU, or use another solver.");
+    return false;
+  }
+  vtkRadiosityProblem equation = this->DescribeEquation(problem);
+  const vtkIdType patches = equation.NumberOfPatches;
+  equation.MaximumNumberOfIterations =
+    static_cast<int>(std::min<vtkIdType>(VTK_INT_MAX, patches * this->MaximumNumberOfIterations));
+  this->SetProgressStage(0.0, SolverDone);
+  this->RecordConvergence(equation, convergence, begin);
+
+  vtkRadiositySolution& solution = problem.Solution;
+  solution = vtkProgressiveRadiosity::Solve(shooter, scene, equation, problem.Irradiance);
+  problem.Shots = solution.NumberOfIterations;
+  solution.NumberOfIterations = static_cast<int>((problem.Shots + patches - 1) / patches);
+  problem.DeviceUsed = shooter->GetDeviceName();
+  problem.DeviceExplanation = "OpenGL: asked for";
+  problem.SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
+  std::transform(problem.Irradiance.begin(), problem.Irradiance.end(),
+    problem.Materials.DirectIrradiance.begin(), problem.Irradiance.begin(), std::plus<double>());
+  return this->CheckSolution(problem);
+}
+
+//------------------------------------------------------------------------------
+// What the equation is, whatever solves it.
+vtkRadiosityProblem vtkRadiosity::DescribeEquation(const Problem& problem) const
+{
+  const vtkRadiosityMaterials& materials = problem.Materials;
+  vtkRadiosityProblem equation;
+  equation.Solver = this->Solver;
+  equation.NumberOfBands = materials.NumberOfBands;
+  equation.Reflectance = materials.Reflectance;
+  equation.Emission = materials.Emission;
+  for (std::size_t k = 0; k < equation.Emission.size(); ++k)
+  {
+    equation.Emission[k] += materials.Reflectance[k] * materials.DirectIrradiance[k];
+  }
+  equation.NumberOfPatches =
+    static_cast<vtkIdType>(equation.Emission.size()) / equation.NumberOfBands;
+  equation.Tolerance = this->Tolerance;
+  equation.MaximumNumberOfIterations = this->MaximumNumberOfIterations;
+  return equation;
 }
 
 //------------------------------------------------------------------------------
@@ -276,6 +331,7 @@ void vtkRadiosity::RecordConvergence(vtkRadiosityProblem& equation, vtkTable* co
     convergence->AddColumn(columns[column]);
   }
   vtkIntArray* count = iterations;
+  const double most = equation.MaximumNumberOfIterations;
   double first = 0.0;
   equation.Report = [=](int iteration, double residual, double bound) mutable
   {
@@ -286,17 +342,15 @@ void vtkRadiosity::RecordConvergence(vtkRadiosityProblem& equation, vtkTable* co
     first = first > 0.0 ? first : residual;
     const double gained = residual > 0.0 && first > 0.0 ? std::log(first / residual) : 0.0;
     const double byResidual = gained / -std::log(this->Tolerance);
-    const double byCount = static_cast<double>(iteration) / this->MaximumNumberOfIterations;
-    return this->ReportProgress(std::max(byResidual, byCount));
+    return this->ReportProgress(std::max(byResidual, iteration / most));
   };
 }
 
 //------------------------------------------------------------------------------
-// The irradiance of the solution, in double precision; B = E + rho H then holds exactly between the
-// output arrays.
-bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
+// Whether there is one to write, after saying what is wrong with it.
+bool vtkRadiosity::CheckSolution(const Problem& problem)
 {
-  vtkRadiositySolution& solution = problem.Solution;
+  const vtkRadiositySolution& solution = problem.Solution;
   if (!solution.Error.empty())
   {
     const char* hint = problem.Materials.HasGivenFluxes()
@@ -314,6 +368,19 @@ bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
   if (!solution.Warning.empty())
   {
     vtkWarningMacro(<< solution.Warning);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// The irradiance of the solution, in double precision; B = E + rho H then holds exactly between the
+// output arrays.
+bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
+{
+  vtkRadiositySolution& solution = problem.Solution;
+  if (!this->CheckSolution(problem))
+  {
+    return false;
   }
   problem.Irradiance.resize(solution.Radiosity.size());
   if (!links->SetVector(0, solution.Radiosity.data()) || !links->Multiply(1, 0) ||
@@ -360,7 +427,14 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
   AddSummary(fields, "ErrorBound", solution.ErrorBound);
   AddSummary(fields, "Converged", solution.HasConverged() ? 1.0 : 0.0);
   AddSummary(fields, "SolverSeconds", problem.SolverSeconds);
-  viewFactors->AddSummaries(fields);
+  if (viewFactors)
+  {
+    viewFactors->AddSummaries(fields);
+  }
+  else
+  {
+    AddSummary(fields, "NumberOfShots", problem.Shots);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -50,6 +50,16 @@
  * more products. Gauss-Seidel and Southwell go from patch to patch and run on the CPU of one
  * process.
  *
+ * Southwell with Device OpenGL shoots without view factors (vtkDeviceShooter): what a patch sees is
+ * drawn on the GPU when it shoots, so that memory grows with the number of patches and no more, and
+ * the first shots already give a picture. ViewFactorTolerance, EnforceClosure and SetViewFactors
+ * have no effect then, and there can be no background. Energy is kept; the irradiance of the
+ * Cornell box is off by about 1 % (relative L2; vtkOpenGLShooter tells what that depends on), which
+ * is not in ErrorBound: that is the largest unshot radiosity over 1 - rho, for the largest rho, and
+ * bounds B and H; Residual is the largest unshot radiosity. "Convergence" has a row for every 16
+ * shots, and Iteration counts shots; NumberOfIterations counts begun sweeps of as many shots as
+ * there are patches, and NumberOfShots is in the field data.
+ *
  * SolverStatus is "Converged", or with a warning that names the remedy: "IterationsUsedUp",
  * "Stagnated" (rounding lets the residual fall no further), "Diverged" (it grows). Where the
  * equation has no unique solution (a closed part reflects all that it receives, view factors of a
@@ -208,6 +218,7 @@ private:
   void operator=(const vtkRadiosity&) = delete;
 
   struct Problem;
+  bool ShootsOnDevice() const;
   bool CheckSolver();
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem);
@@ -215,6 +226,9 @@ private:
   bool Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
     vtkTable* convergence);
   void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
+  bool Shoot(const vtkPatchScene& scene, Problem& problem, vtkTable* convergence);
+  vtkRadiosityProblem DescribeEquation(const Problem& problem) const;
+  bool CheckSolution(const Problem& problem);
   bool Finish(vtkCPULinkOperator* links, Problem& problem);
   void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
     const vtkViewFactors* viewFactors, vtkDataObject* output);

@@ -162,8 +162,7 @@ void vtkFloatTextures::Attach(const Group& group)
 //------------------------------------------------------------------------------
 void vtkFloatTextures::Clear(const Group& group)
 {
-  this->Attach(group);
-  this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(group.size()));
+  this->Bind(group);
   const float zeros[4] = {};
   for (int index = 0; index < static_cast<int>(group.size()); ++index)
   {
@@ -235,10 +234,22 @@ void vtkFloatTextures::SetTextures(vtkShaderProgram* program, const char* name, 
 //------------------------------------------------------------------------------
 void vtkFloatTextures::Draw(const Group& target, const int region[4])
 {
-  this->Attach(target);
-  this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(target.size()));
+  this->Bind(target);
   this->Window->GetState()->vtkglViewport(region[0], region[1], region[2], region[3]);
   this->CurrentQuad->Render();
+  this->ReleaseTextures();
+}
+
+//------------------------------------------------------------------------------
+void vtkFloatTextures::Bind(const Group& target)
+{
+  this->Attach(target);
+  this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(target.size()));
+}
+
+//------------------------------------------------------------------------------
+void vtkFloatTextures::ReleaseTextures()
+{
   for (vtkTextureObject* texture : this->ActiveTextures)
   {
     texture->Deactivate();

@@ -115,6 +115,13 @@ public:
   void Draw(const Group& target, const int region[4]);
   ///@}
 
+  ///@{
+  /// For programs that draw something else than quads: write into a group from now on; let go of
+  /// the textures of SetTextures.
+  void Bind(const Group& target);
+  void ReleaseTextures();
+  ///@}
+
   /// True when OpenGL has reported no error since the last call; `text` otherwise names it.
   static bool CheckErrors(std::string& text);
 

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Radiosity by progressive refinement on a device: shots without view factors, until what is left
+ * to shoot no longer matters.
+ *
+ * With unshot radiosity r >= 0, what has been shot is below the solution of the device's own view
+ * factors by (I - rho F)^-1 r. Rows of F sum to 1 at most, so neither B nor H of any patch misses
+ * more than max r / (1 - rho), with the largest rho: infinite where a patch reflects everything.
+ * The error of the view factors is not in it.
+ */
+#ifndef vtkProgressiveRadiosity_h
+#define vtkProgressiveRadiosity_h
+
+#include "vtkRadiositySolvers.h"
+
+class vtkDeviceShooter;
+class vtkPatchScene;
+
+namespace vtkProgressiveRadiosity
+{
+/// Shots between two reports.
+constexpr vtkIdType ShotsPerReport = 16;
+
+/**
+ * Solve with a shooter that has been opened. Of the problem, Operator, Reference and what belongs
+ * to view factors is not used; an iteration is one shot. `irradiance` (patches x bands) is what
+ * shots have brought.
+ */
+vtkRadiositySolution Solve(vtkDeviceShooter* shooter, const vtkPatchScene& scene,
+  const vtkRadiosityProblem& problem, std::vector<double>& irradiance);
+} // namespace vtkProgressiveRadiosity
+
+#endif
