@@ -3,6 +3,7 @@
 #include "vtkOpenGLPlatform.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <mutex>
 
@@ -16,6 +17,23 @@ bool Find(void* library, const char* name, Function& function)
 {
   function = reinterpret_cast<Function>(dlsym(library, name));
   return function != nullptr;
+}
+
+/// Whether libraries have been loaded since `count` was set, which this sets. To ask for one that
+/// is not there searches the disk, which takes longer than a small product.
+bool AreLibrariesNew(unsigned long long& count)
+{
+  unsigned long long now = 0;
+  dl_iterate_phdr(
+    [](dl_phdr_info* library, std::size_t, void* loads)
+    {
+      *static_cast<unsigned long long*>(loads) = library->dlpi_adds;
+      return 1;
+    },
+    &now);
+  const bool areNew = now != count;
+  count = now;
+  return areNew;
 }
 
 /// GLX as this process has it already: nothing is loaded for it.
@@ -44,11 +62,15 @@ const GLXLibrary* GLXLibrary::Get()
 {
   static GLXLibrary glx;
   static bool loaded = false;
+  static unsigned long long count = 0;
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
-  for (const char* name : { "libGL.so.1", "libGLX.so.0" })
+  if (!loaded && AreLibrariesNew(count))
   {
-    loaded = loaded || glx.Load(dlopen(name, RTLD_LAZY | RTLD_LOCAL | RTLD_NOLOAD));
+    for (const char* name : { "libGL.so.1", "libGLX.so.0" })
+    {
+      loaded = loaded || glx.Load(dlopen(name, RTLD_LAZY | RTLD_LOCAL | RTLD_NOLOAD));
+    }
   }
   return loaded ? &glx : nullptr;
 }
@@ -102,9 +124,13 @@ const vtkOSMesaLibrary* vtkOSMesaLibrary::Get(bool load)
 {
   static vtkOSMesaLibrary library;
   static bool loaded = false;
+  static unsigned long long count = 0;
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
-  loaded = loaded || LoadOSMesa(library, load ? 0 : RTLD_NOLOAD);
+  if (!loaded && (load || AreLibrariesNew(count)))
+  {
+    loaded = LoadOSMesa(library, load ? 0 : RTLD_NOLOAD);
+  }
   return loaded ? &library : nullptr;
 }
 
