@@ -74,7 +74,8 @@ def get_area_vectors(surface):
 def divide_triangles(surface):
     """Each triangle in four, by the middles of its edges, in the order of the input.
 
-    Cell arrays are carried along. Neighbours share the new points. Any surface will do, also where more than two triangles meet.
+    Cell arrays are carried along. Neighbours share the new points. Any surface will do, also where
+    more than two triangles meet.
     """
     points = numpy_support.vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
     corners = numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)

@@ -75,7 +75,7 @@ class Page:
                 f"<h1>{escape(self.title)}</h1>\n{body}\n</body>\n</html>\n")
 
     def add_figure(self, name, caption, draw):
-        """A picture that `draw(file)` makes; the first that cannot be made is the last one tried."""
+        """A picture that `draw(file)` makes; the first that cannot be made is the last tried."""
         if self.without_pictures:
             return
         file = os.path.join(self.report.options.folder, name)
@@ -125,17 +125,17 @@ class Page:
         self.add("<dl>" + "".join(f"<dt>{name}</dt><dd>{escape(text)}</dd>"
                                   for name, text in facts.items()) + "</dl>")
         self.add_paragraph(
-            "Errors are differences from a reference on the same patches, so they tell what links, "
-            "their tolerances and the solver cost, and nothing of the patches themselves. L2 is the "
-            "root mean square over area and bands, relative to that of the reference; L2 of H is the "
-            "same for irradiance, which no emission hides; the largest error and the bound are "
-            "relative to the largest radiosity. The bound is the solver's own, and knows nothing of "
-            "errors of the links.")
+            "Errors are differences from a reference on the same patches, so they tell what "
+            "links, their tolerances and the solver cost, and nothing of the patches themselves. "
+            "L2 is the root mean square over area and bands, relative to that of the reference; "
+            "L2 of H is the same for irradiance, which no emission hides; the largest error and "
+            "the bound are relative to the largest radiosity. The bound is the solver's own, and "
+            "knows nothing of errors of the links.")
         if any(row["reference"] == ITSELF and row["method"] != "Dense" for row in self.rows):
             self.add_paragraph(
-                "Above --reference-limit patches nothing dense was computed: there the reference is "
-                "the finest result of another method (column \"reference\"), and its own error is "
-                "not known.")
+                "Above --reference-limit patches nothing dense was computed: there the reference "
+                "is the finest result of another method (column \"reference\"), and its own "
+                "error is not known.")
 
     def add_errors(self):
         self.add("<h2>Error against run time</h2>")
@@ -193,8 +193,8 @@ class Page:
         for number, (worst, errors) in enumerate(self.report.worst.values()):
             place = find_middle(worst.surface, int(errors.argmax()))
             caption = (f"Where the error is: {describe(worst.row)}, {worst.row['patches']:,} "
-                       f"patches. It is largest, {errors.max():.1e} of the largest radiosity, on patch "
-                       f"{int(errors.argmax())} at ({place}).")
+                       f"patches. It is largest, {errors.max():.1e} of the largest radiosity, on "
+                       f"patch {int(errors.argmax())} at ({place}).")
             self.add_figure(f"error_{number + 1}.png", caption,
                             lambda file, w=worst, e=errors: draw_error(file, w.surface, e, look))
 
