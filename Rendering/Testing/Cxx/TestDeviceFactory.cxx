@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The filters' abstract device operator is made by this module once it is loaded, and opens.
+ * The filters' abstract device operator and shooter are made by this module once it is loaded, and
+ * open.
  */
 #include "vtkDeviceLinkOperator.h"
+#include "vtkDeviceShooter.h"
 
 #include "vtkSmartPointer.h"
 
@@ -30,6 +32,13 @@ int TestDeviceFactory(int, char*[])
   if (std::string(device->GetDeviceName()).find("OpenGL (") != 0 || !device->IsSinglePrecision())
   {
     std::cerr << "ERROR: " << device->GetDeviceName() << " is no OpenGL device\n";
+    return EXIT_FAILURE;
+  }
+  auto shooter = vtkSmartPointer<vtkDeviceShooter>::Take(vtkDeviceShooter::New());
+  if (!shooter || !shooter->IsA("vtkOpenGLShooter") || !shooter->Open(reason) ||
+    std::string(shooter->GetDeviceName()) != device->GetDeviceName())
+  {
+    std::cerr << "ERROR: no factory gives a vtkOpenGLShooter that opens: " << reason << "\n";
     return EXIT_FAILURE;
   }
   return EXIT_SUCCESS;

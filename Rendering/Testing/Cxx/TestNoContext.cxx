@@ -7,8 +7,11 @@
 #include "vtkOffScreenOpenGLRenderWindow.h"
 
 #include "vtkExchangeMatrix.h"
+#include "vtkExecutive.h"
 #include "vtkNew.h"
 #include "vtkOpenGLLinkOperator.h"
+#include "vtkPlaneSource.h"
+#include "vtkRadiosity.h"
 #include "vtkRenderer.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkUnsignedCharArray.h"
@@ -80,6 +83,29 @@ bool OperatorRefuses()
   }
   return observer->CheckErrorMessage("libegl1") == 0;
 }
+
+/// Before any work, in the words that every solver has.
+bool FilterRefuses()
+{
+  vtkNew<vtkPlaneSource> plane;
+  vtkNew<vtkTest::ErrorObserver> observer;
+  vtkNew<vtkTest::ErrorObserver> pipelineErrors;
+  vtkNew<vtkRadiosity> radiosity;
+  radiosity->SetInputConnection(plane->GetOutputPort());
+  radiosity->SetSolverToSouthwell();
+  radiosity->SetDeviceToOpenGL();
+  radiosity->AddObserver(vtkCommand::ErrorEvent, observer);
+  radiosity->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipelineErrors);
+  radiosity->Update();
+  const std::string message = observer->GetErrorMessage();
+  const bool good = message.find("Device is OpenGL, but") != std::string::npos &&
+    message.find("libegl1") != std::string::npos;
+  if (!good)
+  {
+    std::cerr << "ERROR: Southwell on OpenGL says \"" << message << "\"\n";
+  }
+  return good;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -95,6 +121,7 @@ int TestNoContext(int, char*[])
   setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 1);
   good = WindowComplainsOnce() && good;
   good = OperatorRefuses() && good;
+  good = FilterRefuses() && good;
   if (vtkOffScreenOpenGLRenderWindow::RegisterAsDefault())
   {
     std::cerr << "ERROR: a window that cannot work became the default\n";

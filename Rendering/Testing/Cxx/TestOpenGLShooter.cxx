@@ -7,16 +7,12 @@
  */
 #include "vtkOpenGLShooter.h"
 
-#include "LightTransportTesting.h"
-#include "vtkAdaptiveSubdivisionFilter.h"
+#include "CornellBoxTesting.h"
 #include "vtkCallbackCommand.h"
-#include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkRadiosity.h"
 #include "vtkTable.h"
 #include "vtkTestErrorObserver.h"
-#include "vtkTriangleFilter.h"
-#include "vtkXMLPolyDataReader.h"
 
 #include <algorithm>
 #include <numeric>
@@ -41,57 +37,7 @@ vtkSmartPointer<vtkRadiosity> MakeSolver(vtkPolyData* scene, double tolerance = 
 //------------------------------------------------------------------------------
 Vector GetCells(vtkRadiosity* radiosity, const char* name)
 {
-  vtkDataArray* array = radiosity->GetPolyDataOutput()->GetCellData()->GetArray(name);
-  Vector values;
-  if (Check(array != nullptr, std::string("there is no cell array ") + name))
-  {
-    for (vtkIdType k = 0; k < array->GetNumberOfValues(); ++k)
-    {
-      values.push_back(array->GetVariantValue(k).ToDouble());
-    }
-  }
-  return values;
-}
-
-//------------------------------------------------------------------------------
-/// Areas of triangles and planar quadrilaterals.
-Vector GetAreas(vtkPolyData* scene)
-{
-  Vector areas;
-  for (vtkIdType cell = 0; cell < scene->GetNumberOfCells(); ++cell)
-  {
-    vtkPoints* points = scene->GetCell(cell)->GetPoints();
-    double sum = 0.0;
-    for (vtkIdType corner = 1; corner + 1 < points->GetNumberOfPoints(); ++corner)
-    {
-      double a[3], b[3], c[3], u[3], v[3], cross[3];
-      points->GetPoint(0, a);
-      points->GetPoint(corner, b);
-      points->GetPoint(corner + 1, c);
-      vtkMath::Subtract(b, a, u);
-      vtkMath::Subtract(c, a, v);
-      vtkMath::Cross(u, v, cross);
-      sum += 0.5 * vtkMath::Norm(cross);
-    }
-    areas.push_back(sum);
-  }
-  return areas;
-}
-
-//------------------------------------------------------------------------------
-/// The area-weighted relative L2 difference.
-double Compare(vtkPolyData* scene, const Vector& found, const Vector& expected)
-{
-  const Vector areas = GetAreas(scene);
-  const std::size_t bands = expected.size() / areas.size();
-  double difference = 0.0;
-  double whole = 0.0;
-  for (std::size_t k = 0; k < expected.size() && found.size() == expected.size(); ++k)
-  {
-    difference += areas[k / bands] * std::pow(found[k] - expected[k], 2);
-    whole += areas[k / bands] * expected[k] * expected[k];
-  }
-  return whole > 0.0 ? std::sqrt(difference / whole) : 1.0;
+  return GetCellValues(radiosity->GetPolyDataOutput(), name);
 }
 
 //------------------------------------------------------------------------------
@@ -171,22 +117,6 @@ void TestOcclusion()
   half.AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, 1, 1);
   half.AddGrid({ -2, -2, 0.5 }, { 2.5, 0, 0 }, { 0, 5, 0 }, 1, 1);
   CheckClose(ShootOnce(half.Get(), 0)[1], 0.5 * 0.199824895698, 1e-2, "half hidden");
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> MakeCornellBox(double edge)
-{
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(LIGHTTRANSPORT_DATA_DIRECTORY "/cornell_box.vtp");
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(reader->GetOutputPort());
-  vtkNew<vtkAdaptiveSubdivisionFilter> subdivide;
-  subdivide->SetInputConnection(triangles->GetOutputPort());
-  subdivide->SetMaximumEdgeLength(edge);
-  subdivide->SetMaximumTriangleArea(VTK_DOUBLE_MAX);
-  subdivide->SetMaximumNumberOfPasses(100);
-  subdivide->Update();
-  return subdivide->GetOutput();
 }
 
 //------------------------------------------------------------------------------
@@ -349,6 +279,12 @@ void TestShooter()
 //------------------------------------------------------------------------------
 int TestOpenGLShooter(int, char*[])
 {
+  std::string reason;
+  vtkNew<vtkOpenGLShooter> shooter;
+  if (!Check(shooter->Open(reason), "no context: " + reason))
+  {
+    return Result();
+  }
   TestShooter();
   TestOnePatch();
   TestPairs();
