@@ -16,8 +16,9 @@ namespace
 constexpr int Patience = 50;
 constexpr int PatienceNearRounding = 5;
 constexpr double NearlyRounding = 100.0;
-// Growth of a residual that no method recovers from.
-constexpr double Growth = 1e6;
+// Residuals so many times larger than the first error bound never come back: even a method that
+// sends more than there is (Southwell with overshooting) has no reason to go beyond that bound.
+constexpr double Growth = 100.0;
 // Roundings of one residual: the product, the scaling and two sums.
 constexpr int RoundingsOfResidual = 4;
 } // namespace
@@ -85,8 +86,13 @@ bool vtkRadiosityIteration::Measure(bool isRecurrence, Look& look)
   {
     return false;
   }
-  this->First = this->First.empty() ? residuals : this->First;
-  this->Smallest = this->Smallest.empty() ? residuals : this->Smallest;
+  const bool isFirst = this->First.empty();
+  if (isFirst)
+  {
+    this->First = residuals;
+    this->Smallest = residuals;
+    this->FirstBounds = this->Zeros;
+  }
   const int steps = isRecurrence ? this->Count : 0;
   for (int band = 0; band < bands; ++band)
   {
@@ -95,8 +101,9 @@ bool vtkRadiosityIteration::Measure(bool isRecurrence, Look& look)
     const double rounding =
       GetRounding(this->Links->IsSinglePrecision(), this->Largest[band], steps);
     const double bound = this->Bound->Get(band, weighted[band], rounding);
+    this->FirstBounds[band] = std::max(this->FirstBounds[band], isFirst ? bound : 0.0);
     // Written so that a NaN does not pass for an answer.
-    look.HasGrown = look.HasGrown || !(residual <= Growth * this->First[band]);
+    look.HasGrown = look.HasGrown || !(residual <= Growth * this->FirstBounds[band]);
     look.Residual = std::max(look.Residual, residual);
     look.ErrorBound = bound >= look.ErrorBound ? bound : look.ErrorBound;
     if (bound <= this->Problem.Tolerance * std::max(sizes[band], this->Scales[band]))

@@ -69,8 +69,9 @@ private:
   struct Look;
   bool Measure(bool isRecurrence, Look& look);
 
-  Bands Largest;  // |B| so far
-  Bands First;    // residuals at the beginning
+  Bands Largest; // |B| so far
+  Bands First;   // residuals at the beginning
+  Bands FirstBounds;
   Bands Smallest; // residuals so far
   int SinceSmallest = 0;
   bool NearRounding = false;

@@ -101,7 +101,8 @@ public:
   }
 
 private:
-  // Shots of what is unshot alone always converge: where overshooting gains nothing it ends.
+  // Shots of what is unshot alone always converge: where overshooting does not, it ends. In the
+  // first few sweeps it may bring more into the scene than there was.
   void CheckOvershooting()
   {
     double power = 0.0;
@@ -109,8 +110,9 @@ private:
     {
       power += std::abs(this->Unshot[k]) * this->Areas[k / this->Bands];
     }
-    this->Overshoots = this->Overshoots && power < this->Power;
+    this->Rises += power < this->Power ? 0 : 1;
     this->Power = power;
+    this->Overshoots = this->Rises <= MostRises;
   }
 
   void ComputeAmbient()
@@ -185,7 +187,9 @@ private:
   std::vector<double> Shot;
   std::vector<double> Losses; // sum A (rho - rho F rho)
   ///@}
-  double Power = std::numeric_limits<double>::infinity();
+  static constexpr int MostRises = 5;
+  double Power = std::numeric_limits<double>::infinity(); // unshot, after the last sweep
+  int Rises = 0;
   bool Overshoots = true;
 };
 

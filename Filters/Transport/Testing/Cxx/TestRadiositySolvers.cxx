@@ -1,0 +1,431 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The solvers by themselves, against a dense LU decomposition in double precision: how many
+// iterations they take, that the error bound holds after each of them, and how they end.
+#include "LightTransportTesting.h"
+#include "vtkDenseLinkOperator.h"
+#include "vtkExchangeMatrix.h"
+#include "vtkPatchScene.h"
+#include "vtkRadiosity.h"
+#include "vtkRadiosityIteration.h"
+#include "vtkRadiositySolvers.h"
+#include "vtkViewFactors.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <limits>
+
+using namespace LightTransportTesting;
+
+namespace
+{
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+//------------------------------------------------------------------------------
+// A scene, its view factors, and what its patches are made of.
+class Case
+{
+public:
+  Case(vtkPolyData* data, bool closed)
+  {
+    this->Factors->SetInputData(data);
+    this->Factors->SetTolerance(1e-9);
+    this->Factors->SetEnforceClosure(closed);
+    this->Factors->Update();
+    std::string error;
+    Check(this->Scene.Build(data, nullptr, error), error);
+    this->Exchange = this->Factors->GetExchange();
+    const vtkIdType patches = this->Exchange->GetNumberOfPatches();
+    this->F.resize(patches, patches);
+    for (vtkIdType i = 0; i < patches; ++i)
+    {
+      for (vtkIdType j = 0; j < patches; ++j)
+      {
+        this->F(i, j) = this->Exchange->GetValue(i, j) / this->Exchange->GetAreas()[i];
+      }
+    }
+    this->Emission = Vector::Zero(patches);
+    this->SetReflectance([](vtkIdType) { return 0.5; });
+  }
+
+  vtkIdType GetNumberOfPatches() const { return this->F.rows(); }
+
+  // The first polygons emit 1, all others nothing.
+  void LetEmit(vtkIdType polygons)
+  {
+    for (vtkIdType polygon = 0; polygon < this->GetNumberOfPatches(); ++polygon)
+    {
+      this->Emission[this->Scene.GetPatch(polygon)] = polygon < polygons ? 1.0 : 0.0;
+    }
+  }
+
+  void SetReflectance(const std::function<double(vtkIdType polygon)>& reflectance)
+  {
+    this->Reflectance.resize(this->GetNumberOfPatches());
+    for (vtkIdType polygon = 0; polygon < this->GetNumberOfPatches(); ++polygon)
+    {
+      this->Reflectance[this->Scene.GetPatch(polygon)] = reflectance(polygon);
+    }
+    this->K =
+      Matrix::Identity(this->F.rows(), this->F.cols()) - this->Reflectance.asDiagonal() * this->F;
+  }
+
+  Vector GetExact() const { return this->K.lu().solve(this->Emission); }
+
+  // Everything but Report; several bands are copies of the one.
+  vtkRadiosityProblem MakeProblem(int solver, int bands = 1)
+  {
+    this->Links = vtkSmartPointer<vtkDenseLinkOperator>::New();
+    this->Reference = vtkSmartPointer<vtkDenseLinkOperator>::New();
+    Check(this->Links->Initialize(this->Exchange, bands) &&
+        this->Reference->Initialize(this->Exchange, bands),
+      "link operators");
+    vtkRadiosityProblem problem;
+    problem.Operator = this->Links;
+    problem.Reference = this->Reference;
+    problem.Solver = solver;
+    problem.NumberOfPatches = this->GetNumberOfPatches();
+    problem.NumberOfBands = bands;
+    problem.Areas = &this->Exchange->GetAreas();
+    problem.RowSums = &this->Factors->GetRowSums();
+    problem.RowSumError = 1e-14;
+    for (vtkIdType patch = 0; patch < this->GetNumberOfPatches(); ++patch)
+    {
+      problem.Emission.insert(problem.Emission.end(), bands, this->Emission[patch]);
+      problem.Reflectance.insert(problem.Reflectance.end(), bands, this->Reflectance[patch]);
+    }
+    problem.MaximumNumberOfIterations = 20000;
+    problem.Report = [](int, double, double) { return true; };
+    problem.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
+    return problem;
+  }
+
+  // B as it is while a solver reports.
+  Vector GetCurrent() const
+  {
+    Vector current(this->GetNumberOfPatches());
+    this->Links->GetVector(vtkRadiosityIteration::SOLUTION, current.data());
+    return current;
+  }
+
+  vtkNew<vtkViewFactors> Factors;
+  vtkPatchScene Scene;
+  vtkExchangeMatrix* Exchange = nullptr;
+  vtkSmartPointer<vtkDenseLinkOperator> Links, Reference;
+  Matrix F, K;
+  Vector Emission, Reflectance;
+};
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakePlates(double gap)
+{
+  Surface plates;
+  plates.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 14, 14);
+  plates.AddGrid({ 0, 0, gap }, { 0, 1, 0 }, { 1, 0, 0 }, 14, 14);
+  return plates.Get();
+}
+
+//------------------------------------------------------------------------------
+// Iterations until the residual is 1e-6 of the emission (2-norm), after each of which the error
+// must be within the bound; and the bound must not be idle talk.
+int CountIterations(Case& scene, int solver, const std::string& what)
+{
+  const Vector exact = scene.GetExact();
+  vtkRadiosityProblem problem = scene.MakeProblem(solver);
+  problem.Tolerance = 1e-15;
+  int count = -1;
+  problem.Report = [&](int iteration, double residual, double bound)
+  {
+    const Vector current = scene.GetCurrent();
+    const Vector difference = scene.Emission - scene.K * current;
+    const double error = (current - exact).lpNorm<Eigen::Infinity>();
+    Check(error <= bound,
+      what + ": the error is within its bound after iteration " + std::to_string(iteration));
+    // Rounding of the residual, which conjugate gradients carry along.
+    const double rounding =
+      std::numeric_limits<double>::epsilon() * (4 + iteration) * current.lpNorm<Eigen::Infinity>();
+    Check(std::abs(residual - difference.lpNorm<Eigen::Infinity>()) <= rounding,
+      what + ": the residual is the true one");
+    if (difference.norm() < 1e-6 * scene.Emission.norm())
+    {
+      count = iteration;
+    }
+    return count < 0;
+  };
+  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+  Check(solution.Status == vtkRadiosityStatus::Aborted && solution.Error.empty(),
+    what + ": stopped by us " + solution.Error);
+  return count;
+}
+
+//------------------------------------------------------------------------------
+struct Expected
+{
+  double Reflectance;
+  // Most iterations of Jacobi, Gauss-Seidel, Southwell, Chebyshev, conjugate gradients; 0: not run.
+  int Most[5];
+};
+
+// The counts of a reference computation (exact view factors of rectangles, double precision), with
+// a twentieth more and one for the order of the patches. Southwell overshoots here and did not
+// there; Chebyshev knew 1 - rho to 1 + rho there.
+void TestCounts(Case& scene, const std::vector<Expected>& rows, const std::string& name)
+{
+  for (const Expected& row : rows)
+  {
+    scene.SetReflectance([&](vtkIdType) { return row.Reflectance; });
+    for (int solver = vtkRadiosity::SOLVER_JACOBI;
+         solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT; ++solver)
+    {
+      const int most = row.Most[solver - 1];
+      const std::string what = name + " at " + std::to_string(row.Reflectance) + ", " +
+        vtkRadiositySolvers::GetName(solver);
+      const int count = most > 0 ? CountIterations(scene, solver, what) : 0;
+      Check(count >= 0 && count <= most + most / 20 + 1,
+        what + " takes " + std::to_string(count) + " iterations, not " + std::to_string(most));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestCube()
+{
+  Case cube(MakeRoom(8), true);
+  cube.LetEmit(64);
+  TestCounts(cube,
+    { { 0.5, { 18, 10, 5, 10, 7 } }, { 0.8, { 57, 30, 7, 20, 8 } }, { 0.9, { 122, 63, 8, 30, 9 } },
+      { 0.95, { 251, 129, 8, 43, 10 } }, { 0.99, { 1285, 653, 9, 97, 11 } },
+      { 0.999, { 0, 0, 10, 306, 12 } }, { 0.999999, { 0, 0, 14, 0, 15 } } },
+    "cube");
+}
+
+//------------------------------------------------------------------------------
+void TestPlates()
+{
+  Case wide(MakePlates(1.0), false);
+  wide.LetEmit(196);
+  TestCounts(wide, { { 0.99, { 8, 5, 5, 77, 4 } } }, "plates, gap 1");
+  Case near(MakePlates(0.1), false);
+  near.LetEmit(196);
+  TestCounts(near, { { 0.9, { 58, 30, 15, 29, 14 } }, { 0.99, { 100, 51, 19, 98, 16 } } },
+    "plates, gap 0.1");
+  Case nearer(MakePlates(0.02), false);
+  nearer.LetEmit(196);
+  TestCounts(nearer,
+    { { 0.9, { 110, 56, 37, 29, 24 } }, { 0.99, { 523, 262, 94, 98, 37 } },
+      { 0.999, { 812, 407, 143, 311, 40 } } },
+    "plates, gap 0.02");
+}
+
+//------------------------------------------------------------------------------
+// The final error bound is that of what is returned, and the tolerance is kept.
+void TestAnswers()
+{
+  Case cube(MakeRoom(3), true);
+  cube.LetEmit(5);
+  cube.SetReflectance(
+    [](vtkIdType polygon) { return polygon % 7 == 0 ? 1.0
+                              : polygon % 7 == 1    ? 0.0
+                                                    : 0.9; });
+  const Vector exact = cube.GetExact();
+  for (const int bands : { 1, 5 })
+  {
+    for (const double tolerance : { 1e-2, 1e-6, 1e-12 })
+    {
+      for (int solver = vtkRadiosity::SOLVER_AUTO;
+           solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT; ++solver)
+      {
+        const std::string what =
+          std::string(vtkRadiositySolvers::GetName(solver)) + " to " + std::to_string(tolerance);
+        vtkRadiosityProblem problem = cube.MakeProblem(solver, bands);
+        problem.Tolerance = tolerance;
+        const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+        Check(solution.HasConverged() && solution.Warning.empty() && solution.Error.empty(),
+          what + " converges");
+        Check(solution.Solver == (solver == 0 ? vtkRadiosity::SOLVER_CONJUGATE_GRADIENT : solver),
+          what + " is what is used");
+        double error = 0.0;
+        for (std::size_t k = 0; k < solution.Radiosity.size(); ++k)
+        {
+          error = std::max(error,
+            std::abs(solution.Radiosity[k] - exact[static_cast<vtkIdType>(k) / bands]));
+        }
+        Check(error <= solution.ErrorBound &&
+            solution.ErrorBound <= tolerance * exact.maxCoeff() * (1.0 + tolerance),
+          what + ": the error is within the tolerance");
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Auto goes by the number of products.
+void TestAuto()
+{
+  Case cube(MakeRoom(3), true);
+  cube.LetEmit(5);
+  for (const double rho : { 0.0, 0.02, 0.5, 0.99 })
+  {
+    cube.SetReflectance([&](vtkIdType) { return rho; });
+    const vtkRadiositySolution chosen =
+      vtkRadiositySolvers::Solve(cube.MakeProblem(vtkRadiosity::SOLVER_AUTO));
+    const int expected =
+      rho < 0.1 ? vtkRadiosity::SOLVER_JACOBI : vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
+    Check(chosen.HasConverged() && chosen.Solver == expected, "Auto at " + std::to_string(rho));
+    Check(chosen.Explanation.find(std::string(vtkRadiositySolvers::GetName(expected)) + ": ") == 0,
+      "Auto explains: " + chosen.Explanation);
+    for (const int other : { vtkRadiosity::SOLVER_JACOBI, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
+    {
+      const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(cube.MakeProblem(other));
+      Check(chosen.NumberOfIterations <= solution.NumberOfIterations + 1, "Auto is no slower");
+      Check(solution.Explanation.find("asked for") != std::string::npos,
+        "a choice needs no reason");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void ExpectEnd(const vtkRadiosityProblem& problem, vtkRadiosityStatus status,
+  const std::string& remedy)
+{
+  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+  const std::string what = std::string(vtkRadiositySolvers::GetName(problem.Solver)) + ": " +
+    vtkRadiositySolvers::GetName(status);
+  Check(solution.Status == status, what + ", not " + vtkRadiositySolvers::GetName(solution.Status));
+  Check(solution.Warning.find(remedy) != std::string::npos, what + " warns: " + solution.Warning);
+  Check(solution.Error.empty() && solution.Radiosity.size() == problem.Emission.size(),
+    what + " leaves the result so far");
+}
+
+//------------------------------------------------------------------------------
+// Each way to end has its name and its remedy.
+void TestEndings()
+{
+  Case cube(MakeRoom(3), true);
+  cube.LetEmit(5);
+  cube.SetReflectance([](vtkIdType) { return 0.9; });
+  // Row sums that are not those of the matrix: 1.08 is reflected and the bound does not know.
+  Case unstable(MakeRoom(3), true);
+  unstable.LetEmit(5);
+  unstable.SetReflectance([](vtkIdType) { return 0.9; });
+  for (vtkExchangeMatrix::Tile& tile : unstable.Exchange->GetTiles())
+  {
+    std::transform(tile.Values,
+      tile.Values + vtkExchangeMatrix::TileSize * vtkExchangeMatrix::TileSize, tile.Values,
+      [](float value) { return 1.2f * value; });
+  }
+  for (int solver = vtkRadiosity::SOLVER_JACOBI; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
+       ++solver)
+  {
+    vtkRadiosityProblem hasty = cube.MakeProblem(solver);
+    hasty.Tolerance = 1e-12;
+    hasty.MaximumNumberOfIterations = 2;
+    ExpectEnd(hasty, vtkRadiosityStatus::IterationsUsedUp, "MaximumNumberOfIterations");
+    vtkRadiosityProblem tight = cube.MakeProblem(solver);
+    tight.Tolerance = 1e-15;
+    ExpectEnd(tight, vtkRadiosityStatus::Stagnated, "Raise Tolerance");
+    vtkRadiosityProblem stopped = cube.MakeProblem(solver);
+    stopped.Report = [](int iteration, double, double) { return iteration < 1; };
+    ExpectEnd(stopped, vtkRadiosityStatus::Aborted, "");
+    ExpectEnd(unstable.MakeProblem(solver), vtkRadiosityStatus::Diverged, "EnforceClosure");
+  }
+}
+
+//------------------------------------------------------------------------------
+void ExpectError(const vtkRadiosityProblem& problem, const std::vector<std::string>& parts)
+{
+  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+  for (const std::string& part : parts)
+  {
+    Check(solution.Error.find(part) != std::string::npos,
+      "\"" + part + "\" in \"" + solution.Error + "\"");
+  }
+}
+
+//------------------------------------------------------------------------------
+// What cannot be solved is named with its place.
+void TestDiagnoses()
+{
+  Case cube(MakeRoom(3), true);
+  cube.LetEmit(5);
+  cube.SetReflectance([](vtkIdType) { return 1.0; });
+  ExpectError(cube.MakeProblem(0),
+    { "no unique solution: polygon ", "(reflectance 1, view factors that sum to 1)",
+      "closed part" });
+  // Two bands, of which the second is the one.
+  vtkRadiosityProblem bands = cube.MakeProblem(0, 2);
+  for (std::size_t k = 0; k < bands.Reflectance.size(); k += 2)
+  {
+    bands.Reflectance[k] = 0.7;
+  }
+  ExpectError(bands, { ", band 1 (reflectance 1" });
+  // Two rooms: the one whose rows sum to too much is named.
+  Surface rooms;
+  for (const double x : { 0.0, 3.0 })
+  {
+    rooms.AddGrid({ x, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+    rooms.AddGrid({ x, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, 1, 1);
+    rooms.AddGrid({ x, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, 1, 1);
+    rooms.AddGrid({ x, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, 1, 1);
+    rooms.AddGrid({ x, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 1, 1);
+    rooms.AddGrid({ x + 1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 }, 1, 1);
+  }
+  Case two(rooms.Get(), true);
+  two.LetEmit(1);
+  two.SetReflectance([](vtkIdType polygon) { return polygon < 6 ? 0.9 : 0.8; });
+  for (vtkIdType i = 6; i < 12; ++i)
+  {
+    for (vtkIdType j = 6; j < 12; ++j)
+    {
+      const vtkIdType a = two.Scene.GetPatch(i), b = two.Scene.GetPatch(j);
+      vtkExchangeMatrix::SetValue(two.Exchange->GetTiles()[0], static_cast<int>(a),
+        static_cast<int>(b), 0, 1.3 * two.Exchange->GetAreas()[a] * two.F(a, b));
+    }
+  }
+  std::vector<double> sums = two.Factors->GetRowSums();
+  for (vtkIdType i = 6; i < 12; ++i)
+  {
+    sums[two.Scene.GetPatch(i)] = 1.3;
+  }
+  vtkRadiosityProblem overfull = two.MakeProblem(0);
+  overfull.RowSums = &sums;
+  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(overfull);
+  ExpectError(overfull,
+    { "no unique solution", "(reflectance 0.8, view factors that sum to 1.3)",
+      "returns more than it receives" });
+  const std::string number = solution.Error.substr(solution.Error.find("polygon ") + 8, 2);
+  Check(std::atoi(number.c_str()) >= 6, "the place is in the second room: " + solution.Error);
+  // At 0.7 it can be solved, and users hear of the row.
+  two.SetReflectance([](vtkIdType) { return 0.7; });
+  overfull = two.MakeProblem(0);
+  overfull.RowSums = &sums;
+  const vtkRadiositySolution doubtful = vtkRadiositySolvers::Solve(overfull);
+  Check(doubtful.HasConverged() &&
+      doubtful.Warning.find("arrives more than once") != std::string::npos,
+    "a row above 1 is named: " + doubtful.Warning);
+  // View factors that are not good enough.
+  cube.SetReflectance([](vtkIdType) { return 0.9999; });
+  vtkRadiosityProblem vague = cube.MakeProblem(0);
+  vague.RowSumError = 1e-3;
+  ExpectError(vague, { "no unique solution within that error", "EnforceClosure" });
+  vague.RowSumError = 3e-5;
+  const vtkRadiositySolution uncertain = vtkRadiositySolvers::Solve(vague);
+  Check(uncertain.HasConverged() &&
+      uncertain.Warning.find("B may be wrong by 3") != std::string::npos,
+    "errors of view factors are amplified: " + uncertain.Warning);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestRadiositySolvers(int, char*[])
+{
+  TestCube();
+  TestPlates();
+  TestAnswers();
+  TestAuto();
+  TestEndings();
+  TestDiagnoses();
+  return Result();
+}
