@@ -253,6 +253,34 @@ bool TestChain(vtkOpenGLLinkOperator* device)
   return good;
 }
 
+/// A node with 50,000 patches and a patch with as many links: added up plainly in single precision
+/// these sums are off by 1e-5 and more.
+bool TestLongSums(vtkOpenGLLinkOperator* device)
+{
+  const int patches = 50000;
+  vtkNew<vtkExchangeHierarchy> hierarchy;
+  hierarchy->SetTree(Vector(patches, 0.1), { { 1, patches + 1 } });
+  const Vector x(patches, 1.0);
+  bool good = true;
+  for (const bool ofRoot : { true, false })
+  {
+    std::vector<Link> links(ofRoot ? 1 : 0, { 0, 0, 1.0f });
+    for (int slot = 1; !ofRoot && slot <= patches; ++slot)
+    {
+      links.push_back({ 1, slot, 0.1f });
+    }
+    hierarchy->SetLinks(links);
+    const double expected = MultiplyOnCPU(hierarchy, 1, x)[0];
+    Vector found(x.size());
+    good = device->Initialize(hierarchy, 1) && device->SetVector(0, x.data()) &&
+      device->Multiply(1, 0) && device->GetVector(1, found.data()) && good;
+    const double error = std::abs(found[0] / expected - 1.0);
+    std::cout << "long sums: relative error " << error << "\n";
+    good = Check(error <= Tolerance, "long sums lose digits") && good;
+  }
+  return good;
+}
+
 /// Also that nothing of a NaN gets into other bands.
 bool TestBytesRead()
 {
@@ -349,6 +377,7 @@ int TestOpenGLHierarchicalLinks(int, char*[])
   }
   device->SetMaximumTextureSize(0);
   good = TestChain(device) && good;
+  good = TestLongSums(device) && good;
   good = TestBytesRead() && good;
   good = TestWindowsAndForms() && good;
   good = TestErrors() && good;
