@@ -19,6 +19,7 @@ import numpy
 from vtklighttransport.arrays import divide_triangles, get_area_vectors, get_cell_array
 from vtklighttransport.shell import (
     Failure, Stage, find_choices, find_class, get_summary)
+from vtkmodules.vtkCommonDataModel import vtkFieldData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 # Column of the CSV: heading, alignment and format in print.
@@ -118,6 +119,7 @@ class Report:
     def run(self, surface):
         if surface.GetNumberOfPolys() < surface.GetNumberOfCells():
             surface = get_triangles(surface)
+        surface = without_summaries(surface)
         methods = self.warm_up(find_methods(self.options, self.note), surface)
         self.begin_table()
         self.measure_size(methods, surface)
@@ -196,7 +198,8 @@ class Report:
             begin = time.perf_counter()
             result = stage.run(self.messages, surface)
             seconds = time.perf_counter() - begin
-            times.append((get_first(result, "LinkSeconds", "ViewFactorSeconds"),
+            # What shoots without links has none of their summaries.
+            times.append((get_first(result, "LinkSeconds", "ViewFactorSeconds") or 0.0,
                           get_summary(result, "SolverSeconds"), seconds))
         if not get_summary(result, "Converged"):
             self.note(f"{method.name} {tolerance:g}, {surface.GetNumberOfCells():,} patches: the "
@@ -208,8 +211,9 @@ class Report:
         row.update(
             method=method.name, solver=describe_solver(method, result), tolerance=tolerance,
             patches=surface.GetNumberOfCells(), seconds_links=links, seconds_solver=solver,
-            seconds_all=everything, bytes=int(get_first(result, "LinkBytes", "MatrixBytes")),
-            links=count_links(result), iterations=int(get_summary(result, "NumberOfIterations")),
+            seconds_all=everything, bytes=whole(get_first(result, "LinkBytes", "MatrixBytes")),
+            links=count_links(result),
+            iterations=whole(get_first(result, "NumberOfShots", "NumberOfIterations")),
             error_bound=get_summary(result, "ErrorBound") / (abs(values).max() or 1.0),
             device=get_summary(result, "DeviceUsed"))
         irradiance = get_cell_array(result, "Irradiance").reshape(values.shape)
@@ -272,12 +276,14 @@ def get_first(result, *names):
                  if value is not None), "")
 
 
+def whole(value):
+    return "" if value == "" else int(value)
+
+
 def count_links(result):
-    links = get_summary(result, "NumberOfLinks")
-    if links is None:
-        links = sum(get_summary(result, name)
-                    for name in ("PairsUnobstructed", "PairsPartlyVisible"))
-    return int(links)
+    """Those of a dense matrix are the pairs of patches that see each other."""
+    pairs = [get_first(result, name) for name in ("PairsUnobstructed", "PairsPartlyVisible")]
+    return whole(get_first(result, "NumberOfLinks") or ("" if "" in pairs else sum(pairs)))
 
 
 def find_methods(options, note):
@@ -300,6 +306,14 @@ def find_methods(options, note):
             "Progressive", "Tolerance", sorted(options.progressive_tolerances, reverse=True),
             {"Device": kind.DEVICE_OPENGL}, "southwell"))
     return methods
+
+
+def without_summaries(surface):
+    """A copy that nothing is known of from earlier runs."""
+    copy = vtkPolyData()
+    copy.ShallowCopy(surface)
+    copy.SetFieldData(vtkFieldData())
+    return copy
 
 
 def get_triangles(surface):

@@ -131,6 +131,8 @@ class Page:
             "L2 of H is the same for irradiance, which no emission hides; the largest error and "
             "the bound are relative to the largest radiosity. The bound is the solver's own, and "
             "knows nothing of errors of the links.")
+        if any(row["method"] == "Progressive" for row in self.rows):
+            self.add_paragraph("The iterations of progressive refinement are shots; it has no links.")
         if any(row["reference"] == ITSELF and row["method"] != "Dense" for row in self.rows):
             self.add_paragraph(
                 "Above --reference-limit patches nothing dense was computed: there the reference "
@@ -157,8 +159,10 @@ class Page:
         for name, column, title in (
                 ("growth_links.png", "links", "Links"),
                 ("growth_seconds.png", "seconds_links", "Seconds for the links")):
-            self.add_figure(name, f"{title} against patches.",
-                            lambda file, c=column, t=title: plot_growth(file, groups, c, t.lower()))
+            if any(get_column(self.rows, column)):
+                self.add_figure(
+                    name, f"{title} against patches.",
+                    lambda file, c=column, t=title: plot_growth(file, groups, c, t.lower()))
         columns = ("links", "bytes", "seconds_links", "seconds_solver")
         self.add_paragraph(
             f"Exponents k of patches^k, fitted to the largest {SIZES_TO_FIT} sizes of each line:")
@@ -215,7 +219,7 @@ def find_reason_for_no_pictures():
 
 
 def describe(row):
-    return f"{row['method']} links at {row['tolerance']:g}, {row['solver']}"
+    return f"{row['method']}, tolerance {row['tolerance']:g}, {row['solver']}"
 
 
 def describe_machine():
@@ -250,6 +254,11 @@ def group(rows):
     return {key: groups[key] for key in order}
 
 
+def get_column(rows, name):
+    """Numbers; 0 where there is none, which logarithms leave out."""
+    return [row[name] or 0.0 for row in rows]
+
+
 def fit_exponent(sizes, values):
     """The slope of log(values) over log(sizes); nan where fewer than two can be used."""
     sizes, values = numpy.array(sizes, dtype=float), numpy.array(values, dtype=float)
@@ -261,7 +270,7 @@ def fit_exponent(sizes, values):
 
 
 def print_exponent(rows, column):
-    exponent = fit_exponent([row["patches"] for row in rows], [row[column] for row in rows])
+    exponent = fit_exponent([row["patches"] for row in rows], get_column(rows, column))
     return f"{exponent:.2f}" if numpy.isfinite(exponent) else ""
 
 
@@ -295,7 +304,7 @@ def plot_growth(file, groups, column, title):
     for (family, tolerance), rows in groups.items():
         tolerances = sorted((t for f, t in groups if f == family), reverse=True)
         lines.append(Line(f"{family} {tolerance:g}", [row["patches"] for row in rows],
-                          [row[column] for row in rows], families.index(family),
+                          get_column(rows, column), families.index(family),
                           find_shade(tolerances.index(tolerance), len(tolerances))))
     plot_lines(file, lines, "patches", title)
 
