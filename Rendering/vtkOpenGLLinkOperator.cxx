@@ -4,7 +4,6 @@
 
 #include "vtkFloatTextures.h"
 #include "vtkFloatVectors.h"
-#include "vtkLightTransportOpenGL.h"
 #include "vtkProductGL.h"
 
 #include "vtkExchange.h"
