@@ -191,6 +191,45 @@ void TestScales()
 }
 
 //------------------------------------------------------------------------------
+// Heat taken out of a wall is unshot radiosity below 0. The wall counts as one that reflects
+// everything, for which the error bound is infinite: shots go on until they change nothing.
+void TestGivenFlux()
+{
+  auto room = MakeRoom(2);
+  AddArray(room, "Emissivity", { 0.5 });
+  AddArray(room, "Temperature", { 400.0 });
+  vtkDataArray* condition = AddArray(room, "BoundaryCondition", { 0.0 });
+  vtkDataArray* flux = AddArray(room, "PrescribedNetFlux", { 0.0 });
+  for (vtkIdType cell = 0; cell < 4; ++cell)
+  {
+    condition->SetComponent(cell, 0, 1.0);
+    flux->SetComponent(cell, 0, -200.0);
+  }
+  vtkNew<vtkTest::ErrorObserver> observer;
+  auto radiosity = MakeSolver(room);
+  radiosity->AddObserver(vtkCommand::WarningEvent, observer);
+  radiosity->Update();
+  Check(observer->CheckWarningMessage("nothing to single precision") == 0, "no warning");
+  vtkNew<vtkRadiosity> dense;
+  dense->SetInputData(room);
+  dense->SetDeviceToCPU();
+  dense->Update();
+  const double error =
+    Compare(room, GetCells(radiosity, "Irradiance"), GetCells(dense, "Irradiance"));
+  std::cout << "given net flux: L2 error " << error << "\n";
+  Check(error < 2e-3, "the room with a given flux is off by " + std::to_string(error));
+
+  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<vtkTest::ErrorObserver> pipelineErrors;
+  auto open = MakeSolver(room);
+  open->SetBackgroundTemperature(300.0);
+  open->AddObserver(vtkCommand::ErrorEvent, errors);
+  open->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipelineErrors);
+  open->Update();
+  Check(errors->CheckErrorMessage("no sky fractions") == 0, "a background is taken");
+}
+
+//------------------------------------------------------------------------------
 void TestOnePatch()
 {
   Surface surface;
@@ -212,7 +251,7 @@ void TestRuns()
 {
   auto room = MakeRoom(3);
   AddArray(room, "Emission", { 1.0 });
-  AddArray(room, "Reflectance", { 0.9 });
+  AddArray(room, "Reflectance", { 0.5 });
   auto first = MakeSolver(room, 1e-1);
   auto second = MakeSolver(room, 1e-1);
   first->Update();
@@ -292,6 +331,7 @@ int TestOpenGLShooter(int, char*[])
   TestFurnace();
   TestBands();
   TestScales();
+  TestGivenFlux();
   TestRuns();
   TestCornellBox();
   return Result();
