@@ -37,6 +37,9 @@ public:
   int GetNumberOfParts() const { return this->NumberOfParts; }
   const std::vector<double>& GetAreas() const { return this->Areas; }
 
+  /// G_ij of one kernel, as far as this part holds it.
+  virtual double GetValue(vtkIdType i, vtkIdType j, int kernel = 0) const = 0;
+
   /// Bytes that this part takes as it is.
   virtual double GetNumberOfBytes() const = 0;
 

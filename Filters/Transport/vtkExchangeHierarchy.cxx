@@ -4,6 +4,7 @@
 
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <new>
 
 vtkStandardNewMacro(vtkExchangeHierarchy);
@@ -142,6 +143,29 @@ void vtkExchangeHierarchy::SetWeights(const std::vector<double>& weights)
 {
   this->Weights = weights;
   this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int) const
+{
+  const auto getSlot = [this](vtkIdType patch)
+  { return this->GetNumberOfNodes() + static_cast<int>(patch); };
+  std::vector<int> others;
+  for (int slot = getSlot(j); slot >= 0; slot = this->Parents[slot])
+  {
+    others.push_back(slot);
+  }
+  double sum = 0.0;
+  for (int slot = getSlot(i); slot >= 0; slot = this->Parents[slot])
+  {
+    for (std::int64_t link = this->Offsets[slot]; link < this->Offsets[slot + 1]; ++link)
+    {
+      const bool isOther =
+        std::find(others.begin(), others.end(), this->Columns[link]) != others.end();
+      sum += isOther ? static_cast<double>(this->Values[link]) : 0.0;
+    }
+  }
+  return this->Weights[i] * sum * this->Weights[j];
 }
 
 //------------------------------------------------------------------------------

@@ -84,6 +84,9 @@ public:
   const std::vector<float>& GetValues() const { return this->Values; }
   ///@}
 
+  /// G_ij of this part: what the links between the two patches and all nodes above them sum to.
+  double GetValue(vtkIdType i, vtkIdType j, int kernel = 0) const override;
+
   ///@{ Weights of the patches; SetTree makes them the areas.
   const std::vector<double>& GetWeights() const { return this->Weights; }
   void SetWeights(const std::vector<double>& weights);

@@ -84,7 +84,7 @@ public:
   vtkIdType GetTileIndex(vtkIdType row, vtkIdType column) const;
 
   /// G_ij of one kernel; 0 where the tile is not stored or another part holds it.
-  double GetValue(vtkIdType i, vtkIdType j, int kernel = 0) const;
+  double GetValue(vtkIdType i, vtkIdType j, int kernel = 0) const override;
 
   /// Store G_ij = G_ji. The tile must belong to this part and be stored. Threads may fill different
   /// tiles at the same time.

@@ -33,7 +33,15 @@ namespace
 // What sums of view factors lose by rounding in double precision.
 constexpr double DoublePrecision = 1e-14;
 
+// More patches than this are linked by clusters unless asked for otherwise: a matrix takes about
+// half a minute from here on.
+constexpr vtkIdType MostDensePatches = 8192;
+// How much coarser the links are that show where light is.
+constexpr double CoarseLinks = 4.0;
+
 // The stages of a run as fractions of its progress.
+constexpr double CoarseDone = 0.3;
+constexpr double CoarseSolved = 0.35;
 constexpr double ViewFactorsDone = 0.8;
 constexpr double SolverDone = 0.98;
 
@@ -135,10 +143,9 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
     return 0;
   }
   vtkTable* convergence = vtkTable::GetData(outputs, 1);
-  const bool shoots = this->ShootsOnDevice();
-  vtkViewFactors* viewFactors = shoots ? nullptr : this->UpdateViewFactors(scene, problem);
-  if (shoots ? !this->Shoot(scene, problem, convergence)
-             : !viewFactors || !this->Solve(scene, viewFactors, problem, convergence))
+  vtkSmartPointer<vtkViewFactors> viewFactors;
+  if (!(this->ShootsOnDevice() ? this->Shoot(scene, problem, convergence)
+                               : this->LinkAndSolve(scene, viewFactors, problem, convergence)))
   {
     return 0;
   }
@@ -157,6 +164,23 @@ bool vtkRadiosity::ShootsOnDevice() const
 //------------------------------------------------------------------------------
 bool vtkRadiosity::CheckSolver()
 {
+  const bool given = this->ViewFactors && !this->ShootsOnDevice();
+  const bool givenHierarchical = given && this->ViewFactors->GetHierarchical();
+  if (given && this->LinkMethod != LINK_METHOD_AUTO &&
+    givenHierarchical != (this->LinkMethod == LINK_METHOD_HIERARCHICAL))
+  {
+    vtkErrorMacro("LinkMethod is not what the given view factors are: set it to Auto, or switch "
+                  "Hierarchical of vtkViewFactors "
+      << (givenHierarchical ? "off." : "on."));
+    return false;
+  }
+  if (this->Solver == SOLVER_GAUSS_SEIDEL &&
+    (givenHierarchical || this->LinkMethod == LINK_METHOD_HIERARCHICAL))
+  {
+    vtkErrorMacro("GaussSeidel needs a link for each pair of patches: set LinkMethod to Dense, or "
+                  "use ConjugateGradient, Chebyshev, Jacobi or Southwell.");
+    return false;
+  }
   if (!vtkRadiositySolvers::IsSequential(this->Solver) || this->ShootsOnDevice())
   {
     return this->CheckDevice(this->Device);
@@ -193,9 +217,52 @@ bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const vtkPatchScene& scen
 }
 
 //------------------------------------------------------------------------------
-vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem)
+bool vtkRadiosity::IsHierarchical(vtkIdType patches) const
 {
-  vtkViewFactors* viewFactors = this->ViewFactors;
+  if (this->ViewFactors)
+  {
+    return this->ViewFactors->GetHierarchical();
+  }
+  return this->LinkMethod == LINK_METHOD_HIERARCHICAL ||
+    (this->LinkMethod == LINK_METHOD_AUTO && patches > MostDensePatches &&
+      this->Solver != SOLVER_GAUSS_SEIDEL);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
+  vtkSmartPointer<vtkViewFactors>& viewFactors, Problem& problem, vtkTable* convergence)
+{
+  const bool isBright = this->RefineByBrightness && !this->ViewFactors &&
+    this->IsHierarchical(scene.GetNumberOfPatches());
+  this->SetProgressStage(0.0, isBright ? CoarseDone : ViewFactorsDone);
+  viewFactors = this->UpdateViewFactors(scene, problem, isBright ? CoarseLinks : 1.0);
+  if (!viewFactors)
+  {
+    return false;
+  }
+  AddBackground(viewFactors, problem);
+  if (!isBright)
+  {
+    this->SetProgressStage(ViewFactorsDone, SolverDone);
+    return this->Solve(scene, viewFactors, problem, convergence);
+  }
+  this->SetProgressStage(CoarseDone, CoarseSolved);
+  if (!this->Solve(scene, viewFactors, problem, convergence))
+  {
+    return false;
+  }
+  this->SetProgressStage(CoarseSolved, ViewFactorsDone);
+  viewFactors = this->UpdateBrightLinks(scene, problem);
+  this->SetProgressStage(ViewFactorsDone, SolverDone);
+  return viewFactors && this->Solve(scene, viewFactors, problem, convergence);
+}
+
+//------------------------------------------------------------------------------
+// `coarseness` multiplies the tolerance of hierarchical links.
+vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene,
+  const Problem& problem, double coarseness)
+{
+  vtkSmartPointer<vtkViewFactors> viewFactors = this->ViewFactors;
   const std::vector<bool> senders = problem.Materials.FindSenders();
   const bool needsAll = viewFactors || this->EnforceClosure || problem.Materials.HasBackground();
   if (!viewFactors)
@@ -204,11 +271,34 @@ vtkViewFactors* vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene, cons
     viewFactors->SetController(this->Controller);
     viewFactors->SetTolerance(this->ViewFactorTolerance);
     viewFactors->SetEnforceClosure(this->EnforceClosure);
+    viewFactors->SetHierarchical(this->IsHierarchical(scene.GetNumberOfPatches()));
+    viewFactors->SetLinkTolerance(coarseness * this->LinkTolerance);
   }
-  this->SetProgressStage(0.0, ViewFactorsDone);
   const auto progress = [this](double done) { return this->ReportProgress(done); };
   return viewFactors->UpdateExchange(scene, progress, needsAll ? nullptr : &senders) ? viewFactors
                                                                                      : nullptr;
+}
+
+//------------------------------------------------------------------------------
+// In an object of their own: they serve this distribution of light alone.
+vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const vtkPatchScene& scene,
+  const Problem& problem)
+{
+  const int bands = problem.Materials.NumberOfBands;
+  std::vector<double> brightness(scene.GetNumberOfPatches(), 0.0);
+  for (std::size_t k = 0; k < problem.Solution.Radiosity.size(); ++k)
+  {
+    brightness[k / bands] =
+      std::max(brightness[k / bands], std::abs(problem.Solution.Radiosity[k]));
+  }
+  vtkNew<vtkViewFactors> viewFactors;
+  viewFactors->SetController(this->Controller);
+  viewFactors->SetEnforceClosure(this->EnforceClosure);
+  viewFactors->HierarchicalOn();
+  viewFactors->SetLinkTolerance(this->LinkTolerance);
+  viewFactors->SetBrightness(brightness);
+  const auto progress = [this](double done) { return this->ReportProgress(done); };
+  return viewFactors->UpdateExchange(scene, progress) ? viewFactors.Get() : nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -226,8 +316,7 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
   vtkTable* convergence)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
-  AddBackground(viewFactors, problem);
-  vtkExchangeMatrix* exchange = viewFactors->GetExchange();
+  vtkExchange* exchange = viewFactors->GetExchange();
   const int device = vtkRadiositySolvers::IsSequential(this->Solver) ? DEVICE_CPU : this->Device;
   auto links = this->MakeLinkOperator(device, exchange, problem.Materials.NumberOfBands,
     problem.DeviceExplanation);
@@ -245,7 +334,6 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
   equation.RowSums = &viewFactors->GetRowSums();
   equation.RowSumError = GetRowSumError(viewFactors);
   equation.GetPolygon = [&scene](vtkIdType patch) { return scene.GetPolygon(patch); };
-  this->SetProgressStage(ViewFactorsDone, SolverDone);
   this->RecordConvergence(equation, convergence, begin);
 
   problem.Solution = vtkRadiositySolvers::Solve(equation);
@@ -402,7 +490,7 @@ bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
 
 //------------------------------------------------------------------------------
 void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
-  const vtkViewFactors* viewFactors, vtkDataObject* output)
+  vtkViewFactors* viewFactors, vtkDataObject* output)
 {
   scene.BuildSmoothPoints(this->FeatureAngle, problem.Materials.GetPointMaterials(),
     2 * problem.Materials.NumberOfBands);
@@ -429,6 +517,8 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
   AddSummary(fields, "SolverSeconds", problem.SolverSeconds);
   if (viewFactors)
   {
+    const bool dense = vtkExchangeMatrix::SafeDownCast(viewFactors->GetExchange()) != nullptr;
+    AddSummary(fields, "LinkMethodUsed", std::string(dense ? "Dense" : "Hierarchical"));
     viewFactors->AddSummaries(fields);
   }
   else
@@ -528,6 +618,9 @@ void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
   PrintValues(os << indent << "BandLimits:", this->BandLimits);
   os << indent << "BackgroundTemperature: " << this->BackgroundTemperature << "\n";
   PrintValues(os << indent << "BackgroundRadiance:", this->BackgroundRadiances);
+  os << indent << "LinkMethod: " << this->LinkMethod << "\n";
+  os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
+  os << indent << "RefineByBrightness: " << this->RefineByBrightness << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "ViewFactorTolerance: " << this->ViewFactorTolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";

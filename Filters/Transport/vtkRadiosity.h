@@ -89,6 +89,13 @@ public:
   vtkTypeMacro(vtkRadiosity, vtkTransportAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  enum LinkMethodType
+  {
+    LINK_METHOD_AUTO = 0,
+    LINK_METHOD_DENSE = 1,
+    LINK_METHOD_HIERARCHICAL = 2
+  };
+
   enum SolverType
   {
     SOLVER_AUTO = 0,
@@ -168,6 +175,41 @@ public:
   ///@}
 
   ///@{
+  /**
+   * How patches are linked: Dense by a view factor for each pair (vtkExchangeMatrix), which takes
+   * memory and time by the square of their number; Hierarchical by links between clusters of
+   * patches (vtkExchangeHierarchy), whose number hardly grows with that of the patches, to an
+   * accuracy of LinkTolerance. Default LINK_METHOD_AUTO: Dense up to 8,192 patches, with the
+   * solvers that need it (GaussSeidel), and where SetViewFactors gave view factors, which then
+   * decide; else Hierarchical. Field data LinkMethodUsed says which.
+   */
+  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_HIERARCHICAL);
+  vtkGetMacro(LinkMethod, int);
+  void SetLinkMethodToAuto() { this->SetLinkMethod(LINK_METHOD_AUTO); }
+  void SetLinkMethodToDense() { this->SetLinkMethod(LINK_METHOD_DENSE); }
+  void SetLinkMethodToHierarchical() { this->SetLinkMethod(LINK_METHOD_HIERARCHICAL); }
+  ///@}
+
+  ///@{
+  /// Error of the irradiance that hierarchical links are allowed, see
+  /// vtkViewFactors::SetLinkTolerance. Default 1e-2, range 1e-5 to 1.
+  vtkSetClampMacro(LinkTolerance, double, 1e-5, 1.0);
+  vtkGetMacro(LinkTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Refine hierarchical links where light is: for the radiosity of a first, coarse solution (links
+   * of four times LinkTolerance, which are kept) instead of one that is the same everywhere. Fewer
+   * links for the same error where little of the scene sends most of the light, but they serve
+   * this one distribution of light and are never kept. Default off.
+   */
+  vtkSetMacro(RefineByBrightness, bool);
+  vtkGetMacro(RefineByBrightness, bool);
+  vtkBooleanMacro(RefineByBrightness, bool);
+  ///@}
+
+  ///@{
   /// Where the links are applied (vtkTransportAlgorithm::DeviceType). Default DEVICE_AUTO: OpenGL
   /// on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
@@ -221,7 +263,13 @@ private:
   bool ShootsOnDevice() const;
   bool CheckSolver();
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
-  vtkViewFactors* UpdateViewFactors(const vtkPatchScene& scene, const Problem& problem);
+  bool IsHierarchical(vtkIdType patches) const;
+  bool LinkAndSolve(const vtkPatchScene& scene, vtkSmartPointer<vtkViewFactors>& viewFactors,
+    Problem& problem, vtkTable* convergence);
+  vtkSmartPointer<vtkViewFactors> UpdateViewFactors(const vtkPatchScene& scene,
+    const Problem& problem, double coarseness);
+  vtkSmartPointer<vtkViewFactors> UpdateBrightLinks(const vtkPatchScene& scene,
+    const Problem& problem);
   static void AddBackground(const vtkViewFactors* viewFactors, Problem& problem);
   bool Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
     vtkTable* convergence);
@@ -231,7 +279,7 @@ private:
   bool CheckSolution(const Problem& problem);
   bool Finish(vtkCPULinkOperator* links, Problem& problem);
   void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
-    const vtkViewFactors* viewFactors, vtkDataObject* output);
+    vtkViewFactors* viewFactors, vtkDataObject* output);
   void WriteThermal(const vtkPatchScene& scene, const Problem& problem,
     const std::vector<double>& flux, vtkDataObject* output);
 
@@ -241,6 +289,9 @@ private:
   std::vector<double> BandLimits;
   double BackgroundTemperature = 0.0;
   std::vector<double> BackgroundRadiances;
+  int LinkMethod = LINK_METHOD_AUTO;
+  double LinkTolerance = 1e-2;
+  bool RefineByBrightness = false;
   int Device = DEVICE_AUTO;
   double ViewFactorTolerance = 1e-4;
   bool EnforceClosure = false;

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewFactors.h"
 
+#include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkDataObject.h"
-#include "vtkDenseLinkOperator.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkLinkRefinement.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -18,6 +19,7 @@
 #include "vtkSceneRayCaster.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
+#include "vtkTransportMemory.h"
 #include "vtkTransportThreads.h"
 #include "vtkViewFactorAssembly.h"
 #include "vtkViewFactorClosure.h"
@@ -41,6 +43,8 @@ constexpr vtkIdType PairsPerBatch = 1024;
 // The stages as fractions of the progress.
 constexpr double LookDone = 0.6;
 constexpr double RefineDone = 0.97;
+// The part of the free memory that links may fill.
+constexpr double MemoryForLinks = 0.8;
 // Relative error of an entry by storing it in single precision.
 constexpr double SinglePrecision = 6e-8;
 } // namespace
@@ -102,9 +106,12 @@ bool vtkViewFactors::Provide(const vtkPatchScene& scene, const ProgressFunction&
 bool vtkViewFactors::IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const
 {
   // The groups and how points are written may change without new view factors.
-  if (!this->Result->Exchange || this->Result->Fingerprint != scene.GetFingerprint() ||
-    this->Result->Tolerance != this->Tolerance || this->HasClosedRows() != this->EnforceClosure ||
-    this->Result->Exchange->GetNumberOfParts() != this->GetNumberOfRanks())
+  const vtkExchange* exchange = this->Result->GetExchange();
+  if (!exchange || this->Result->Fingerprint != scene.GetFingerprint() ||
+    (this->Result->Hierarchy != nullptr) != this->Hierarchical ||
+    this->Result->Tolerance != (this->Hierarchical ? this->LinkTolerance : this->Tolerance) ||
+    this->HasClosedRows() != this->EnforceClosure ||
+    exchange->GetNumberOfParts() != this->GetNumberOfRanks())
   {
     return false;
   }
@@ -138,6 +145,20 @@ bool vtkViewFactors::Compute(const vtkPatchScene& scene, const ProgressFunction&
   const double begin = vtkTimerLog::GetUniversalTime();
   vtkViewFactorsResult& result = *this->Result;
   result.Fingerprint = scene.GetFingerprint();
+  if (!(this->Hierarchical ? this->ComputeLinks(scene, progress)
+                           : this->ComputeMatrix(scene, progress, senders)))
+  {
+    return false;
+  }
+  result.Summaries.emplace_back("ViewFactorSeconds", vtkTimerLog::GetUniversalTime() - begin);
+  return progress(1.0);
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::ComputeMatrix(const vtkPatchScene& scene, const ProgressFunction& progress,
+  const std::vector<bool>* senders)
+{
+  vtkViewFactorsResult& result = *this->Result;
   result.Tolerance = this->Tolerance;
   vtkViewFactorAssembly assembly(scene, this->Tolerance, senders);
   if (!this->Assemble(scene, progress, assembly) || !this->SumRows())
@@ -147,13 +168,69 @@ bool vtkViewFactors::Compute(const vtkPatchScene& scene, const ProgressFunction&
   result.RawRowSums = result.RowSums;
   this->Summarize(assembly);
   // Where pairs have been left out no row is whole: what it misses says nothing.
-  if (!this->FindOpenings(scene, senders == nullptr) ||
-    (this->EnforceClosure && !this->CloseRows(assembly)))
+  return this->FindOpenings(scene, senders == nullptr) &&
+    (!this->EnforceClosure || this->CloseRows(assembly.GetPairs()));
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunction& progress)
+{
+  this->Result->Tolerance = this->LinkTolerance;
+  vtkSceneRayCaster caster;
+  std::string error;
+  if (!vtkPatchScene::Agree(this->Controller, caster.Build(scene, error), error))
   {
+    vtkErrorMacro(<< error);
     return false;
   }
-  result.Summaries.emplace_back("ViewFactorSeconds", vtkTimerLog::GetUniversalTime() - begin);
-  return progress(1.0);
+  vtkLinkRefinement refinement(scene, caster);
+  if (!this->Brightness.empty())
+  {
+    refinement.SetBrightness(this->Brightness);
+  }
+  const double available = MemoryForLinks * vtkTransportMemory::GetAvailableBytes();
+  const vtkLinkRefinement::Outcome outcome = refinement.Refine(this->LinkTolerance, available,
+    this->Controller, [&](double done) { return progress(RefineDone * done); });
+  if (outcome == vtkLinkRefinement::NO_MEMORY)
+  {
+    vtkErrorMacro("The links between clusters of "
+      << scene.GetNumberOfPatches() << " patches need more than the "
+      << vtkTransportMemory::Format(available)
+      << " of memory that are free for them: raise LinkTolerance, use fewer patches or processes "
+         "on more machines (each holds a part).");
+  }
+  return outcome == vtkLinkRefinement::DONE && this->StoreLinks(scene, refinement) &&
+    this->FindOpenings(scene, true) && (!this->EnforceClosure || this->CloseRows({}));
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinement& refinement)
+{
+  vtkViewFactorsResult& result = *this->Result;
+  const int ranks = this->GetNumberOfRanks();
+  const int rank = ranks > 1 ? this->Controller->GetLocalProcessId() : 0;
+  result.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
+  const bool stored =
+    result.Hierarchy->SetTree(scene.GetAreas(), refinement.GetNodes(), rank, ranks) &&
+    result.Hierarchy->SetLinks(refinement.GetLinks());
+  std::string error = "The memory for the links is no longer there: raise LinkTolerance or free "
+                      "memory.";
+  if (!vtkPatchScene::Agree(this->Controller, stored, error))
+  {
+    vtkErrorMacro(<< error);
+    return false;
+  }
+  const vtkLinkRefinement::Counters& count = refinement.GetCounters();
+  result.Summaries = { { "PairsExamined", count.PairsExamined },
+    { "PairsBackFacing", count.PairsBackFacing }, { "PairsUnobstructed", count.PairsUnobstructed },
+    { "NumberOfLinks", count.Links }, { "NumberOfPatchLinks", count.PatchLinks },
+    { "LinkRaysCast", count.Rays }, { "LinkError", refinement.GetErrorEstimate() },
+    { "MatrixBytes", result.Hierarchy->GetNumberOfBytes() },
+    { "DenseMatrixBytes", vtkExchangeMatrix::GetEstimatedBytes(scene.GetNumberOfPatches(), 1) } };
+  result.RowErrors.assign(scene.GetNumberOfPatches(), refinement.GetErrorEstimate());
+  const bool summed = this->SumRows();
+  result.RawRowSums = result.RowSums;
+  return summed;
 }
 
 //------------------------------------------------------------------------------
@@ -260,14 +337,13 @@ void vtkViewFactors::Summarize(const vtkViewFactorAssembly& assembly)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::SumRows()
 {
-  vtkNew<vtkDenseLinkOperator> links;
-  links->SetController(this->Controller);
   vtkViewFactorsResult& result = *this->Result;
-  const std::vector<double>& areas = result.Exchange->GetAreas();
+  const std::vector<double>& areas = result.GetExchange()->GetAreas();
   const std::vector<double> ones(areas.size(), 1.0);
   result.RowSums.resize(areas.size());
-  if (!links->Initialize(result.Exchange, 1) || !links->SetVector(0, ones.data()) ||
-    !links->Multiply(1, 0) || !links->GetVector(1, result.RowSums.data()))
+  auto links = this->MakeCPULinkOperator(result.GetExchange(), 1);
+  if (!links || !links->SetVector(0, ones.data()) || !links->Multiply(1, 0) ||
+    !links->GetVector(1, result.RowSums.data()))
   {
     return false;
   }
@@ -355,7 +431,7 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::CloseRows(const vtkViewFactorAssembly& assembly)
+bool vtkViewFactors::CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs)
 {
   vtkViewFactorsResult& result = *this->Result;
   std::vector<bool> closed(result.RowSums.size());
@@ -364,9 +440,12 @@ bool vtkViewFactors::CloseRows(const vtkViewFactorAssembly& assembly)
     closed[row] = result.SkyFractions[row] + result.BackFaceFractions[row] == 0.0;
   }
   vtkViewFactorClosure::Report report;
-  if (!vtkViewFactorClosure::Close(result, assembly.GetPairs(), closed,
+  const bool done = result.Hierarchy
+    ? vtkViewFactorClosure::Scale(result, closed, this->Controller, report)
+    : vtkViewFactorClosure::Close(result, pairs, closed,
         vtkViewFactorAssembly::OpenShare * this->Tolerance + SinglePrecision, this->Controller,
-        report))
+        report);
+  if (!done)
   {
     return false;
   }
@@ -389,9 +468,16 @@ bool vtkViewFactors::HasClosedRows() const
 }
 
 //------------------------------------------------------------------------------
-vtkExchangeMatrix* vtkViewFactors::GetExchange()
+vtkExchange* vtkViewFactors::GetExchange()
 {
-  return this->Result->Exchange;
+  return this->Result->GetExchange();
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactors::SetBrightness(const std::vector<double>& brightness)
+{
+  this->Brightness = brightness;
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------
@@ -409,7 +495,7 @@ const std::vector<double>& vtkViewFactors::GetRowErrors() const
 //------------------------------------------------------------------------------
 double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
 {
-  vtkExchangeMatrix* exchange = this->Result->Exchange;
+  const vtkExchange* exchange = this->Result->GetExchange();
   const vtkIdType patches = exchange ? static_cast<vtkIdType>(this->Patches.size()) : 0;
   if (i < 0 || j < 0 || i >= patches || j >= patches)
   {
@@ -430,6 +516,10 @@ bool vtkViewFactors::Save(const char* fileName)
   else if (this->GetNumberOfRanks() > 1)
   {
     error = "View factors can be saved on one process only: each of several holds a part.";
+  }
+  else if (this->Result->Hierarchy)
+  {
+    error = "Links between clusters cannot be saved: switch Hierarchical off and update.";
   }
   else if (!this->Result->Exchange || !this->Senders.empty())
   {
@@ -523,6 +613,8 @@ void vtkViewFactors::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
+  os << indent << "Hierarchical: " << this->Hierarchical << "\n";
+  os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "LoadedFile: " << this->LoadedFile << "\n";
   for (const auto& summary : this->Result->Summaries)
   {

@@ -53,10 +53,12 @@
 #include <string>     // for std::string
 #include <vector>     // for std::vector
 
-class vtkExchangeMatrix;
+class vtkExchange;
+class vtkLinkRefinement;
 class vtkPatchScene;
 class vtkTable;
 class vtkViewFactorAssembly;
+struct vtkPartlyVisiblePair;
 struct vtkViewFactorsResult;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkViewFactors : public vtkTransportAlgorithm
@@ -91,11 +93,30 @@ public:
 
   ///@{
   /**
+   * Links between clusters of patches (vtkExchangeHierarchy) instead of a matrix: their number
+   * hardly grows with that of the patches, and Tolerance has no effect. Default off. LinkTolerance
+   * bounds the error of the irradiance that they give (root mean square over the surface, relative
+   * to the radiosity) for a radiosity that is the same everywhere; it is an estimate from the
+   * samples that decide which links there are. Single patches may be off by more. Default 1e-2,
+   * range 1e-5 to 1. With EnforceClosure the weights of the patches in closed rows are scaled.
+   * Field data are then PairsExamined, PairsBackFacing and PairsUnobstructed (pairs of clusters),
+   * RaysCast, NumberOfLinks, NumberOfPatchLinks (of which between two patches), LinkError (the
+   * estimate), MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
+   */
+  vtkSetMacro(Hierarchical, bool);
+  vtkGetMacro(Hierarchical, bool);
+  vtkBooleanMacro(Hierarchical, bool);
+  vtkSetClampMacro(LinkTolerance, double, 1e-5, 1.0);
+  vtkGetMacro(LinkTolerance, double);
+  ///@}
+
+  ///@{
+  /**
    * Save the view factors that the last update computed, with the fingerprint of the geometry. Load
    * takes them from a file: updates then compute nothing, and fail for any other geometry, until
-   * Load(nullptr) or another file. One process only. Both return false after an error, which they
-   * report: nothing computed yet, a file that cannot be written or read, is damaged or is no file
-   * of view factors.
+   * Load(nullptr) or another file. One process only, and no hierarchical links. Both return false
+   * after an error, which they report: nothing computed yet, a file that cannot be written or read,
+   * is damaged or is no file of view factors.
    */
   bool Save(const char* fileName);
   bool Load(const char* fileName);
@@ -118,8 +139,13 @@ public:
   using ProgressFunction = std::function<bool(double)>;
   bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders = nullptr);
-  /// Rows are in the order of the scene's patches, not of the input's polygons.
-  vtkExchangeMatrix* GetExchange();
+  /// For hierarchical links: a radiosity for each patch of the scene to refine them for, instead of
+  /// one that is the same everywhere; empty (default) for that. Takes effect where the next
+  /// UpdateExchange computes.
+  void SetBrightness(const std::vector<double>& brightness);
+  /// A vtkExchangeMatrix, or with Hierarchical a vtkExchangeHierarchy. Rows are in the order of the
+  /// scene's patches, not of the input's polygons.
+  vtkExchange* GetExchange();
   const std::vector<double>& GetRowSums() const;
   const std::vector<double>& GetRowErrors() const;
   /// The part of what leaves each row's patch that leaves the scene; all 0 where pairs have been
@@ -146,6 +172,10 @@ private:
     const std::vector<bool>* senders);
   bool IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const;
   bool CheckLoaded(const vtkPatchScene& scene);
+  bool ComputeLinks(const vtkPatchScene& scene, const ProgressFunction& progress);
+  bool StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinement& refinement);
+  bool ComputeMatrix(const vtkPatchScene& scene, const ProgressFunction& progress,
+    const std::vector<bool>* senders);
   bool Compute(const vtkPatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders);
   bool Assemble(const vtkPatchScene& scene, const ProgressFunction& progress,
@@ -155,12 +185,15 @@ private:
   void Summarize(const vtkViewFactorAssembly& assembly);
   bool SumRows();
   bool FindOpenings(const vtkPatchScene& scene, bool areRowsWhole);
-  bool CloseRows(const vtkViewFactorAssembly& assembly);
+  bool CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs);
 
   double Tolerance = 1e-4;
   bool EnforceClosure = false;
+  bool Hierarchical = false;
+  double LinkTolerance = 1e-2;
 
   std::unique_ptr<vtkViewFactorsResult> Result;
+  std::vector<double> Brightness;
   std::vector<bool> Senders;      ///< that the result was computed for; empty for all
   std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons
   std::string LoadedFile;         ///< empty when the result was not loaded

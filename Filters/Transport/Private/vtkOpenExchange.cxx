@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace
@@ -810,6 +811,24 @@ vtkOpenExchange::~vtkOpenExchange() = default;
 bool vtkOpenExchange::MayFace(int nodeI, int nodeJ) const
 {
   return this->Self->GetView(nodeI, nodeJ).MayFace();
+}
+
+//------------------------------------------------------------------------------
+double vtkOpenExchange::GetKernelBound(int nodeI, int nodeJ) const
+{
+  const View view = this->Self->GetView(nodeI, nodeJ);
+  if (!view.MayFace())
+  {
+    return 0.0;
+  }
+  const Node& a = this->Self->Scene.GetTree().GetNode(nodeI);
+  const Node& b = this->Self->Scene.GetTree().GetNode(nodeJ);
+  const Vector gap = (a.Lower - b.Upper).cwiseMax(b.Lower - a.Upper).cwiseMax(0.0);
+  const double squared = gap.squaredNorm();
+  const double distance = std::sqrt(squared);
+  const double cosines = std::min(view.HighestOfI, distance) * std::min(view.HighestOfJ, distance);
+  return squared > 0.0 ? cosines / (Pi * squared * squared)
+                       : std::numeric_limits<double>::infinity();
 }
 
 //------------------------------------------------------------------------------

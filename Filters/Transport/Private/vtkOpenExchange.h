@@ -36,6 +36,10 @@ public:
   /// Whether any patch of one node may face any of the other; false is certain.
   bool MayFace(int nodeI, int nodeJ) const;
 
+  /// A bound of the kernel cos cos / (pi r^2) between the points of two nodes; infinite where they
+  /// may touch, 0 where they certainly do not face each other.
+  double GetKernelBound(int nodeI, int nodeJ) const;
+
   /**
    * The exchange of all pairs of two nodes of at most vtkPatchTree::BlockSize patches:
    * values[(i - first of I) * stride + (j - first of J)], in scene units (lengths where the scene's

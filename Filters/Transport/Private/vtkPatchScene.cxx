@@ -169,7 +169,7 @@ bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* contr
   {
     return false;
   }
-  this->Tree.Build(*this);
+  this->Tree.FillNodes(*this);
   return true;
 }
 
@@ -285,15 +285,22 @@ void vtkPatchScene::SortPatches(Raw& raw, vtkIdType firstLocal)
   std::vector<vtkIdType> starts(patches + 1, 0);
   std::partial_sum(raw.Counts.begin(), raw.Counts.end(), starts.begin() + 1);
   std::vector<Vector> centers(patches, Vector::Zero());
+  std::vector<Vector> normals(patches, Vector::Zero());
   for (std::size_t polygon = 0; polygon < patches; ++polygon)
   {
-    for (vtkIdType corner = starts[polygon]; corner < starts[polygon + 1]; ++corner)
+    const auto getPoint = [&](vtkIdType corner) -> Vector
+    { return (Vector(&raw.Coordinates[3 * corner]) - this->Center) / this->Scale; };
+    const vtkIdType first = starts[polygon];
+    for (vtkIdType corner = first; corner < starts[polygon + 1]; ++corner)
     {
-      const Vector point(&raw.Coordinates[3 * corner]);
-      centers[polygon] += (point - this->Center) / this->Scale / raw.Counts[polygon];
+      centers[polygon] += getPoint(corner) / raw.Counts[polygon];
+      const vtkIdType next = corner + 1 < starts[polygon + 1] ? corner + 1 : first;
+      normals[polygon] +=
+        (getPoint(corner) - getPoint(first)).cross(getPoint(next) - getPoint(first));
     }
+    normals[polygon].normalize();
   }
-  this->Polygons = vtkPatchTree::Sort(centers);
+  this->Polygons = this->Tree.Sort(centers, normals);
   this->Patches.resize(patches);
   this->Offsets.assign(1, 0);
   std::vector<double> coordinates;
@@ -457,6 +464,14 @@ void vtkPatchScene::ComputeFingerprint(const Raw& raw)
     add(static_cast<std::uint64_t>(polygon));
   }
   this->Fingerprint = hash;
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::AreTouching(vtkIdType i, vtkIdType j) const
+{
+  const vtkIdType* const endI = this->GetCorners(i) + this->GetNumberOfCorners(i);
+  const vtkIdType* const endJ = this->GetCorners(j) + this->GetNumberOfCorners(j);
+  return std::find_first_of(this->GetCorners(i), endI, this->GetCorners(j), endJ) != endI;
 }
 
 //------------------------------------------------------------------------------

@@ -15,19 +15,12 @@ namespace
 using Vector = vtkPatchTree::Vector;
 using Box = std::pair<Vector, Vector>;
 
+// Patches are divided by where they face while their normals are wider apart than this (along an
+// axis), and by place otherwise.
+constexpr double WideNormals = 0.7;
+
 // Normals whose box has its centre this close to the origin point everywhere.
 constexpr double NoDirection = 1e-6;
-
-//------------------------------------------------------------------------------
-// Where [first, last) is divided; first is a multiple of the unit of the division.
-vtkIdType GetCut(vtkIdType first, vtkIdType last)
-{
-  const vtkIdType size = last - first;
-  const vtkIdType unit =
-    size > vtkPatchTree::BlockSize ? vtkPatchTree::BlockSize : vtkPatchTree::LeafSize;
-  const vtkIdType units = (size + unit - 1) / unit;
-  return first + (units + 1) / 2 * unit;
-}
 
 //------------------------------------------------------------------------------
 Box MakeEmptyBox()
@@ -44,32 +37,68 @@ void Extend(Box& box, const Vector& point)
 }
 
 //------------------------------------------------------------------------------
-void SortRange(const std::vector<Vector>& centroids, std::vector<vtkIdType>& order, vtkIdType first,
-  vtkIdType last)
+// Divides ranges of patches; the tree is what the divisions leave behind.
+class Sorter
 {
-  const auto begin = order.begin() + first;
-  const auto end = order.begin() + last;
-  if (last - first <= vtkPatchTree::LeafSize)
+public:
+  Sorter(const std::vector<Vector>& centroids, const std::vector<Vector>& normals,
+    std::vector<vtkIdType>& order)
+    : Centroids(centroids), Normals(normals), Order(order)
   {
-    // nth_element leaves an order that differs between implementations.
-    std::sort(begin, end);
-    return;
   }
-  Box box = MakeEmptyBox();
-  std::for_each(begin, end, [&](vtkIdType patch) { Extend(box, centroids[patch]); });
-  int axis = 0;
-  (box.second - box.first).maxCoeff(&axis);
-  const vtkIdType cut = GetCut(first, last);
-  std::nth_element(begin, order.begin() + cut, end,
-    [&](vtkIdType a, vtkIdType b)
+
+  // Where [first, last) is cut; the patches before are then those of the left child.
+  vtkIdType Divide(vtkIdType first, vtkIdType last)
+  {
+    const auto begin = this->Order.begin() + first;
+    const auto end = this->Order.begin() + last;
+    Box places = MakeEmptyBox();
+    Box normals = MakeEmptyBox();
+    std::for_each(begin, end,
+      [&](vtkIdType patch)
+      {
+        Extend(places, this->Centroids[patch]);
+        Extend(normals, this->Normals[patch]);
+      });
+    int axis = 0;
+    int normalAxis = 0;
+    (places.second - places.first).maxCoeff(&axis);
+    const double spread = (normals.second - normals.first).maxCoeff(&normalAxis);
+    const vtkIdType unit =
+      last - first > vtkPatchTree::BlockSize ? vtkPatchTree::BlockSize : vtkPatchTree::LeafSize;
+    const vtkIdType units = (last - first + unit - 1) / unit;
+    vtkIdType cut = first + (units + 1) / 2 * unit;
+    double middle = -2.0;
+    if (spread > WideNormals)
     {
-      const double left = centroids[a][axis];
-      const double right = centroids[b][axis];
-      return left < right || (left == right && a < b);
-    });
-  SortRange(centroids, order, first, cut);
-  SortRange(centroids, order, cut, last);
-}
+      middle = 0.5 * (normals.first[normalAxis] + normals.second[normalAxis]);
+      const vtkIdType below = std::count_if(begin, end,
+        [&](vtkIdType patch) { return this->Normals[patch][normalAxis] < middle; });
+      cut = first + std::min(std::max<vtkIdType>((below + unit / 2) / unit, 1), units - 1) * unit;
+    }
+    // What does not fit into whole units goes by its place.
+    const auto isBefore = [&](vtkIdType a, vtkIdType b)
+    {
+      const bool above[2] = { this->Normals[a][normalAxis] >= middle,
+        this->Normals[b][normalAxis] >= middle };
+      const double at[2] = { this->Centroids[a][axis], this->Centroids[b][axis] };
+      return std::tie(above[0], at[0], a) < std::tie(above[1], at[1], b);
+    };
+    std::nth_element(begin, this->Order.begin() + cut, end, isBefore);
+    return cut;
+  }
+
+  // nth_element leaves an order that differs between implementations.
+  void Finish(vtkIdType first, vtkIdType last)
+  {
+    std::sort(this->Order.begin() + first, this->Order.begin() + last);
+  }
+
+private:
+  const std::vector<Vector>& Centroids;
+  const std::vector<Vector>& Normals;
+  std::vector<vtkIdType>& Order;
+};
 
 //------------------------------------------------------------------------------
 // Everything but the cone, from the patches of a leaf.
@@ -147,21 +176,16 @@ void FillNodes(const vtkPatchScene& scene, std::vector<vtkPatchTree::Node>& node
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<vtkIdType> vtkPatchTree::Sort(const std::vector<Vector>& centroids)
+std::vector<vtkIdType> vtkPatchTree::Sort(const std::vector<Vector>& centroids,
+  const std::vector<Vector>& normals)
 {
-  std::vector<vtkIdType> order(centroids.size());
+  const auto patches = static_cast<vtkIdType>(centroids.size());
+  std::vector<vtkIdType> order(patches);
   std::iota(order.begin(), order.end(), 0);
-  SortRange(centroids, order, 0, static_cast<vtkIdType>(order.size()));
-  return order;
-}
-
-//------------------------------------------------------------------------------
-void vtkPatchTree::Build(const vtkPatchScene& scene)
-{
-  const vtkIdType patches = scene.GetNumberOfPatches();
+  Sorter sorter(centroids, normals, order);
   this->Nodes.assign(1, Node());
   this->Nodes[0].Last = patches;
-  this->Blocks.assign((patches + BlockSize - 1) / BlockSize, 0);
+  this->Blocks.assign(std::max<vtkIdType>((patches + BlockSize - 1) / BlockSize, 1), 0);
   for (std::size_t index = 0; index < this->Nodes.size(); ++index)
   {
     const vtkIdType first = this->Nodes[index].First;
@@ -171,18 +195,26 @@ void vtkPatchTree::Build(const vtkPatchScene& scene)
     {
       this->Blocks[first / BlockSize] = static_cast<int>(index);
     }
-    if (last - first > LeafSize)
+    if (last - first <= LeafSize)
     {
-      this->Nodes[index].Left = static_cast<int>(this->Nodes.size());
-      Node child;
-      child.Parent = static_cast<int>(index);
-      child.First = first;
-      child.Last = GetCut(first, last);
-      this->Nodes.push_back(child);
-      child.First = child.Last;
-      child.Last = last;
-      this->Nodes.push_back(child);
+      sorter.Finish(first, last);
+      continue;
     }
+    this->Nodes[index].Left = static_cast<int>(this->Nodes.size());
+    Node child;
+    child.Parent = static_cast<int>(index);
+    child.First = first;
+    child.Last = sorter.Divide(first, last);
+    this->Nodes.push_back(child);
+    child.First = child.Last;
+    child.Last = last;
+    this->Nodes.push_back(child);
   }
-  FillNodes(scene, this->Nodes);
+  return order;
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchTree::FillNodes(const vtkPatchScene& scene)
+{
+  ::FillNodes(scene, this->Nodes);
 }

@@ -5,10 +5,11 @@
  * range of patches (the scene keeps its patches in the order of this tree), with a box, a cone of
  * normals and an area.
  *
- * The shape depends on the number of patches alone: ranges longer than BlockSize are cut at a
+ * Patches that face different ways are divided first, at most a few times on any way down, so that
+ * a cluster sends and receives as one surface does; patches that face the same way are cut in half
+ * along the longest axis of the box of their centroids. Ranges longer than BlockSize are cut at a
  * multiple of BlockSize, so that every block of BlockSize patches (a row of tiles of an exchange
- * matrix) is a node; shorter ones in half, at a multiple of LeafSize. Which patches go left is
- * decided along the longest axis of the box of the centroids.
+ * matrix) is a node; shorter ones at a multiple of LeafSize.
  */
 #ifndef vtkPatchTree_h
 #define vtkPatchTree_h
@@ -54,11 +55,13 @@ public:
     vtkIdType GetSize() const { return this->Last - this->First; }
   };
 
-  /// The order of the tree: patch k of the sorted scene is patch order[k] of the unsorted one.
-  static std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids);
+  /// Make the shape of the tree. Returns its order: patch k of the sorted scene is patch order[k]
+  /// of the unsorted one.
+  std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids,
+    const std::vector<Vector>& normals);
 
-  /// The tree over a scene that is in the order of Sort.
-  void Build(const vtkPatchScene& scene);
+  /// Boxes, cones and areas, once the scene is in the order of Sort.
+  void FillNodes(const vtkPatchScene& scene);
 
   /// Node 0 is the root.
   const std::vector<Node>& GetNodes() const { return this->Nodes; }

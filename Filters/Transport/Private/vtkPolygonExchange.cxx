@@ -474,6 +474,15 @@ bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal)
 }
 
 //------------------------------------------------------------------------------
+void MakeClippedPair(const vtkPatchScene& scene, vtkIdType i, vtkIdType j, Polygon& a, Polygon& b)
+{
+  MakePolygon(scene, i, a);
+  MakePolygon(scene, j, b);
+  Clip(b, scene.GetCorner(i, 0), a.Normal);
+  Clip(a, scene.GetCorner(j, 0), b.Normal);
+}
+
+//------------------------------------------------------------------------------
 Vector GetMiddle(const Polygon& polygon)
 {
   Vector sum = Vector::Zero();

@@ -60,6 +60,9 @@ struct Estimate
  */
 bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal);
 
+/// Two patches of a scene, each cut at the plane of the other.
+void MakeClippedPair(const vtkPatchScene& scene, vtkIdType i, vtkIdType j, Polygon& a, Polygon& b);
+
 double GetArea(const Polygon& polygon);
 /// The mean of the corners.
 Vector GetMiddle(const Polygon& polygon);

@@ -45,62 +45,144 @@ void ChooseSolver(const vtkRadiosityProblem& problem, const vtkRadiosityBound& b
 }
 
 //------------------------------------------------------------------------------
-// Residual, bound and sizes of a solution in double precision. Returns false after an error.
-bool Check(const vtkRadiosityProblem& problem, const vtkRadiosityBound& bound,
-  vtkRadiositySolution& solution, std::vector<double>& residual, Bands& sizes)
+/*
+ * Runs the solver for the residual again and again, which each time is computed in double
+ * precision. On a device in single precision as long as that helps: reflectances within 1e-6 of 1
+ * it may not tell from more than 1.
+ */
+class Refinement
 {
-  vtkRadiosityIteration state(problem, problem.Reference, problem.Emission.data());
-  residual.resize(problem.Emission.size());
-  if (!state.Ok ||
-    !problem.Reference->SetVector(vtkRadiosityIteration::SOLUTION, solution.Radiosity.data()) ||
-    !state.ComputeResidual() ||
-    !problem.Reference->GetVector(vtkRadiosityIteration::RESIDUAL, residual.data()) ||
-    !problem.Reference->MaxNorm(vtkRadiosityIteration::SOLUTION, sizes.data()))
+public:
+  Refinement(const vtkRadiosityProblem& problem, const vtkRadiosityBound& bound,
+    vtkRadiositySolution& solution)
+    : Problem(problem), Bound(bound), Solution(solution), Links(problem.Operator),
+      Residual(problem.Emission), Sizes(problem.NumberOfBands, 0.0)
   {
-    return false;
+    solution.Radiosity.assign(this->Residual.size(), 0.0);
   }
-  Bands weighted(problem.NumberOfBands, 0.0);
-  for (std::size_t k = 0; k < residual.size(); ++k)
-  {
-    double& largest = weighted[k % problem.NumberOfBands];
-    const double here = std::abs(residual[k]) * bound.Inverse[k];
-    largest = largest >= here ? largest : here;
-  }
-  bool converged = true;
-  solution.ErrorBound = 0.0;
-  for (int band = 0; band < problem.NumberOfBands; ++band)
-  {
-    const double rounding = vtkRadiosityIteration::GetRounding(false, sizes[band], 0);
-    const double error = bound.Get(band, weighted[band], rounding);
-    converged = converged && error <= problem.Tolerance * sizes[band];
-    solution.ErrorBound = error >= solution.ErrorBound ? error : solution.ErrorBound;
-  }
-  solution.Status = converged ? vtkRadiosityStatus::Converged : vtkRadiosityStatus::Stagnated;
-  return true;
-}
 
-//------------------------------------------------------------------------------
-// One run of the solver for the residual, added to the solution. How it ended; `ok` is false after
-// an error.
-vtkRadiosityStatus Improve(const vtkRadiosityProblem& problem, const vtkRadiosityBound& bound,
-  const std::vector<double>& residual, const Bands& sizes, vtkRadiositySolution& solution, bool& ok)
-{
-  vtkRadiosityIteration state(problem, problem.Operator, residual.data(), &bound);
-  state.Count = solution.NumberOfIterations;
-  state.LastReport = solution.Radiosity.empty() ? -1 : state.Count;
-  state.Scales = sizes;
-  if (state.Ok)
+  // False after an error of a link operator.
+  bool Run()
   {
-    vtkRadiosityMethods::Iterate(solution.Solver, state);
+    double previous = std::numeric_limits<double>::infinity();
+    bool isOver = false;
+    for (int round = 0; round <= MaximumCorrections && !isOver; ++round)
+    {
+      const std::vector<double> before = this->Solution.Radiosity;
+      if (!this->Improve() || !this->Check())
+      {
+        return false;
+      }
+      // A round that gains less than a factor of two has come as far as it goes.
+      const bool isUseless = this->Ending == vtkRadiosityStatus::Diverged ||
+        !(this->Solution.ErrorBound < 0.5 * previous);
+      previous = this->Solution.ErrorBound;
+      isOver = this->Solution.HasConverged() || this->Ending == vtkRadiosityStatus::Aborted ||
+        this->Ending == vtkRadiosityStatus::IterationsUsedUp ||
+        (isUseless && !this->Links->IsSinglePrecision());
+      if (!isOver && isUseless)
+      {
+        this->Solution.Radiosity = before;
+        previous = std::numeric_limits<double>::infinity();
+        if (!this->GoOnInDouble())
+        {
+          return false;
+        }
+      }
+    }
+    this->Conclude();
+    return true;
   }
-  std::vector<double> correction(residual.size());
-  ok = state.Ok && problem.Operator->GetVector(vtkRadiosityIteration::SOLUTION, correction.data());
-  solution.Radiosity.resize(residual.size(), 0.0);
-  std::transform(solution.Radiosity.begin(), solution.Radiosity.end(), correction.begin(),
-    solution.Radiosity.begin(), std::plus<double>());
-  solution.NumberOfIterations = state.Count;
-  return state.Status;
-}
+
+private:
+  // One run of the solver, added to the solution.
+  bool Improve()
+  {
+    vtkRadiosityIteration state(this->Problem, this->Links, this->Residual.data(), &this->Bound);
+    state.Count = this->Solution.NumberOfIterations;
+    state.LastReport = this->LastReport;
+    state.Scales = this->Sizes;
+    if (state.Ok)
+    {
+      vtkRadiosityMethods::Iterate(this->Solution.Solver, state);
+    }
+    std::vector<double> correction(this->Residual.size());
+    std::vector<double>& radiosity = this->Solution.Radiosity;
+    if (!state.Ok || !this->Links->GetVector(vtkRadiosityIteration::SOLUTION, correction.data()))
+    {
+      return false;
+    }
+    std::transform(radiosity.begin(), radiosity.end(), correction.begin(), radiosity.begin(),
+      std::plus<double>());
+    this->Solution.NumberOfIterations = state.Count;
+    this->LastReport = state.LastReport;
+    this->Ending = state.Status;
+    return true;
+  }
+
+  // Residual, bound and sizes of the solution in double precision.
+  bool Check()
+  {
+    vtkCPULinkOperator* reference = this->Problem.Reference;
+    vtkRadiosityIteration state(this->Problem, reference, this->Problem.Emission.data());
+    if (!state.Ok ||
+      !reference->SetVector(vtkRadiosityIteration::SOLUTION, this->Solution.Radiosity.data()) ||
+      !state.ComputeResidual() ||
+      !reference->GetVector(vtkRadiosityIteration::RESIDUAL, this->Residual.data()) ||
+      !reference->MaxNorm(vtkRadiosityIteration::SOLUTION, this->Sizes.data()))
+    {
+      return false;
+    }
+    const int bands = this->Problem.NumberOfBands;
+    Bands weighted(bands, 0.0);
+    for (std::size_t k = 0; k < this->Residual.size(); ++k)
+    {
+      double& largest = weighted[k % bands];
+      const double here = std::abs(this->Residual[k]) * this->Bound.Inverse[k];
+      // Written so that a NaN stays.
+      largest = largest >= here ? largest : here;
+    }
+    bool converged = true;
+    this->Solution.ErrorBound = 0.0;
+    for (int band = 0; band < bands; ++band)
+    {
+      const double rounding = vtkRadiosityIteration::GetRounding(false, this->Sizes[band], 0);
+      const double error = this->Bound.Get(band, weighted[band], rounding);
+      converged = converged && error <= this->Problem.Tolerance * this->Sizes[band];
+      this->Solution.ErrorBound =
+        this->Solution.ErrorBound >= error ? this->Solution.ErrorBound : error;
+    }
+    this->Solution.Status =
+      converged ? vtkRadiosityStatus::Converged : vtkRadiosityStatus::Stagnated;
+    return true;
+  }
+
+  bool GoOnInDouble()
+  {
+    this->Links = this->Problem.Reference;
+    this->Solution.Explanation += "; on the CPU in the end, where single precision did not suffice";
+    return this->Check();
+  }
+
+  // A solution that has not converged ended as its last run did; several that all stagnated did so.
+  void Conclude()
+  {
+    if (this->Ending == vtkRadiosityStatus::Aborted ||
+      (!this->Solution.HasConverged() && this->Ending != vtkRadiosityStatus::Converged))
+    {
+      this->Solution.Status = this->Ending;
+    }
+  }
+
+  const vtkRadiosityProblem& Problem;
+  const vtkRadiosityBound& Bound;
+  vtkRadiositySolution& Solution;
+  vtkLinkOperator* Links;
+  std::vector<double> Residual; // patches x bands
+  Bands Sizes;                  // largest |B|
+  int LastReport = -1;
+  vtkRadiosityStatus Ending = vtkRadiosityStatus::IterationsUsedUp;
+};
 
 //------------------------------------------------------------------------------
 void Warn(const vtkRadiosityProblem& problem, vtkRadiositySolution& solution)
@@ -129,39 +211,6 @@ void Warn(const vtkRadiosityProblem& problem, vtkRadiositySolution& solution)
               "Switch EnforceClosure on or lower the largest reflectance.";
   }
   solution.Warning = text.str() + (solution.Warning.empty() ? "" : " ") + solution.Warning;
-}
-
-//------------------------------------------------------------------------------
-// False after an error, which is then in the solution.
-bool Run(const vtkRadiosityProblem& problem, const vtkRadiosityBound& bound,
-  vtkRadiositySolution& solution)
-{
-  std::vector<double> residual = problem.Emission;
-  Bands sizes(problem.NumberOfBands, 0.0);
-  double previous = std::numeric_limits<double>::infinity();
-  for (int round = 0; round <= MaximumCorrections; ++round)
-  {
-    bool ok = false;
-    const vtkRadiosityStatus status = Improve(problem, bound, residual, sizes, solution, ok);
-    if (!ok || !Check(problem, bound, solution, residual, sizes))
-    {
-      solution.Error = "The links could not be applied (see the message before this one).";
-      return false;
-    }
-    const bool isOver = status == vtkRadiosityStatus::Aborted ||
-      status == vtkRadiosityStatus::Diverged || status == vtkRadiosityStatus::IterationsUsedUp;
-    if (status == vtkRadiosityStatus::Aborted || (isOver && !solution.HasConverged()))
-    {
-      solution.Status = status;
-    }
-    // As far as it goes: a round that gained less than a factor of two.
-    if (isOver || solution.HasConverged() || !(solution.ErrorBound < 0.5 * previous))
-    {
-      break;
-    }
-    previous = solution.ErrorBound;
-  }
-  return true;
 }
 } // namespace
 
@@ -199,10 +248,12 @@ vtkRadiositySolution vtkRadiositySolvers::Solve(const vtkRadiosityProblem& probl
     return solution;
   }
   ChooseSolver(problem, bound, solution);
-  if (Run(problem, bound, solution))
+  if (!Refinement(problem, bound, solution).Run())
   {
-    Warn(problem, solution);
+    solution.Error = "The links could not be applied (see the message before this one).";
+    return solution;
   }
+  Warn(problem, solution);
   if (!std::all_of(solution.Radiosity.begin(), solution.Radiosity.end(),
         [](double value) { return std::isfinite(value); }))
   {

@@ -201,9 +201,10 @@ bool vtkShaftCuller::Shaft::Meets(const Bounds& other) const
 }
 
 //------------------------------------------------------------------------------
-void vtkShaftCuller::Search(const Shaft& shaft, std::vector<vtkIdType>& found) const
+// Calls visit for the occluders that meet a shaft until it returns false.
+template <typename Visit>
+void vtkShaftCuller::Search(const Shaft& shaft, const Visit& visit) const
 {
-  found.clear();
   std::vector<int> open(1, 0);
   while (!open.empty())
   {
@@ -222,12 +223,37 @@ void vtkShaftCuller::Search(const Shaft& shaft, std::vector<vtkIdType>& found) c
     }
     for (vtkIdType patch = node.First; patch < node.Last; ++patch)
     {
-      if (this->Occluders[patch] && shaft.Meets(this->PatchBounds[patch]))
+      if (this->Occluders[patch] && shaft.Meets(this->PatchBounds[patch]) && !visit(patch))
       {
-        found.push_back(patch);
+        return;
       }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkShaftCuller::Search(const Shaft& shaft, std::vector<vtkIdType>& found) const
+{
+  found.clear();
+  this->Search(shaft,
+    [&](vtkIdType patch)
+    {
+      found.push_back(patch);
+      return true;
+    });
+}
+
+//------------------------------------------------------------------------------
+bool vtkShaftCuller::MayBlock(int nodeI, int nodeJ) const
+{
+  bool blocks = false;
+  this->Search(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]),
+    [&](vtkIdType)
+    {
+      blocks = true;
+      return false;
+    });
+  return blocks;
 }
 
 //------------------------------------------------------------------------------

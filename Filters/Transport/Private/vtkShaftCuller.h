@@ -67,6 +67,9 @@ public:
   /// front of its plane cannot. In a convex room none can.
   bool HasOccluders() const { return this->NumberOfOccluders > 0; }
 
+  /// Whether anything may be between two nodes; false is certain.
+  bool MayBlock(int nodeI, int nodeJ) const;
+
   ///@{ Replace `found` by what may be between two nodes: of the whole scene, or of `candidates`.
   void Find(int nodeI, int nodeJ, Candidates& found) const;
   void Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const;
@@ -80,6 +83,8 @@ public:
 private:
   using Vector = vtkPatchScene::Vector;
   bool IsOccluder(vtkIdType patch) const;
+  template <typename Visit>
+  void Search(const Shaft& shaft, const Visit& visit) const;
   void Search(const Shaft& shaft, std::vector<vtkIdType>& found) const;
 
   const vtkPatchScene& Scene;

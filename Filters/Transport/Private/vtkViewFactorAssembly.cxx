@@ -256,9 +256,9 @@ struct vtkViewFactorAssembly::Looker
       ++count.Free;
       return;
     }
-    this->Self.ClipPair(i, j, a, b);
+    vtkPolygonExchange::MakeClippedPair(this->Self.Scene, i, j, a, b);
     if (!work.Visibility.SetPair(a, b, this->Self.Scene, between, GetKey(i, j),
-          this->Self.IsTouching(i, j) ? value : 0.0))
+          this->Self.Scene.AreTouching(i, j) ? value : 0.0))
     {
       ++count.Free;
       return;
@@ -316,9 +316,9 @@ struct vtkViewFactorAssembly::Refiner
       }
       this->Self.Culler.FindBetween(pair.I, pair.J, between);
       vtkPolygonExchange::Polygon a, b;
-      this->Self.ClipPair(pair.I, pair.J, a, b);
+      vtkPolygonExchange::MakeClippedPair(this->Self.Scene, pair.I, pair.J, a, b);
       if (visibility.SetPair(a, b, this->Self.Scene, between, GetKey(pair.I, pair.J),
-            this->Self.IsTouching(pair.I, pair.J) ? pair.Open : 0.0))
+            this->Self.Scene.AreTouching(pair.I, pair.J) ? pair.Open : 0.0))
       {
         const vtkPairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
         pair.Value = share.Value * pair.Open;
@@ -559,23 +559,4 @@ std::vector<double> vtkViewFactorAssembly::GetRowErrors() const
     errors[pair.J] += pair.Error;
   }
   return errors;
-}
-
-//------------------------------------------------------------------------------
-bool vtkViewFactorAssembly::IsTouching(vtkIdType i, vtkIdType j) const
-{
-  const vtkIdType* const end = this->Scene.GetCorners(j) + this->Scene.GetNumberOfCorners(j);
-  return std::find_first_of(this->Scene.GetCorners(i),
-           this->Scene.GetCorners(i) + this->Scene.GetNumberOfCorners(i), this->Scene.GetCorners(j),
-           end) != this->Scene.GetCorners(i) + this->Scene.GetNumberOfCorners(i);
-}
-
-//------------------------------------------------------------------------------
-void vtkViewFactorAssembly::ClipPair(vtkIdType i, vtkIdType j, vtkPolygonExchange::Polygon& a,
-  vtkPolygonExchange::Polygon& b) const
-{
-  vtkPolygonExchange::MakePolygon(this->Scene, i, a);
-  vtkPolygonExchange::MakePolygon(this->Scene, j, b);
-  vtkPolygonExchange::Clip(b, this->Scene.GetCorner(i, 0), a.Normal);
-  vtkPolygonExchange::Clip(a, this->Scene.GetCorner(j, 0), b.Normal);
 }

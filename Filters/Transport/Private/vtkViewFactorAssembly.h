@@ -93,9 +93,6 @@ private:
   void ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   double GetWeight(const vtkPartlyVisiblePair& pair, vtkIdType row) const;
   double GetAllowedError(const vtkPartlyVisiblePair& pair) const;
-  bool IsTouching(vtkIdType i, vtkIdType j) const;
-  void ClipPair(vtkIdType i, vtkIdType j, vtkPolygonExchange::Polygon& a,
-    vtkPolygonExchange::Polygon& b) const;
 
   const vtkPatchScene& Scene;
   double Tolerance;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewFactorClosure.h"
 
+#include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkMultiProcessController.h"
@@ -16,6 +17,10 @@
 
 namespace
 {
+// Row sums of scaled links, and how often they are scaled.
+constexpr double ScaledGap = 1e-13;
+constexpr int MaximumScalings = 300;
+
 using Array = Eigen::ArrayXd;
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
 
@@ -369,4 +374,41 @@ bool vtkViewFactorClosure::Close(vtkViewFactorsResult& result,
     report.Gap = std::max(report.Gap, closed[row] ? std::abs(1.0 - result.RowSums[row]) : 0.0);
   }
   return closing.IsOk();
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactorClosure::Scale(vtkViewFactorsResult& result, const std::vector<bool>& closed,
+  vtkMultiProcessController* controller, Report& report)
+{
+  vtkExchangeHierarchy* hierarchy = result.Hierarchy;
+  const std::vector<double>& areas = hierarchy->GetAreas();
+  auto links = vtkCPULinkOperator::NewFor(hierarchy);
+  links->SetController(controller);
+  std::vector<double> sums(areas.size(), 1.0);
+  bool good = links->Initialize(hierarchy, 1) && links->SetVector(0, sums.data());
+  std::vector<double> weights = hierarchy->GetWeights();
+  for (int step = 0; good && step <= MaximumScalings; ++step)
+  {
+    good = links->Multiply(1, 0) && links->GetVector(1, sums.data());
+    report.Gap = 0.0;
+    for (std::size_t row = 0; row < areas.size(); ++row)
+    {
+      sums[row] /= areas[row];
+      // A row without links stays one.
+      const bool scales = closed[row] && sums[row] > 0.0;
+      report.Gap = std::max(report.Gap, closed[row] ? std::abs(1.0 - sums[row]) : 0.0);
+      weights[row] *= scales ? 1.0 / std::sqrt(sums[row]) : 1.0;
+    }
+    if (report.Gap <= ScaledGap || step == MaximumScalings)
+    {
+      break;
+    }
+    hierarchy->SetWeights(weights);
+  }
+  for (std::size_t row = 0; row < areas.size(); ++row)
+  {
+    report.Change = std::max(report.Change, std::abs(sums[row] - result.RowSums[row]));
+  }
+  result.RowSums = sums;
+  return good;
 }

@@ -36,6 +36,13 @@ struct Report
 VTKLIGHTTRANSPORTFILTERS_EXPORT bool Close(vtkViewFactorsResult& result,
   const std::vector<vtkPartlyVisiblePair>& pairs, const std::vector<bool>& closed,
   double relativeError, vtkMultiProcessController* controller, Report& report);
+
+/**
+ * For links between clusters (Result.Hierarchy): scale the weights of the patches until the closed
+ * rows sum to 1 (symmetric scaling: Sinkhorn and Knopp 1967). RowSums follow. Collective.
+ */
+bool Scale(vtkViewFactorsResult& result, const std::vector<bool>& closed,
+  vtkMultiProcessController* controller, Report& report);
 } // namespace vtkViewFactorClosure
 
 #endif

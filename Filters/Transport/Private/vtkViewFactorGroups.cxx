@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewFactorGroups.h"
 
+#include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
@@ -254,24 +255,62 @@ bool vtkViewFactorGroups::Gather(const vtkPatchScene& scene, vtkDataObject* inpu
   return true;
 }
 
+namespace
+{
 //------------------------------------------------------------------------------
-bool vtkViewFactorGroups::FillTable(const vtkViewFactorsResult& result, const Groups& groups,
-  double scale, vtkMultiProcessController* controller, vtkTable* table)
+// Exchange between groups, each pair of patches counted once, from tiles.
+bool SumTiles(const vtkViewFactorsResult& result, const vtkViewFactorGroups::Groups& groups,
+  vtkMultiProcessController* controller, std::vector<double>& exchange)
 {
   const std::size_t count = groups.Names.size();
   const std::vector<vtkExchangeMatrix::Tile>& tiles = result.Exchange->GetTiles();
   GroupSums sums{ tiles, groups.OfPatches, static_cast<int>(count), {},
     std::vector<double>(count * count, 0.0) };
   vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), 0, sums);
-  std::vector<double> exchange = sums.Total;
-  if (result.Exchange->GetNumberOfParts() > 1 &&
-    !controller->AllReduce(sums.Total.data(), exchange.data(),
-      static_cast<vtkIdType>(exchange.size()), vtkCommunicator::SUM_OP))
+  exchange = sums.Total;
+  return result.Exchange->GetNumberOfParts() == 1 ||
+    controller->AllReduce(sums.Total.data(), exchange.data(),
+      static_cast<vtkIdType>(exchange.size()), vtkCommunicator::SUM_OP) != 0;
+}
+
+//------------------------------------------------------------------------------
+// The same from products with links between clusters, one for each group.
+bool SumProducts(const vtkViewFactorsResult& result, const vtkViewFactorGroups::Groups& groups,
+  vtkMultiProcessController* controller, std::vector<double>& exchange)
+{
+  const std::size_t count = groups.Names.size();
+  exchange.assign(count * count, 0.0);
+  auto links = vtkCPULinkOperator::NewFor(result.Hierarchy);
+  links->SetController(controller);
+  std::vector<double> values(groups.OfPatches.size());
+  bool good = links->Initialize(result.Hierarchy, 1);
+  for (std::size_t group = 0; good && group < count; ++group)
+  {
+    std::transform(groups.OfPatches.begin(), groups.OfPatches.end(), values.begin(),
+      [&](int other) { return other == static_cast<int>(group) ? 0.5 : 0.0; });
+    good = links->SetVector(0, values.data()) && links->Multiply(1, 0) &&
+      links->GetVector(1, values.data());
+    for (std::size_t patch = 0; good && patch < values.size(); ++patch)
+    {
+      exchange[groups.OfPatches[patch] * count + group] += values[patch];
+    }
+  }
+  return good;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool vtkViewFactorGroups::FillTable(const vtkViewFactorsResult& result, const Groups& groups,
+  double scale, vtkMultiProcessController* controller, vtkTable* table)
+{
+  const std::size_t count = groups.Names.size();
+  std::vector<double> exchange;
+  if (!(result.Hierarchy ? SumProducts(result, groups, controller, exchange)
+                         : SumTiles(result, groups, controller, exchange)))
   {
     return false;
   }
-
-  const std::vector<double>& areas = result.Exchange->GetAreas();
+  const std::vector<double>& areas = result.GetExchange()->GetAreas();
   const std::vector<double> groupAreas =
     SumPatches(groups, [&](std::size_t patch) { return areas[patch]; });
   table->Initialize();

@@ -5,6 +5,7 @@
 #ifndef vtkViewFactorsResult_h
 #define vtkViewFactorsResult_h
 
+#include "vtkExchangeHierarchy.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkSmartPointer.h"
 
@@ -16,7 +17,7 @@
 /// Two patches with something partly between them.
 struct vtkPartlyVisiblePair
 {
-  vtkIdType I = 0;    ///< I < J
+  vtkIdType I = 0; ///< I < J
   vtkIdType J = 0;
   double Open = 0.0;  ///< the exchange with nothing between, unit of the matrix
   double Value = 0.0; ///< the exchange as computed
@@ -27,7 +28,14 @@ struct vtkViewFactorsResult
 {
   std::uint64_t Fingerprint = 0; ///< of the scene
   double Tolerance = 0.0;
+  ///@{ One of the two.
   vtkSmartPointer<vtkExchangeMatrix> Exchange;
+  vtkSmartPointer<vtkExchangeHierarchy> Hierarchy;
+  ///@}
+  vtkExchange* GetExchange() const
+  {
+    return this->Hierarchy ? static_cast<vtkExchange*>(this->Hierarchy) : this->Exchange;
+  }
   std::vector<double> RawRowSums; ///< before any closure
   std::vector<double> RowSums;    ///< of the exchange as it is
   std::vector<double> RowErrors;  ///< estimate of sum_j |error of F_ij|

@@ -55,7 +55,7 @@ vtkViewFactorsResult ComputeResult(const vtkPatchScene& scene)
   factors->SetTolerance(1e-8);
   Check(factors->UpdateExchange(scene, [](double) { return true; }), "view factors");
   vtkViewFactorsResult result;
-  result.Exchange = factors->GetExchange();
+  result.Exchange = vtkExchangeMatrix::SafeDownCast(factors->GetExchange());
   result.SkyFractions.assign(scene.GetNumberOfPatches(), 0.0);
   for (const double sum : factors->GetRowSums())
   {
