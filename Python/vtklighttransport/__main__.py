@@ -242,6 +242,8 @@ def add_report(commands):
         shown = ",".join(f"{value:g}" for value in values)
         command.add_argument(flag, type=parse_numbers, default=values, metavar="VALUE,...",
                              help=f"{text} [{shown}]")
+    command.add_argument("--brightness", action="store_true",
+                         help="also hierarchical links that are refined where light is")
     command.add_argument("--progressive", action="store_true",
                          help="also progressive refinement on the GPU (Southwell, OpenGL)")
     for flag, kind, value, text in (

@@ -129,17 +129,27 @@ class Report:
             self.measure_size(methods, triangles)
 
     def warm_up(self, methods, surface):
-        """The methods that work here; where the first one does not, it is the input."""
+        """The methods that work here at some tolerance; where the first does not, it is the input."""
         working = []
         for method in methods:
-            try:
-                self.compute(method, method.tolerances[0], surface)
+            if self.try_out(method, surface):
                 working.append(method)
-            except Failure:
-                if not working:
-                    raise
+            elif not working:
+                raise Failure
+            else:
                 self.note(f"{method.name}: {self.take_errors()}")
         return working
+
+    def try_out(self, method, surface):
+        """Leaves errors of the last attempt where all fail."""
+        for tolerance in method.tolerances:
+            self.messages.errors.clear()
+            try:
+                self.compute(method, tolerance, surface)
+                return True
+            except Failure:
+                continue
+        return False
 
     def measure_size(self, methods, surface):
         patches = surface.GetNumberOfCells()
@@ -287,20 +297,22 @@ def count_links(result):
 
 
 def find_methods(options, note):
-    """Dense first: it is the reference as well. From coarse to fine."""
+    """Dense first: it is the reference as well. Tolerances from coarse to fine."""
     kind = find_class("vtkRadiosity")
-    names = [("Dense", "ViewFactorTolerance", options.dense_tolerances)]
-    if hasattr(kind, "SetLinkMethod"):
-        names.append(("Hierarchical", "LinkTolerance", options.link_tolerances))
+    has_links = hasattr(kind, "SetLinkMethod")
+    kinds_of_links = [("Dense", "ViewFactorTolerance", options.dense_tolerances,
+                       {"LinkMethod": kind.LINK_METHOD_DENSE} if has_links else {})]
+    if has_links:
+        settings = {"LinkMethod": kind.LINK_METHOD_HIERARCHICAL}
+        kinds_of_links.append(("Hierarchical", "LinkTolerance", options.link_tolerances, settings))
+        if options.brightness:
+            kinds_of_links.append(("Brightness", "LinkTolerance", options.link_tolerances,
+                                   {**settings, "RefineByBrightness": True}))
     else:
         note("Hierarchical: this build has no LinkMethod")
-    methods = []
-    for name, tolerance, values in names:
-        settings = {}
-        if hasattr(kind, "SetLinkMethod"):
-            settings["LinkMethod"] = getattr(kind, "LINK_METHOD_" + name.upper())
-        for solver in options.solvers:
-            methods.append(Method(name, tolerance, sorted(values, reverse=True), settings, solver))
+    methods = [Method(name, tolerance, sorted(values, reverse=True), settings, solver)
+               for name, tolerance, values, settings in kinds_of_links
+               for solver in options.solvers]
     if options.progressive:
         methods.append(Method(
             "Progressive", "Tolerance", sorted(options.progressive_tolerances, reverse=True),

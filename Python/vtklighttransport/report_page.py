@@ -132,7 +132,8 @@ class Page:
             "the bound are relative to the largest radiosity. The bound is the solver's own, and "
             "knows nothing of errors of the links.")
         if any(row["method"] == "Progressive" for row in self.rows):
-            self.add_paragraph("The iterations of progressive refinement are shots; it has no links.")
+            self.add_paragraph(
+                "The iterations of progressive refinement are shots; it has no links.")
         if any(row["reference"] == ITSELF and row["method"] != "Dense" for row in self.rows):
             self.add_paragraph(
                 "Above --reference-limit patches nothing dense was computed: there the reference "
@@ -146,8 +147,8 @@ class Page:
             self.add_paragraph("There is no result beside the reference.")
             return
         self.add_figure(
-            "error_time.png", "Error of the radiosity against seconds for links and solver; from "
-            "coarse to fine tolerances along each line.", lambda file: plot_errors(file, compared))
+            "error_time.png", "Error of the radiosity against seconds from the mesh to its arrays; "
+            "from coarse to fine tolerances along each line.", lambda file: plot_errors(file, compared))
 
     def add_growth(self):
         groups = group(self.rows)
@@ -289,11 +290,10 @@ def plot_errors(file, rows):
                    if name_family(row, rows) == family and row["patches"] == size]
             if own:
                 own.sort(key=lambda row: -row["tolerance"])
-                seconds = [row["seconds_links"] + row["seconds_solver"] for row in own]
-                lines.append(Line(f"{family}, {size:,} patches", seconds,
-                                  [row["error_l2"] for row in own], number,
+                lines.append(Line(f"{family}, {size:,} patches", get_column(own, "seconds_all"),
+                                  get_column(own, "error_l2"), number,
                                   find_shade(sizes.index(size), len(sizes))))
-    plot_lines(file, lines, "seconds for links and solver", "relative error of the radiosity (L2)")
+    plot_lines(file, lines, "seconds in all", "relative error of the radiosity (L2)")
 
 
 def plot_growth(file, groups, column, title):
