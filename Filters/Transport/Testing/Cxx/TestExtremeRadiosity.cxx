@@ -239,8 +239,7 @@ void TestDuplicates()
 
 //------------------------------------------------------------------------------
 // A room with a crack of a millionth of its size along one edge of the ceiling: as good as closed.
-// What is emitted is absorbed or leaves through the crack; even a room of mirrors can be solved
-// when its view factors tell how much that is, and is refused when they do not.
+// What is emitted is absorbed or leaves through the crack, all of it from a room of mirrors.
 void TestCrack()
 {
   Surface surface;
@@ -263,9 +262,14 @@ void TestCrack()
   CheckClose((furnace.Radiosity - exact).lpNorm<Eigen::Infinity>(), 0.0, 1e-10,
     "a room with a crack: LU");
 
+  // The row sums, known to 6e-8, tell only roughly what leaves through a crack of 1e-6.
   AddArray(room, "Reflectance", { 1.0 });
-  const Run mirrors(room, factors, vtkRadiosity::SOLVER_AUTO, 1e-8);
-  Check(!mirrors.Messages.empty(), "mirrors and a crack are solved with a warning or refused");
+  const Run mirrors(room, factors, vtkRadiosity::SOLVER_AUTO, 1e-2);
+  Check(mirrors.Status == "Converged" &&
+      mirrors.Messages.find("B may be wrong by ") != std::string::npos,
+    "mirrors and a crack: " + mirrors.Messages);
+  CheckClose(areas.dot(mirrors.NetFlux), 0.1 * areas.sum(), 1e-6,
+    "mirrors and a crack: all leaves");
 }
 
 //------------------------------------------------------------------------------

@@ -314,8 +314,8 @@ private:
 vtkStandardNewMacro(SinglePrecisionLinks);
 
 //------------------------------------------------------------------------------
-// Corrected in double precision, single precision reaches any tolerance; no iteration is reported
-// twice.
+// Corrected in double precision, single precision reaches any tolerance, with the help of the CPU
+// where it takes 0.999999 for more than 1; no iteration is reported twice.
 void TestSinglePrecision()
 {
   Case cube(MakeRoom(8), true);
@@ -337,7 +337,7 @@ void TestSinglePrecision()
       vtkRadiosityProblem problem = cube.MakeProblem(solver);
       Check(links->Take(cube.Exchange), "links");
       problem.Operator = links;
-      problem.Tolerance = 1e-9;
+      problem.Tolerance = 1e-8;
       int last = -1;
       problem.Report = [&](int iteration, double, double)
       {
@@ -353,9 +353,10 @@ void TestSinglePrecision()
       {
         error = std::max(error, std::abs(solution.Radiosity[patch] - exact[patch]));
       }
-      Check(error <= solution.ErrorBound && solution.ErrorBound <= 1.1e-9 * exact.maxCoeff(),
+      Check(error <= solution.ErrorBound && solution.ErrorBound <= 1.1e-8 * exact.maxCoeff(),
         what + " is as exact as in double: " + std::to_string(error / exact.maxCoeff()));
-      std::cout << what << " " << solution.NumberOfIterations << solution.Explanation<<"\n";
+      const bool onDevice = solution.Explanation.find("single precision") == std::string::npos;
+      Check(onDevice || rho > 0.9999, what + " needs no help: " + solution.Explanation);
     }
   }
 }
