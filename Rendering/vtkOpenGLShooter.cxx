@@ -26,6 +26,8 @@ using Vector = std::array<double, 3>;
 enum Slot
 {
   UNSHOT,
+  SHOT, ///< what a patch would shoot: UNSHOT and its share of the ambient radiosity
+  REFLECTANCE,
   REFLECTION, ///< reflectance / area
   AREA,       ///< in every band
   RECEIVED,   ///< power, by the shots under way
@@ -83,6 +85,12 @@ struct vtkOpenGLShooter::Internals
   int Bands = 0;
   std::vector<double> Scales; ///< of each band: its largest source
   double FirstPower = 0.0;
+  std::vector<double> Reflectance; ///< patches x bands
+  std::vector<double> Losses;      ///< of each band: what does not come back of an ambient light
+  std::vector<double> Ambient;     ///< of each band
+  double Remainder = 0.0;          ///< squares of what was unshot a sweep ago
+  vtkIdType ShotsOfSweep = 0;
+  bool Overshoots = true;
   vtkTypeInt64 EyesSoFar = 0;
   vtkTypeInt64 BytesOfCandidates = 0;
 
@@ -105,11 +113,13 @@ struct vtkOpenGLShooter::Internals
   bool SetMaterials(const double* source, const double* reflectance);
 
   bool DrawSelection(const Group& target, const Group& source, bool first);
+  bool CheckOvershooting();
+  bool ComputeShots();
   bool FindCandidates(std::vector<Candidate>& candidates);
   void AddEyes(int patch, int divisions, std::vector<vtkHemisphereItems::Eye>& eyes);
   bool ShootFrom(const std::vector<Candidate>& shooters, double density);
   bool Collect();
-  void ClearUnshot(int patch);
+  void TakeAway(int patch);
   /// From patches x bands as they are on the device to the unit of the source.
   void Unscale(double* values, vtkIdType size) const;
 };
@@ -217,8 +227,21 @@ bool vtkOpenGLShooter::Internals::SetMaterials(const double* source, const doubl
   }
   this->EyesSoFar = 0;
   this->BytesOfCandidates = 0;
+  this->Reflectance.assign(reflectance, reflectance + size);
+  this->Losses.assign(this->Scales.size(), 0.0);
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    this->Losses[k % this->Bands] += reflectance[k] * areas[k];
+  }
+  for (double& loss : this->Losses)
+  {
+    loss -= loss * loss;
+  }
+  this->Remainder = VTK_DOUBLE_MAX;
+  this->ShotsOfSweep = this->Patches;
   const std::vector<double> nothing(size, 0.0);
   return this->Vectors->Set(UNSHOT, unshot.data()) &&
+    this->Vectors->Set(REFLECTANCE, reflectance) &&
     this->Vectors->Set(REFLECTION, reflection.data()) && this->Vectors->Set(AREA, areas.data()) &&
     this->Vectors->Set(POWER, nothing.data()) && this->Vectors->Set(RECEIVED, nothing.data());
 }
@@ -250,14 +273,50 @@ bool vtkOpenGLShooter::Internals::DrawSelection(const Group& target, const Group
 }
 
 //------------------------------------------------------------------------------
+// Shots of what is unshot alone always converge: where overshooting gains nothing over as many
+// shots as there are patches, as where most light leaves the scene, it ends.
+bool vtkOpenGLShooter::Internals::CheckOvershooting()
+{
+  if (!this->Overshoots || this->ShotsOfSweep < this->Patches)
+  {
+    return true;
+  }
+  std::vector<double> squares(this->Scales.size());
+  const bool good = this->Vectors->Dot(UNSHOT, UNSHOT, squares.data());
+  const double remainder = std::accumulate(squares.begin(), squares.end(), 0.0);
+  this->Overshoots = remainder < this->Remainder;
+  this->Remainder = remainder;
+  this->ShotsOfSweep = 0;
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// All unshot power, as if it were spread over the scene evenly and went on until it is lost.
+bool vtkOpenGLShooter::Internals::ComputeShots()
+{
+  this->Ambient.assign(this->Scales.size(), 0.0);
+  if (this->Overshoots && !this->Vectors->Dot(UNSHOT, AREA, this->Ambient.data()))
+  {
+    return false;
+  }
+  for (std::size_t band = 0; band < this->Ambient.size(); ++band)
+  {
+    const double loss = this->Losses[band];
+    this->Ambient[band] = loss > 0.0 ? this->Ambient[band] / loss : 0.0;
+  }
+  const std::vector<double> ones(this->Scales.size(), 1.0);
+  return this->Vectors->Combine(SHOT, ones.data(), UNSHOT, this->Ambient.data(), REFLECTANCE);
+}
+
+//------------------------------------------------------------------------------
 // The patches with the most power, the greatest first.
 bool vtkOpenGLShooter::Internals::FindCandidates(std::vector<Candidate>& candidates)
 {
-  bool good = true;
+  bool good = this->CheckOvershooting() && this->ComputeShots();
   for (std::size_t step = 0; step < this->Selections.size() && good; ++step)
   {
     good = this->DrawSelection(this->Selections[step],
-      step == 0 ? this->Vectors->Get(UNSHOT) : this->Selections[step - 1], step == 0);
+      step == 0 ? this->Vectors->Get(SHOT) : this->Selections[step - 1], step == 0);
   }
   if (!good)
   {
@@ -333,14 +392,26 @@ void vtkOpenGLShooter::Internals::AddEyes(int patch, int divisions,
 }
 
 //------------------------------------------------------------------------------
-void vtkOpenGLShooter::Internals::ClearUnshot(int patch)
+// What a patch has shot is no longer unshot there: what it overshot is missing.
+void vtkOpenGLShooter::Internals::TakeAway(int patch)
 {
   vtkOpenGLState* state = this->Window->GetState();
   const vtkOpenGLState::ScopedglScissor scissor(state);
   const int width = this->Vectors->GetLayout().Width;
+  this->Engine->Bind(this->Vectors->Get(UNSHOT));
   state->vtkglScissor(patch % width, patch / width, 1, 1);
   state->vtkglEnable(GL_SCISSOR_TEST);
-  this->Engine->Clear(this->Vectors->Get(UNSHOT));
+  for (int group = 0; group < this->Vectors->GetLayout().Groups; ++group)
+  {
+    float texel[4] = {};
+    for (int lane = 0; lane < std::min(4, this->Bands - 4 * group); ++lane)
+    {
+      const int band = 4 * group + lane;
+      const std::size_t k = static_cast<std::size_t>(patch) * this->Bands + band;
+      texel[lane] = static_cast<float>(-this->Reflectance[k] * this->Ambient[band]);
+    }
+    glClearBufferfv(GL_COLOR, group, texel);
+  }
   state->vtkglDisable(GL_SCISSOR_TEST);
 }
 
@@ -356,17 +427,18 @@ bool vtkOpenGLShooter::Internals::ShootFrom(const std::vector<Candidate>& shoote
     const int divisions = static_cast<int>(std::ceil(std::sqrt(wanted / triangles)));
     this->AddEyes(shooter.Patch, std::max(divisions, 1), eyes);
   }
+  this->ShotsOfSweep += static_cast<vtkIdType>(shooters.size());
   this->Engine->Clear(this->Vectors->Get(RECEIVED));
   bool good = true;
   for (std::size_t first = 0; first < eyes.size() && good; first += vtkHemisphereItems::MostEyes)
   {
     const std::size_t end = std::min(first + vtkHemisphereItems::MostEyes, eyes.size());
     good = this->Items->Shoot({ eyes.data() + first, eyes.data() + end },
-      this->Vectors->GetLayout(), this->Vectors->Get(UNSHOT), this->Vectors->Get(RECEIVED));
+      this->Vectors->GetLayout(), this->Vectors->Get(SHOT), this->Vectors->Get(RECEIVED));
   }
   for (const Candidate& shooter : shooters)
   {
-    this->ClearUnshot(shooter.Patch);
+    this->TakeAway(shooter.Patch);
   }
   return good && this->Collect();
 }
@@ -405,6 +477,7 @@ void vtkOpenGLShooter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DeviceName: " << this->Self->DeviceName << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "Overshooting: " << this->Overshooting << "\n";
   os << indent << "EyePointDensity: " << this->EyePointDensity << "\n";
   os << indent << "NumberOfEyePoints: " << this->GetNumberOfEyePoints() << "\n";
   os << indent << "NumberOfBytesRead: " << this->GetNumberOfBytesRead() << "\n";
@@ -487,6 +560,7 @@ bool vtkOpenGLShooter::Initialize(const Patches& patches, int numberOfBands, con
   self.Patches = static_cast<int>(count);
   self.Bands = numberOfBands;
   self.SetScene(patches);
+  self.Overshoots = this->Overshooting;
   self.Vectors = std::make_unique<vtkFloatVectors>(*self.Engine);
   if (!self.Vectors->Initialize(count, numberOfBands, 0, reason))
   {
