@@ -171,7 +171,7 @@ void vtkFloatTextures::Clear(const Group& group)
 }
 
 //------------------------------------------------------------------------------
-void vtkFloatTextures::Copy(const Group& target, const Group& source, const int region[4])
+void vtkFloatTextures::Copy(const Group& target, int line, const Group& source, const int region[4])
 {
   this->Attach(source);
   for (std::size_t index = 0; index < source.size(); ++index)
@@ -179,7 +179,7 @@ void vtkFloatTextures::Copy(const Group& target, const Group& source, const int 
     this->Framebuffer->ActivateReadBuffer(static_cast<unsigned int>(index));
     // vtkTextureObject::CopyFromFrameBuffer makes another texture, of 8 bits a value.
     target[index]->Activate();
-    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region[0], region[1], region[0], region[1], region[2],
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region[0], line, region[0], region[1], region[2],
       region[3]);
     target[index]->Deactivate();
   }

@@ -98,8 +98,8 @@ public:
   /// of two rows of `rgba`.
   void Upload(vtkTextureObject* texture, const int region[4], int rowLength, const float* rgba);
 
-  /// Copy a region (x, y, width, height) between groups of as many textures.
-  void Copy(const Group& target, const Group& source, const int region[4]);
+  /// Copy a region (x, y, width, height) to (x, line) between groups of as many textures.
+  void Copy(const Group& target, int line, const Group& source, const int region[4]);
 
   /// Read the left lower width x height texels of one texture of a group.
   void Download(const Group& group, std::size_t index, int width, int height, float* rgba);

@@ -33,6 +33,7 @@ bool vtkHierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, std::
   this->Levels = tables.GetLevels();
   this->Patches = tables.GetPatches();
   this->Tiles = tables.GetTiles();
+  this->PieceLines = tables.GetNumberOfPieceLines();
   double bytes = 0.0;
   for (const Tile& tile : this->Tiles)
   {
@@ -63,15 +64,12 @@ bool vtkHierarchicalProductGL::Allocate(const vtkHierarchyLayout& tables)
     return group;
   };
   const int groups = this->Vectors.Groups;
-  // Samplers need a texture also where there are no links.
-  const int pieceLines = std::max(tables.GetNumberOfPieceLines(), 1);
   this->Children = allocate(1, tables.GetNumberOfNodeLines());
   this->Rows = allocate(1, tables.GetNumberOfSlotLines());
   this->Sent = allocate(groups, tables.GetNumberOfSlotLines());
-  this->Received = allocate(groups, tables.GetNumberOfNodeLines());
   this->Beside = allocate(groups, tables.GetNumberOfNodeLines());
-  this->Parts = allocate(groups, pieceLines);
-  this->Lines = this->Engine.Allocate(1, 1, pieceLines);
+  this->Parts = allocate(groups, this->PieceLines + tables.GetNumberOfNodeLines());
+  this->Lines = this->Engine.Allocate(1, 1, std::max(this->PieceLines, 1));
   good = good && !this->Lines.empty();
   for (const Tile& tile : this->Tiles)
   {
@@ -151,7 +149,7 @@ bool vtkHierarchicalProductGL::SweepUp(const Group& source)
   {
     this->Engine.SetTextures(sum, "children", this->Children);
     this->Engine.SetTextures(sum, "sent", this->Sent);
-    this->DrawBeside(*level, this->Sent);
+    this->DrawBeside(*level, this->Sent, level->FirstLine);
   }
   return sum != nullptr;
 }
@@ -178,42 +176,42 @@ bool vtkHierarchicalProductGL::GatherLinks()
 //------------------------------------------------------------------------------
 bool vtkHierarchicalProductGL::SweepDown(const Group& target)
 {
-  bool drawn = true;
   for (const Range& level : this->Levels)
   {
-    drawn = drawn && this->DrawSums(this->Received, level, false);
+    if (!this->UseSums(false))
+    {
+      return false;
+    }
+    this->DrawBeside(level, this->Parts, this->PieceLines + level.FirstLine);
   }
-  return drawn && this->DrawSums(target, this->Patches, true);
+  vtkShaderProgram* program = this->UseSums(true);
+  if (program)
+  {
+    program->SetUniformi("firstLine", this->Patches.FirstLine);
+    const int region[4] = { 0, 0, this->Vectors.Width, this->Vectors.Height };
+    this->Engine.Draw(target, region);
+  }
+  return program != nullptr;
 }
 
 //------------------------------------------------------------------------------
-bool vtkHierarchicalProductGL::DrawSums(const Group& target, const Range& range, bool ofPatches)
+vtkShaderProgram* vtkHierarchicalProductGL::UseSums(bool ofPatches)
 {
   vtkShaderProgram* program = this->Use(ofPatches ? "SumPiecesOfPatches" : "SumPieces",
     vtkFloatTexturesSumPiecesFS, ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n");
-  if (!program)
+  if (program)
   {
-    return false;
+    this->Engine.SetTextures(program, "rows", this->Rows);
+    this->Engine.SetTextures(program, "parts", this->Parts);
   }
-  this->Engine.SetTextures(program, "rows", this->Rows);
-  this->Engine.SetTextures(program, "parts", this->Parts);
-  this->Engine.SetTextures(program, "received", this->Received);
-  if (!ofPatches)
-  {
-    this->DrawBeside(range, target);
-    return true;
-  }
-  program->SetUniformi("firstLine", range.FirstLine);
-  const int region[4] = { 0, 0, this->Vectors.Width, this->Vectors.Height };
-  this->Engine.Draw(target, region);
-  return true;
+  return program;
 }
 
 //------------------------------------------------------------------------------
-void vtkHierarchicalProductGL::DrawBeside(const Range& range, const Group& target)
+void vtkHierarchicalProductGL::DrawBeside(const Range& range, const Group& target, int line)
 {
   const int region[4] = { 0, range.FirstLine, std::min(range.Slots, this->Vectors.Width),
     range.Lines };
   this->Engine.Draw(this->Beside, region);
-  this->Engine.Copy(target, this->Beside, region);
+  this->Engine.Copy(target, line, this->Beside, region);
 }

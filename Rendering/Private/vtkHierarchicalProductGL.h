@@ -36,20 +36,20 @@ private:
   bool SweepUp(const Group& source);
   bool GatherLinks();
   bool SweepDown(const Group& target);
-  bool DrawSums(const Group& target, const Range& range, bool ofPatches);
-  void DrawBeside(const Range& range, const Group& target);
+  vtkShaderProgram* UseSums(bool ofPatches);
+  void DrawBeside(const Range& range, const Group& target, int line);
 
   std::vector<Range> Levels; ///< of nodes
   Range Patches{};
+  int PieceLines = 0;
   std::vector<Tile> Tiles;
   std::vector<Group> Links; ///< of each tile
   Group Children;
   Group Rows;
   Group Lines;
-  Group Sent;     ///< by slots
-  Group Received; ///< by nodes
-  Group Beside;   ///< a level of either
-  Group Parts;    ///< by pieces
+  Group Sent;   ///< by slots
+  Group Parts;  ///< sums by pieces, then what nodes receive
+  Group Beside; ///< a level of either
 };
 
 #endif

@@ -34,8 +34,8 @@ vtkHierarchyLayout::vtkHierarchyLayout(const vtkExchangeHierarchy& hierarchy, in
 //------------------------------------------------------------------------------
 bool vtkHierarchyLayout::Fits() const
 {
-  return std::max(this->GetNumberOfSlotLines(), this->GetNumberOfPieceLines()) <=
-    this->MaximumHeight;
+  const int received = this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines();
+  return std::max(this->GetNumberOfSlotLines(), received) <= this->MaximumHeight;
 }
 
 //------------------------------------------------------------------------------
@@ -140,6 +140,7 @@ vtkHierarchyLayout::Texels vtkHierarchyLayout::MakeRows() const
   const std::vector<int>& parents = this->Hierarchy.GetParents();
   const std::vector<double>& weights = this->Hierarchy.GetWeights();
   const std::size_t nodes = this->Hierarchy.GetNodes().size();
+  const int behindPieces = this->GetNumberOfPieceLines() * this->Width;
   for (std::size_t texel = 2; texel < texels.size(); texel += 4)
   {
     texels[texel] = -1.0f;
@@ -149,9 +150,11 @@ vtkHierarchyLayout::Texels vtkHierarchyLayout::MakeRows() const
     float* texel = texels.data() + std::size_t(4) * this->SlotTexels[slot];
     texel[0] = static_cast<float>(this->FirstPieces[slot]);
     texel[1] = static_cast<float>(this->PieceCounts[slot]);
-    texel[2] = parents[slot] < 0
-      ? -1.0f
-      : static_cast<float>(this->SlotTexels[static_cast<std::size_t>(parents[slot])]);
+    if (parents[slot] >= 0)
+    {
+      texel[2] = static_cast<float>(
+        behindPieces + this->SlotTexels[static_cast<std::size_t>(parents[slot])]);
+    }
     texel[3] = slot < nodes ? 0.0f : static_cast<float>(weights[slot - nodes]);
   }
   return texels;

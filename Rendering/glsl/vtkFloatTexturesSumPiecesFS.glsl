@@ -1,8 +1,7 @@
-// What slots receive: the sum over the pieces of their row, and what the parent received. With PATCHES the result is theirs, weighted;
-// their lines begin at firstLine.
+// What slots receive: the sum over the pieces of their row, and what the parent received, which is kept behind the pieces: 16 textures
+// are all that OpenGL 3.2 promises. With PATCHES the result is theirs, weighted; their lines begin at firstLine.
 uniform sampler2D rows[1];
 uniform sampler2D parts[GROUPS];
-uniform sampler2D received[GROUPS];
 #if PATCHES
 uniform int firstLine;
 #else
@@ -17,7 +16,7 @@ void main()
   ivec2 parent = GetPlace(int(max(row.z, 0.0)));
   vec4 sum[GROUPS];
   vec4 lost[GROUPS];
-#define BEGIN(g) sum[g] = row.z < 0.0 ? vec4(0.0) : texelFetch(received[g], parent, 0); lost[g] = vec4(0.0);
+#define BEGIN(g) sum[g] = row.z < 0.0 ? vec4(0.0) : texelFetch(parts[g], parent, 0); lost[g] = vec4(0.0);
   FOR_ALL_GROUPS(BEGIN)
   for (int piece = begin; piece < end; ++piece)
   {
