@@ -105,7 +105,7 @@ std::string ExplainNoSolution(const vtkRadiosityProblem& problem, const Place& p
   }
   return beginning +
     " returns all that it receives as far as these view factors tell. Switch EnforceClosure on, "
-    "lower ViewFactorTolerance or the reflectance.";
+    "lower ViewFactorTolerance, LinkTolerance or the reflectance.";
 }
 
 //------------------------------------------------------------------------------
@@ -127,8 +127,8 @@ void CheckViewFactors(const vtkRadiosityProblem& problem, const Place& place, do
   text << "Light is reflected about " << amplification << " times around "
        << Describe(problem, place) << ", and row sums of the view factors are known to "
        << problem.RowSumError << ": ";
-  const char* const remedy = " Switch EnforceClosure on, lower ViewFactorTolerance or the "
-                             "reflectance.";
+  const char* const remedy = " Switch EnforceClosure on, lower ViewFactorTolerance, "
+                             "LinkTolerance or the reflectance.";
   if (effect >= Meaningless)
   {
     text << "the radiosity equation has no unique solution within that error." << remedy;
