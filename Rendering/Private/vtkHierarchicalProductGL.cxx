@@ -37,7 +37,8 @@ bool vtkHierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, std::
   double bytes = 0.0;
   for (const Tile& tile : this->Tiles)
   {
-    bytes += static_cast<double>(tile.Height) * this->Vectors.Width * Engine.BytesPerTexel;
+    bytes +=
+      static_cast<double>(tile.Height) * this->Vectors.Width * vtkFloatTextures::BytesPerTexel;
   }
   if (!this->CheckMemory(bytes, reason))
   {

@@ -61,9 +61,9 @@ public:
   /**
    * The tables: of each node, the texel of the first child and how many there are; of each slot,
    * its first piece, how many there are, the texel of its parent (-1 without), counted behind the
-   * lines of pieces, and its weight; of
-   * each line of pieces, its first line in the tile's texture and how many there are; and these
-   * lines, with the texel of a slot and a value, twice, in each texel.
+   * lines of pieces, and its weight; of each line of pieces, its first line in the tile's texture
+   * and how many there are; and these lines, with the texel of a slot and a value, twice, in each
+   * texel.
    */
   Texels MakeChildren() const;
   Texels MakeRows() const;
