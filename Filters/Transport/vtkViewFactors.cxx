@@ -37,6 +37,8 @@ namespace
 // Rays per patch that tell sky from back faces; more where none of them finds either.
 constexpr int OpeningRays = 128;
 constexpr int MostOpeningRays = 4096;
+// Patches that tell whether a scene has openings at all.
+constexpr vtkIdType PatchesThatLook = 2000;
 // Work between two looks at progress and abort: units of 64 x 64 pairs, and partly visible pairs.
 constexpr vtkIdType UnitsPerBatch = 32;
 constexpr vtkIdType PairsPerBatch = 1024;
@@ -47,6 +49,34 @@ constexpr double RefineDone = 0.97;
 constexpr double MemoryForLinks = 0.8;
 // Relative error of an entry by storing it in single precision.
 constexpr double SinglePrecision = 6e-8;
+} // namespace
+
+namespace
+{
+//------------------------------------------------------------------------------
+// Whether any of many rays from all over the scene meets no front.
+bool HasOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
+{
+  const vtkIdType patches = scene.GetNumberOfPatches();
+  const vtkIdType step = std::max<vtkIdType>(patches / PatchesThatLook, 1);
+  for (vtkIdType patch = 0; patch < patches; patch += step)
+  {
+    const vtkPatchSampler sampler(static_cast<std::uint64_t>(patch));
+    vtkPolygonExchange::Polygon polygon;
+    vtkPolygonExchange::MakePolygon(scene, patch, polygon);
+    for (int ray = 0; ray < OpeningRays; ++ray)
+    {
+      bool front = false;
+      const vtkIdType hit = caster.FindHit(sampler.GetPoint(polygon, ray, 0),
+        sampler.GetDirection(polygon.Normal, ray, 2), patch, front);
+      if (hit < 0 || !front)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -188,6 +218,7 @@ bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunc
   {
     refinement.SetBrightness(this->Brightness);
   }
+  refinement.SetClosesRows(this->EnforceClosure && !HasOpenings(scene, caster));
   const double available = MemoryForLinks * vtkTransportMemory::GetAvailableBytes();
   const vtkLinkRefinement::Outcome outcome = refinement.Refine(this->LinkTolerance, available,
     this->Controller, [&](double done) { return progress(RefineDone * done); });

@@ -40,6 +40,11 @@ IRRADIANCE = (
 ENCLOSURE = (
     ("--device", "Device", "DEVICE_",
      "where the links are applied; auto takes OpenGL on a real GPU"),
+    ("--links", "LinkMethod", "LINK_METHOD_",
+     "a link for each pair of patches, or between clusters; auto is dense up to 8,192 patches"),
+    ("--link-tolerance", "LinkTolerance", float,
+     "relative error of the irradiance that hierarchical links are allowed"),
+    ("--by-brightness", "RefineByBrightness", True, "refine hierarchical links where light is"),
     ("--closure", "EnforceClosure", True, "make the view factors of closed scenes sum to 1"),
     ("--band-limits", "BandLimit", parse_numbers,
      "limits of spectral bands for temperatures: wavelengths in micrometres, such as 0,8,14,inf"),

@@ -71,6 +71,10 @@ public:
   /// A radiosity for each patch (>= 0) that counts instead of 1 everywhere.
   void SetBrightness(const std::vector<double>& brightness);
 
+  /// Whether the rows of the links will be closed afterwards in a scene without openings: what the
+  /// links of a cluster leave out with one sign is then brought in.
+  void SetClosesRows(bool closes) { this->ClosesRows = closes; }
+
   /// The nodes of the scene's tree in the form of vtkExchangeHierarchy.
   std::vector<vtkExchangeHierarchy::Node> GetNodes() const;
 
@@ -133,6 +137,7 @@ private:
   std::vector<int> Leaves;        ///< of each patch
   std::vector<double> Brightness; ///< of each slot, at most 1
   double SquaredBrightness = 0.0; ///< integrated
+  bool ClosesRows = false;
   std::vector<Pair> Units;
   std::vector<vtkExchangeHierarchy::Link> Links;
   Counters Total;
