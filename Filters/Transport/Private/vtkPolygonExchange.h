@@ -15,6 +15,7 @@
 #ifndef vtkPolygonExchange_h
 #define vtkPolygonExchange_h
 
+#include "vtkLightTransportFiltersModule.h" // for export macro, used by benchmarks
 #include "vtkPatchScene.h"
 
 #include <Eigen/Core>
@@ -61,7 +62,8 @@ struct Estimate
 bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal);
 
 /// Two patches of a scene, each cut at the plane of the other.
-void MakeClippedPair(const vtkPatchScene& scene, vtkIdType i, vtkIdType j, Polygon& a, Polygon& b);
+VTKLIGHTTRANSPORTFILTERS_EXPORT void MakeClippedPair(const vtkPatchScene& scene, vtkIdType i,
+  vtkIdType j, Polygon& a, Polygon& b);
 
 double GetArea(const Polygon& polygon);
 /// The mean of the corners.
