@@ -129,7 +129,7 @@ class Report:
             self.measure_size(methods, triangles)
 
     def warm_up(self, methods, surface):
-        """The methods that work here at some tolerance; where the first does not, it is the input."""
+        """The methods that work at some tolerance; where the first does not, it is the input."""
         working = []
         for method in methods:
             if self.try_out(method, surface):

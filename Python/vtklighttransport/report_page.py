@@ -148,7 +148,8 @@ class Page:
             return
         self.add_figure(
             "error_time.png", "Error of the radiosity against seconds from the mesh to its arrays; "
-            "from coarse to fine tolerances along each line.", lambda file: plot_errors(file, compared))
+            "from coarse to fine tolerances along each line.",
+            lambda file: plot_errors(file, compared))
 
     def add_growth(self):
         groups = group(self.rows)
