@@ -94,8 +94,8 @@ bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFu
   const std::vector<bool>* senders)
 {
   this->Patches.clear();
-  // A closure needs whole rows.
-  const bool all = !senders || this->EnforceClosure ||
+  // A closure needs whole rows, and clusters hold who sends and who does not.
+  const bool all = !senders || this->EnforceClosure || this->Hierarchical ||
     std::all_of(senders->begin(), senders->end(), [](bool sends) { return sends; });
   if (!this->Provide(scene, progress, all ? nullptr : senders))
   {

@@ -26,8 +26,8 @@ constexpr double Pi = 3.14159265358979323846;
 // Of the exchange of two patches with nothing in between, per row.
 constexpr double OpenTolerance = 1e-3;
 // Units of work are the pairs of nodes with this part of the patches each.
-constexpr double UnitsAcross = 32.0;
-constexpr vtkIdType UnitsPerBatch = 16;
+constexpr double UnitsAcross = 64.0;
+constexpr vtkIdType UnitsPerBatch = 32;
 // How far the visible part may be off where all rays agree: the standard deviation of a share of
 // which 16 samples showed nothing.
 constexpr double UnseenShare = 0.05;
