@@ -156,10 +156,11 @@ int vtkTransportAlgorithm::GetRank() const
 }
 
 //------------------------------------------------------------------------------
-// A matrix that `allocate` returns true for, where `bytes` are there on every rank.
+// A matrix that `allocate` returns true for, where `bytes` are there on every rank; `remedy` is
+// what else than fewer patches helps.
 template <typename Allocation>
 vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::AllocateExchange(
-  std::size_t numberOfPatches, double bytes, Allocation&& allocate)
+  std::size_t numberOfPatches, double bytes, const std::string& remedy, Allocation&& allocate)
 {
   const double available = vtkTransportMemory::GetAvailableBytes();
   vtkSmartPointer<vtkExchangeMatrix> exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
@@ -169,8 +170,8 @@ vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::AllocateExchange(
     error = "The links between " + std::to_string(numberOfPatches) + " patches need " +
       vtkTransportMemory::Format(bytes) + " of memory" +
       (this->GetNumberOfRanks() > 1 ? " in one process" : "") + " and " +
-      vtkTransportMemory::Format(available) +
-      " are free: use fewer patches (a larger TargetEdgeLength in vtkPatchMesher) or "
+      vtkTransportMemory::Format(available) + " are free: " + remedy +
+      "use fewer patches (a larger TargetEdgeLength in vtkPatchMesher) or "
       "processes on more machines (each holds a part).";
   }
   if (!vtkPatchScene::Agree(this->Controller, error.empty(), error))
@@ -188,7 +189,7 @@ vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeExchange(
   const int ranks = this->GetNumberOfRanks();
   const double bytes = vtkExchangeMatrix::GetEstimatedBytes(static_cast<vtkIdType>(areas.size()),
     numberOfKernels, ranks);
-  return this->AllocateExchange(areas.size(), bytes,
+  return this->AllocateExchange(areas.size(), bytes, "",
     [&](vtkExchangeMatrix* exchange)
     { return exchange->Allocate(areas, numberOfKernels, this->GetRank(), ranks); });
 }
@@ -201,6 +202,7 @@ vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::MakeSparseExchange(
   const double bytes = vtkExchangeMatrix::GetEstimatedSparseBytes(
     static_cast<vtkIdType>(areas.size()), 1, numberOfTiles, ranks);
   return this->AllocateExchange(areas.size(), bytes,
+    "set LinkMethod to Hierarchical (in vtkViewFactors switch Hierarchical on), or ",
     [&](vtkExchangeMatrix* exchange)
     {
       exchange->AllocateSparse(areas, 1, this->GetRank(), ranks);

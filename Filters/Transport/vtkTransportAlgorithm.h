@@ -137,7 +137,7 @@ private:
   int GetRank() const;
   template <typename Allocation>
   vtkSmartPointer<vtkExchangeMatrix> AllocateExchange(std::size_t numberOfPatches, double bytes,
-    Allocation&& allocate);
+    const std::string& remedy, Allocation&& allocate);
   vtkSmartPointer<vtkDeviceLinkOperator> OpenDevice(int device, std::string& reason);
 
   void SetTimeLeft(double done);

@@ -44,7 +44,7 @@ void TestOneRank()
   Check(!maker->MakeSparseExchange(areas, TooMany), "too many tiles");
   const std::string message = errors->GetErrorMessage();
   for (const char* part : { "1000 patches", "288230376.15 GB of memory", "are free",
-         "TargetEdgeLength", "more machines" })
+         "LinkMethod to Hierarchical", "TargetEdgeLength", "more machines" })
   {
     Check(message.find(part) != std::string::npos, std::string(part) + " in: " + message);
   }

@@ -143,6 +143,41 @@ void TestIterations()
   const Run open(plates, nullptr, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT, 1e-8);
   Check(open.CountIterations(1e-6) <= 45, "plates with a gap of 0.02 at 0.999");
 }
+
+//------------------------------------------------------------------------------
+// Links between clusters whose rows are closed keep the light as well as a matrix does.
+void TestHierarchical()
+{
+  auto room = MakeRoom(8);
+  vtkNew<vtkViewFactors> factors;
+  factors->SetInputData(room);
+  factors->HierarchicalOn();
+  factors->EnforceClosureOn();
+  factors->Update();
+  for (const double rho : { 0.999, 0.999999 })
+  {
+    AddArray(room, "Reflectance", { rho });
+    for (const int solver : { vtkRadiosity::SOLVER_SOUTHWELL, vtkRadiosity::SOLVER_CHEBYSHEV,
+           vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
+    {
+      if (rho > 0.9999 && solver == vtkRadiosity::SOLVER_CHEBYSHEV)
+      {
+        continue;
+      }
+      const std::string what =
+        "links between clusters at " + std::to_string(rho) + ", solver " + std::to_string(solver);
+      AddArray(room, "Emission", { 1.0 - rho });
+      const Run furnace(room, factors, solver, 1e-7);
+      Check(furnace.Messages.empty() && furnace.Status == "Converged", what + furnace.Messages);
+      CheckClose((furnace.Radiosity.array() - 1.0).abs().maxCoeff(), 0.0, 1e-6, what + ": furnace");
+      AddArray(room, "Emission", { 0.0 })->SetValue(3, 1.0);
+      const Run lamp(room, factors, solver, 1e-8);
+      const Vector exact = SolveExactly(room, factors);
+      CheckClose((lamp.Radiosity - exact).lpNorm<Eigen::Infinity>() / exact.maxCoeff(), 0.0, 1e-7,
+        what + ": one patch emits");
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -159,5 +194,6 @@ int TestStiffRadiosity(int, char*[])
     }
   }
   TestIterations();
+  TestHierarchical();
   return Result();
 }
