@@ -17,19 +17,19 @@
  * for receivers nearer than such a part is large. And what is about as small as a pixel gets too
  * much or too little, and may be missed; frames are turned from one eye point to the next, so that
  * these errors average out over shots. Irradiance of the Cornell box (862 triangles) against exact
- * view factors, relative L2 error by Resolution (down) and EyePointDensity (across):
+ * view factors when nothing is left to shoot, relative L2 error by Resolution (down) and
+ * EyePointDensity (across):
  *
- * |     |     0 |   100 |  1000 | 10000 |
- * |----:|------:|------:|------:|------:|
- * |  32 | 13.9% |       |  1.5% |       |
- * |  64 |  4.9% |  1.6% |  1.3% | 0.64% |
- * | 128 |  2.4% |  1.4% |  1.2% |       |
- * | 256 |  1.9% |       |       |       |
+ * |     |    0 |  100 | 1000 | 10000 |
+ * |----:|-----:|-----:|-----:|------:|
+ * |  32 |      |      | 1.3% |       |
+ * |  64 | 5.0% | 1.6% | 0.9% |  0.3% |
+ * | 128 | 2.4% |      | 0.8% |       |
  *
  * What lies lower than 1e-6 of the scene's diagonal over the plane of a shooter is not seen from
  * it, and corners nearer to each other than about 1e-7 of it are not told apart: single precision.
  *
- * Source: G. Coombe, M. J. Harris, A. Lastra, Radiosity on graphics hardware, Graphics Interface
+ * Sources: G. Coombe, M. J. Harris, A. Lastra, Radiosity on graphics hardware, Graphics Interface
  * 2004; hemisphere: the cubic tetrahedron of Beran-Koehn and Pavicic (1991).
  */
 #ifndef vtkOpenGLShooter_h
