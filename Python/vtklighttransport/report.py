@@ -194,9 +194,15 @@ class Report:
         row["reference"] = reference.name
         errors = self.compare(solution, reference.solution)
         self.add_row(row)
-        if method.tolerances[0] == tolerance:
-            self.worst[method.name, method.solver] = (solution, errors)
+        self.keep_if_worse(method, solution, errors)
         return None
+
+    def keep_if_worse(self, method, solution, errors):
+        def rank(row):
+            return row["patches"], row["tolerance"]
+        key = (method.name, method.solver)
+        if key not in self.worst or rank(solution.row) > rank(self.worst[key][0].row):
+            self.worst[key] = (solution, errors)
 
     def compute(self, method, tolerance, surface, solver_tolerance=None, repeat=1):
         """The times are medians over the runs."""
