@@ -45,11 +45,17 @@ constexpr double ClosedCalibration = 0.7;
 // Whole numbers of these parts are summed.
 constexpr double DeviationParts = 0x1.0p40;
 constexpr double SquareParts = 0x1.0p50;
-// The first threshold, as a part of the squared error that is allowed, how much it falls from pass
-// to pass, and the smallest share of it.
+// The first threshold, as a part of the squared error that is allowed; how fast it falls, and the
+// power of it that the error is taken for.
 constexpr double FirstThreshold = 1.0 / 64.0;
-constexpr double SlowestFall = 0.5;
 constexpr double FastestFall = 1.0 / 256.0;
+constexpr double SlowestFall = 0.9;
+constexpr double UsualPower = 0.33;
+constexpr double SmallestPower = 0.25;
+constexpr double LargestPower = 0.5;
+// What a pass aims at, as a part of the tolerance.
+constexpr double Aim = 0.98;
+// The smallest part of the threshold that a cluster's links get.
 constexpr double SmallestShare = 1.0 / 64.0;
 constexpr int MaximumPasses = 24;
 
@@ -108,6 +114,42 @@ Vector GetPoint(const vtkPatchScene& scene, vtkIdType patch, double u, double v)
   return origin + root * (1.0 - v) * (scene.GetCorner(patch, corner) - origin) +
     root * v * (scene.GetCorner(patch, corner + 1) - origin);
 }
+
+//------------------------------------------------------------------------------
+// Thresholds from pass to pass: the error is about a power of the threshold, which two passes tell.
+class ThresholdSearch
+{
+public:
+  ThresholdSearch(double tolerance, double first) : Tolerance(tolerance), Threshold(first) {}
+
+  double GetThreshold() const { return this->Threshold; }
+
+  // After a pass: true where the error is small enough; otherwise the threshold is a new one.
+  bool IsReached(double error)
+  {
+    if (error <= this->Tolerance)
+    {
+      return true;
+    }
+    double power = UsualPower;
+    if (this->Error > error)
+    {
+      power = std::log(this->Error / error) / std::log(this->LastThreshold / this->Threshold);
+    }
+    power = std::min(std::max(power, SmallestPower), LargestPower);
+    this->Error = error;
+    this->LastThreshold = this->Threshold;
+    const double fall = std::pow(Aim * this->Tolerance / error, 1.0 / power);
+    this->Threshold *= std::min(std::max(fall, FastestFall), SlowestFall);
+    return false;
+  }
+
+private:
+  double Tolerance;
+  double Threshold;
+  double LastThreshold = 0.0;
+  double Error = 0.0; // of the last pass; 0 for none
+};
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -513,28 +555,25 @@ void vtkLinkRefinement::MakeUnits()
 vtkLinkRefinement::Outcome vtkLinkRefinement::Refine(double tolerance, double availableBytes,
   vtkMultiProcessController* controller, const ProgressFunction& progress)
 {
-  const double allowed = tolerance * tolerance * this->SquaredBrightness;
-  double threshold = FirstThreshold * allowed;
-  double links = -1.0;
+  ThresholdSearch search(tolerance,
+    FirstThreshold * tolerance * tolerance * this->SquaredBrightness);
   for (int pass = 0; pass < MaximumPasses; ++pass)
   {
     // How many passes there will be is not known: each gets half of what is left.
     const double done = 1.0 - std::pow(0.5, pass);
-    const Outcome outcome = this->RunPass(threshold, availableBytes, controller,
+    const Outcome outcome = this->RunPass(search.GetThreshold(), availableBytes, controller,
       [&](double fraction) { return progress(done + 0.5 * (1.0 - done) * fraction); });
     if (outcome != DONE)
     {
       return outcome;
     }
     this->Assess();
-    const double ratio = this->ErrorEstimate * this->ErrorEstimate / (tolerance * tolerance);
-    if (ratio <= 1.0 || this->Total.Links == links)
+    // Pairs of patches are not divided any further.
+    const bool isFinest = this->Total.Links == this->Total.PatchLinks;
+    if (isFinest || search.IsReached(this->ErrorEstimate))
     {
       break;
     }
-    // Nothing but patches left: a smaller threshold changes nothing.
-    links = this->Total.Links == this->Total.PatchLinks ? this->Total.Links : -1.0;
-    threshold *= std::max(std::min(std::pow(ratio, -1.5), SlowestFall), FastestFall);
   }
   return DONE;
 }
