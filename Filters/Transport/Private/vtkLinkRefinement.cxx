@@ -58,6 +58,8 @@ constexpr double Aim = 0.98;
 // The smallest part of the threshold that a cluster's links get.
 constexpr double SmallestShare = 1.0 / 64.0;
 constexpr int MaximumPasses = 24;
+// A pass that finds hardly more links than the one before is the last.
+constexpr double LeastGrowth = 1.01;
 
 //------------------------------------------------------------------------------
 // Random numbers from a key: splitmix64 (Steele, Lea and Flood 2014).
@@ -365,13 +367,6 @@ struct vtkLinkRefinement::Refiner
     }
     open /= Points * Points;
     seen /= Points * Points;
-    double spreadI = 0.0;
-    double spreadJ = 0.0;
-    for (int k = 0; k < Points; ++k)
-    {
-      spreadI += (rows[k] - seen) * (rows[k] - seen) / (Points - 1);
-      spreadJ += (columns[k] - seen) * (columns[k] - seen) / (Points - 1);
-    }
     const Estimate spread = this->GetSpread(pair, highest, rows, columns);
     const double unseen = pair.IsFree ? 0.0 : open * UnseenShare;
     return this->Weigh(pair, seen, spread, unseen * unseen);
@@ -557,6 +552,7 @@ vtkLinkRefinement::Outcome vtkLinkRefinement::Refine(double tolerance, double av
 {
   ThresholdSearch search(tolerance,
     FirstThreshold * tolerance * tolerance * this->SquaredBrightness);
+  double links = 0.0;
   for (int pass = 0; pass < MaximumPasses; ++pass)
   {
     // How many passes there will be is not known: each gets half of what is left.
@@ -569,11 +565,12 @@ vtkLinkRefinement::Outcome vtkLinkRefinement::Refine(double tolerance, double av
     }
     this->Assess();
     // Pairs of patches are not divided any further.
-    const bool isFinest = this->Total.Links == this->Total.PatchLinks;
+    const bool isFinest = this->Total.Links <= LeastGrowth * links;
     if (isFinest || search.IsReached(this->ErrorEstimate))
     {
       break;
     }
+    links = this->Total.Links;
   }
   return DONE;
 }
