@@ -48,6 +48,8 @@ struct Run
     if (vtkAbstractArray* status = fields->GetAbstractArray("SolverStatus"))
     {
       this->Status = status->GetVariantValue(0).ToString();
+      this->Explanation =
+        fields->GetAbstractArray("SolverExplanation")->GetVariantValue(0).ToString();
       this->Iterations =
         static_cast<int>(GetSummary(this->Filter->GetPolyDataOutput(), "NumberOfIterations"));
       this->ErrorBound = GetSummary(this->Filter->GetPolyDataOutput(), "ErrorBound");
@@ -71,6 +73,7 @@ struct Run
   vtkNew<vtkRadiosity> Filter;
   std::string Messages; ///< errors and warnings
   std::string Status;
+  std::string Explanation;
   int Iterations = -1;
   double ErrorBound = -1.0;
   Vector Radiosity, Irradiance, NetFlux;

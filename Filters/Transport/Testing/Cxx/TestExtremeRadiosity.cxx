@@ -93,6 +93,8 @@ void TestBlack()
     const Run run(room, nullptr, solver, 1e-12);
     const std::string what = "a black room, solver " + std::to_string(solver);
     Check(run.Status == "Converged" && run.Iterations == 0, what);
+    Check(solver != vtkRadiosity::SOLVER_AUTO || run.Explanation.find("Jacobi: ") == 0,
+      what + " explains: " + run.Explanation);
     for (vtkIdType cell = 0; cell < 24; ++cell)
     {
       CheckClose(run.Radiosity[cell], 1.0 / (1.0 + static_cast<double>(cell)), 0.0, what);
