@@ -123,6 +123,6 @@ def draw(file, chart, size):
     renderer.SetBackground(1.0, 1.0, 1.0)
     renderer.AddActor(actor)
     actor.GetScene().SetRenderer(renderer)
-    window = make_window(renderer, size, samples=8)
+    window = make_window(renderer, size, samples=4)
     write_picture(window, file)
     window.Finalize()
