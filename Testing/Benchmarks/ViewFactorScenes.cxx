@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactorScenes.h"
 #include "vtkDelaunay2D.h"
+#include "vtkIntArray.h"
 #include "vtkPLYReader.h"
 #ifdef LIGHTTRANSPORT_HAS_MESHING
 #include "vtkPatchMesher.h"
@@ -261,51 +262,6 @@ void AddLegs(Surface& surface, const Point& low, const Point& high, double width
 }
 
 //------------------------------------------------------------------------------
-/**
- * A furnished room: metres, all boxes apart from each other by at least half a centimetre (glides
- * under the legs, joints), so that the scene is closed and every row sums to 1.
- */
-Scene MakeRoom(double length)
-{
-  constexpr double gap = 0.005;
-  Surface room;
-  const auto box = [&](const Point& low, const Point& high)
-  { AddBox(room, low, high, length, false); };
-  AddBox(room, { 0, 0, 0 }, { 5, 4, 2.6 }, length, true);
-  // A table with four chairs.
-  box({ 1.6, 1.3, 0.72 }, { 3.2, 2.2, 0.75 });
-  AddLegs(room, { 1.65, 1.35, gap }, { 3.15, 2.15, 0.72 - gap }, 0.06, length);
-  for (int k = 0; k < 4; ++k)
-  {
-    const double x = k % 2 ? 2.55 : 1.85, y = k / 2 ? 2.3 : 0.8;
-    const double back = k / 2 ? y + 0.37 : y;
-    box({ x, y, 0.44 }, { x + 0.4, y + 0.4, 0.47 });
-    box({ x, back, 0.47 + gap }, { x + 0.4, back + 0.03, 0.95 });
-    AddLegs(room, { x, y, gap }, { x + 0.4, y + 0.4, 0.44 - gap }, 0.04, length);
-  }
-  // A shelf on the wall behind: two sides, a back and five boards.
-  box({ 4.6, 0.5, gap }, { 4.98, 0.53, 2.0 });
-  box({ 4.6, 2.0, gap }, { 4.98, 2.03, 2.0 });
-  box({ 4.96, 0.53 + gap, gap }, { 4.98, 2.0 - gap, 2.0 });
-  for (int k = 0; k < 5; ++k)
-  {
-    const double z = 0.1 + 0.45 * k;
-    box({ 4.6, 0.53 + gap, z }, { 4.96 - gap, 2.0 - gap, z + 0.025 });
-  }
-  // A lamp over the table and one that stands in a corner.
-  box({ 2.2, 1.55, 1.6 }, { 2.6, 1.95, 1.8 });
-  box({ 2.39, 1.74, 1.8 + gap }, { 2.41, 1.76, 2.6 - gap });
-  box({ 0.3, 3.3, gap }, { 0.7, 3.7, 0.04 });
-  box({ 0.48, 3.48, 0.04 + gap }, { 0.52, 3.52, 1.5 });
-  box({ 0.3, 3.3, 1.5 + gap }, { 0.7, 3.7, 1.8 });
-  Scene scene;
-  scene.Data = room.Get();
-  scene.Text = "furnished room, " + std::to_string(scene.Data->GetNumberOfCells()) + " rectangles";
-  scene.Closed = { 0, scene.Data->GetNumberOfCells() };
-  return scene;
-}
-
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> ReadPolygons(const std::string& file)
 {
   vtkNew<vtkPLYReader> reader;
@@ -341,6 +297,73 @@ vtkSmartPointer<vtkPolyData> Mesh(vtkPolyData* data, double length)
 }
 
 //------------------------------------------------------------------------------
+Scene MakeDragon(const std::string& file, double length)
+{
+  return MakeOpenScene("Stanford dragon", Mesh(ReadPolygons(file), length));
+}
+#endif
+} // end of anonymous namespace
+
+//------------------------------------------------------------------------------
+Scene MakeFurnishedRoom(double length)
+{
+  constexpr double gap = 0.005;
+  Surface room;
+  vtkNew<vtkIntArray> parts;
+  parts->SetName("Part");
+  // What was added since the last call is this part.
+  const auto end = [&](RoomPart part)
+  {
+    const vtkIdType cells = room.Get()->GetNumberOfCells();
+    while (parts->GetNumberOfTuples() < cells)
+    {
+      parts->InsertNextValue(part);
+    }
+  };
+  const auto box = [&](const Point& low, const Point& high)
+  { AddBox(room, low, high, length, false); };
+  AddBox(room, { 0, 0, 0 }, { 5, 4, RoomHeight }, length, true);
+  end(ROOM_WALLS);
+  // A table with four chairs.
+  box({ 1.6, 1.3, 0.72 }, { 3.2, 2.2, 0.75 });
+  AddLegs(room, { 1.65, 1.35, gap }, { 3.15, 2.15, 0.72 - gap }, 0.06, length);
+  for (int k = 0; k < 4; ++k)
+  {
+    const double x = k % 2 ? 2.55 : 1.85, y = k / 2 ? 2.3 : 0.8;
+    const double back = k / 2 ? y + 0.37 : y;
+    box({ x, y, 0.44 }, { x + 0.4, y + 0.4, 0.47 });
+    box({ x, back, 0.47 + gap }, { x + 0.4, back + 0.03, 0.95 });
+    AddLegs(room, { x, y, gap }, { x + 0.4, y + 0.4, 0.44 - gap }, 0.04, length);
+  }
+  end(ROOM_TABLE_AND_CHAIRS);
+  // A shelf on the wall behind: two sides, a back and five boards.
+  box({ 4.6, 0.5, gap }, { 4.98, 0.53, 2.0 });
+  box({ 4.6, 2.0, gap }, { 4.98, 2.03, 2.0 });
+  box({ 4.96, 0.53 + gap, gap }, { 4.98, 2.0 - gap, 2.0 });
+  for (int k = 0; k < 5; ++k)
+  {
+    const double z = 0.1 + 0.45 * k;
+    box({ 4.6, 0.53 + gap, z }, { 4.96 - gap, 2.0 - gap, z + 0.025 });
+  }
+  end(ROOM_SHELF);
+  // A lamp over the table and one that stands in a corner.
+  box({ 2.2, 1.55, 1.6 }, { 2.6, 1.95, 1.8 });
+  end(ROOM_LAMP);
+  box({ 2.39, 1.74, 1.8 + gap }, { 2.41, 1.76, RoomHeight - gap });
+  box({ 0.3, 3.3, gap }, { 0.7, 3.7, 0.04 });
+  box({ 0.48, 3.48, 0.04 + gap }, { 0.52, 3.52, 1.5 });
+  box({ 0.3, 3.3, 1.5 + gap }, { 0.7, 3.7, 1.8 });
+  end(ROOM_STANDING_LAMP);
+  Scene scene;
+  scene.Data = room.Get();
+  scene.Data->GetCellData()->AddArray(parts);
+  scene.Text = "furnished room, " + std::to_string(scene.Data->GetNumberOfCells()) + " rectangles";
+  scene.Closed = { 0, scene.Data->GetNumberOfCells() };
+  return scene;
+}
+
+#ifdef LIGHTTRANSPORT_HAS_MESHING
+//------------------------------------------------------------------------------
 Scene MakeCornellBox(double length)
 {
   vtkNew<vtkXMLPolyDataReader> reader;
@@ -348,14 +371,7 @@ Scene MakeCornellBox(double length)
   reader->Update();
   return MakeOpenScene("Cornell box", Mesh(reader->GetOutput(), length));
 }
-
-//------------------------------------------------------------------------------
-Scene MakeDragon(const std::string& file, double length)
-{
-  return MakeOpenScene("Stanford dragon", Mesh(ReadPolygons(file), length));
-}
 #endif
-} // end of anonymous namespace
 
 //------------------------------------------------------------------------------
 std::vector<Case> GetCases(const std::string& dragon)
@@ -383,8 +399,8 @@ std::vector<Case> GetCases(const std::string& dragon)
     { "cylinders-5024", ALL, coarse, [] { return MakeCylinders(2); } },
     { "tube-1576", STANDARD, coarse, [] { return MakeTube(); } },
     { "bunny", STANDARD, coarse, [] { return MakeBunny(); } },
-    { "room-2000", STANDARD, coarse, [] { return MakeRoom(0.28); } },
-    { "room-8000", ALL, coarse, [] { return MakeRoom(0.12); } } };
+    { "room-2000", STANDARD, coarse, [] { return MakeFurnishedRoom(0.28); } },
+    { "room-8000", ALL, coarse, [] { return MakeFurnishedRoom(0.12); } } };
 #ifdef LIGHTTRANSPORT_HAS_MESHING
   cases.push_back({ "cornell-2000", STANDARD, coarse, [] { return MakeCornellBox(52.0); } });
   cases.push_back({ "cornell-8000", ALL, coarse, [] { return MakeCornellBox(26.0); } });

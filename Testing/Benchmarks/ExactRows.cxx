@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExactRows.h"
+#include "vtkOpenExchange.h"
+#include "vtkPairVisibility.h"
+#include "vtkShaftCuller.h"
+#include "vtkTransportThreads.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <random>
+
+namespace
+{
+constexpr std::uint32_t Seed = 4;
+// Of the sum of the errors of a row with nothing in between.
+constexpr double OpenTolerance = 1e-5;
+// How exact the visible part of a pair is, and what it may do to the row: errors of single pairs
+// have no common sign.
+constexpr double ShareTolerance = 1e-2;
+constexpr double RowTolerance = 1e-4;
+} // end of anonymous namespace
+
+//------------------------------------------------------------------------------
+struct ExactRows::Worker
+{
+  ExactRows& Self;
+  const std::vector<const Values*>& Vectors;
+  const vtkOpenExchange& Open;
+  const vtkShaftCuller& Culler;
+  const std::vector<int>& Leaves; ///< of each patch
+
+  /// One row at work.
+  struct Row
+  {
+    std::size_t Index;
+    vtkIdType Patch;
+    int Leaf;
+    vtkPairVisibility Visibility;
+    std::vector<vtkIdType> Between;
+  };
+
+  void operator()(vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType index = begin; index < end; ++index)
+    {
+      const vtkIdType patch = this->Self.Patches[index];
+      Row row{ static_cast<std::size_t>(index), patch, this->Leaves[patch], {}, {} };
+      this->Descend(0, !this->Culler.HasOccluders(), row);
+    }
+  }
+
+  void Descend(int node, bool isFree, Row& row) const
+  {
+    if (!this->Open.MayFace(row.Leaf, node))
+    {
+      return;
+    }
+    isFree = isFree || !this->Culler.MayBlock(row.Leaf, node);
+    const vtkPatchTree::Node& there = this->Self.Scene.GetTree().GetNode(node);
+    if (!there.IsLeaf())
+    {
+      this->Descend(there.Left, isFree, row);
+      this->Descend(there.Left + 1, isFree, row);
+      return;
+    }
+    for (vtkIdType j = there.First; j < there.Last; ++j)
+    {
+      this->AddPair(j, isFree, row);
+    }
+  }
+
+  void AddPair(vtkIdType j, bool isFree, Row& row) const
+  {
+    const vtkPolygonExchange::Estimate open =
+      j == row.Patch ? vtkPolygonExchange::Estimate() : this->Open.Compute(row.Patch, j);
+    if (open.Value <= 0.0)
+    {
+      return;
+    }
+    const double factor = open.Value / this->Self.Scene.GetAreas()[row.Patch];
+    const vtkPairVisibility::Share share =
+      isFree ? vtkPairVisibility::Share() : this->See(j, open.Value, factor, row);
+    this->Self.Errors[row.Index] +=
+      factor * share.Error + open.Error / this->Self.Scene.GetAreas()[row.Patch];
+    for (std::size_t k = 0; k < this->Vectors.size(); ++k)
+    {
+      this->Self.Products[row.Index][k] += factor * share.Value * (*this->Vectors[k])[j];
+    }
+  }
+
+  /// The visible part of a pair.
+  vtkPairVisibility::Share See(vtkIdType j, double open, double factor, Row& row) const
+  {
+    const vtkPatchScene& scene = this->Self.Scene;
+    this->Culler.FindBetween(row.Patch, j, row.Between);
+    if (row.Between.empty())
+    {
+      return {};
+    }
+    vtkPolygonExchange::Polygon a, b;
+    vtkPolygonExchange::MakeClippedPair(scene, row.Patch, j, a, b);
+    const std::uint64_t key =
+      static_cast<std::uint64_t>(row.Patch) << 32 ^ static_cast<std::uint64_t>(j);
+    if (!row.Visibility.SetPair(a, b, scene, row.Between, key,
+          scene.AreTouching(row.Patch, j) ? open : 0.0))
+    {
+      return {};
+    }
+    const vtkPairVisibility::Share share = row.Visibility.Look();
+    const double allowed = std::min(ShareTolerance, RowTolerance / factor);
+    return share.Error > allowed ? row.Visibility.Integrate(allowed) : share;
+  }
+};
+
+//------------------------------------------------------------------------------
+ExactRows::ExactRows(const vtkPatchScene& scene, int count)
+  : Scene(scene), Patches(scene.GetNumberOfPatches())
+{
+  std::iota(this->Patches.begin(), this->Patches.end(), vtkIdType(0));
+  std::mt19937 random(Seed);
+  // As std::shuffle, which is not the same everywhere.
+  const std::size_t rows = std::min<std::size_t>(count, this->Patches.size());
+  for (std::size_t k = 0; k < rows; ++k)
+  {
+    std::swap(this->Patches[k], this->Patches[k + random() % (this->Patches.size() - k)]);
+  }
+  this->Patches.resize(rows);
+  std::sort(this->Patches.begin(), this->Patches.end());
+}
+
+//------------------------------------------------------------------------------
+void ExactRows::Multiply(const std::vector<const Values*>& vectors)
+{
+  this->Products.assign(this->Patches.size(), Values(vectors.size(), 0.0));
+  this->Errors.assign(this->Patches.size(), 0.0);
+  const vtkOpenExchange open(this->Scene, OpenTolerance);
+  const vtkShaftCuller culler(this->Scene);
+  std::vector<int> leaves(this->Scene.GetNumberOfPatches());
+  const auto& nodes = this->Scene.GetTree().GetNodes();
+  for (std::size_t index = 0; index < nodes.size(); ++index)
+  {
+    if (nodes[index].IsLeaf())
+    {
+      std::fill(leaves.begin() + nodes[index].First, leaves.begin() + nodes[index].Last,
+        static_cast<int>(index));
+    }
+  }
+  Worker worker{ *this, vectors, open, culler, leaves };
+  vtkTransportThreads::For(0, static_cast<vtkIdType>(this->Patches.size()), 1, worker);
+}
