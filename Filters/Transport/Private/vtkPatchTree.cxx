@@ -5,6 +5,7 @@
 #include "vtkPatchScene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -21,6 +22,10 @@ constexpr double WideNormals = 0.7;
 
 // Normals whose box has its centre this close to the origin point everywhere.
 constexpr double NoDirection = 1e-6;
+
+// Places closer than this part of a range are one: a scene that is moved keeps its tree, where
+// rounding would part the rows of a grid.
+constexpr double PlacesAcross = 0x1.0p20;
 
 //------------------------------------------------------------------------------
 Box MakeEmptyBox()
@@ -62,8 +67,9 @@ public:
       });
     int axis = 0;
     int normalAxis = 0;
-    (places.second - places.first).maxCoeff(&axis);
-    const double spread = (normals.second - normals.first).maxCoeff(&normalAxis);
+    // Single precision: what is the same but for rounding is the same.
+    (places.second - places.first).cast<float>().maxCoeff(&axis);
+    const double spread = (normals.second - normals.first).cast<float>().maxCoeff(&normalAxis);
     const vtkIdType unit =
       last - first > vtkPatchTree::BlockSize ? vtkPatchTree::BlockSize : vtkPatchTree::LeafSize;
     const vtkIdType units = (last - first + unit - 1) / unit;
@@ -76,12 +82,16 @@ public:
         [&](vtkIdType patch) { return this->Normals[patch][normalAxis] < middle; });
       cut = first + std::min(std::max<vtkIdType>((below + unit / 2) / unit, 1), units - 1) * unit;
     }
+    const double low = places.first[axis];
+    const double step = (places.second[axis] - low) / PlacesAcross;
+    const auto getPlace = [&](vtkIdType patch)
+    { return step > 0.0 ? std::round((this->Centroids[patch][axis] - low) / step) : 0.0; };
     // What does not fit into whole units goes by its place.
     const auto isBefore = [&](vtkIdType a, vtkIdType b)
     {
       const bool above[2] = { this->Normals[a][normalAxis] >= middle,
         this->Normals[b][normalAxis] >= middle };
-      const double at[2] = { this->Centroids[a][axis], this->Centroids[b][axis] };
+      const double at[2] = { getPlace(a), getPlace(b) };
       return std::tie(above[0], at[0], a) < std::tie(above[1], at[1], b);
     };
     std::nth_element(begin, this->Order.begin() + cut, end, isBefore);
