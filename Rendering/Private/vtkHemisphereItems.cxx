@@ -273,5 +273,7 @@ bool vtkHemisphereItems::DrawPoints(const std::vector<Eye>& eyes,
   this->Items->Deactivate();
   this->Engine->ReleaseTextures();
   state->vtkglDisable(GL_BLEND);
+  // A bunch of work at a time: a GPU may draw a screen as well.
+  glFlush();
   return true;
 }

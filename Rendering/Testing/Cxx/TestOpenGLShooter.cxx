@@ -160,7 +160,7 @@ void TestBands()
     std::iota(emission.begin(), emission.end(), 1.0);
     AddArray(room, "Emission", emission);
     AddArray(room, "Reflectance", { 0.3 });
-    auto radiosity = MakeSolver(room, 1e-2);
+    auto radiosity = MakeSolver(room, 0.5);
     radiosity->Update();
     const Vector found = GetCells(radiosity, "Radiosity");
     for (std::size_t k = 0; k < found.size(); ++k)
