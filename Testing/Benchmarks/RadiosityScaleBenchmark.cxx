@@ -37,6 +37,10 @@
 #include <numeric>
 #include <sstream>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 using namespace LightTransportTesting;
 using namespace ViewFactorBenchmark;
 
@@ -105,7 +109,7 @@ struct Measurement
 {
   Setting How{};
   double Patches = 0.0;
-  Outcome Result = FAILED;
+  Outcome Result = LEFT_OUT;
   double Assembly = Unknown;
   double Links = Unknown;
   double PatchLinks = Unknown;
@@ -258,9 +262,13 @@ double GetSeconds()
 }
 
 //------------------------------------------------------------------------------
-/// Where the system lets a process do that: the most resident memory is then counted from now on.
+/// Where the system lets a process do that: the most resident memory is then counted from now on,
+/// without what the C library has kept of what was freed.
 void ResetPeakMemory()
 {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
@@ -514,6 +522,20 @@ Values SortValues(const vtkPatchScene& scene, const Values& values)
 }
 
 //------------------------------------------------------------------------------
+/// Before it is measured.
+Measurement Describe(vtkPolyData* mesh, const Setting& setting)
+{
+  Measurement row;
+  row.How = setting;
+  row.Patches = static_cast<double>(mesh->GetNumberOfCells());
+  if (setting.Tolerance == 0.0)
+  {
+    row.AllBytes = vtkExchangeMatrix::GetEstimatedBytes(mesh->GetNumberOfCells(), 1);
+  }
+  return row;
+}
+
+//------------------------------------------------------------------------------
 /**
  * One run from a mesh to arrays, and products with its links. Brightness goes the way of
  * vtkRadiosity::RefineByBrightness, which gives its links to nobody else: coarse links and their
@@ -522,10 +544,7 @@ Values SortValues(const vtkPatchScene& scene, const Values& values)
 Measurement Measure(vtkPolyData* mesh, const vtkPatchScene& scene, const Setting& setting,
   double limit)
 {
-  Measurement row;
-  row.How = setting;
-  row.Patches = static_cast<double>(mesh->GetNumberOfCells());
-  row.AllBytes = vtkExchangeMatrix::GetEstimatedBytes(mesh->GetNumberOfCells(), 1);
+  Measurement row = Describe(mesh, setting);
   const auto factors = MakeViewFactors(setting);
   const auto coarseFactors =
     MakeViewFactors({ CoarseLinks * setting.Tolerance, setting.Closure, false });
@@ -694,7 +713,7 @@ void PrintHead()
 //------------------------------------------------------------------------------
 void PrintRow(const Measurement& row)
 {
-  static const char* const notes[] = { "", "  stopped", "  matrix left out", "  failed" };
+  static const char* const notes[] = { "", "  stopped", "  left out", "  failed" };
   std::cout << std::setw(7) << FormatValue(row.Patches, 0) << FormatSetting(row.How);
   for (const Column& column : GetColumns())
   {
@@ -801,11 +820,7 @@ private:
   void RunDense(vtkPolyData* mesh, const vtkPatchScene& scene)
   {
     const Setting dense{ 0.0, false, false };
-    Measurement row;
-    row.How = dense;
-    row.Patches = static_cast<double>(mesh->GetNumberOfCells());
-    row.AllBytes = vtkExchangeMatrix::GetEstimatedBytes(mesh->GetNumberOfCells(), 1);
-    row.Result = LEFT_OUT;
+    Measurement row = Describe(mesh, dense);
     if (row.Patches <= this->Settings.DenseLimit && !this->WasStopped(dense))
     {
       row = Measure(mesh, scene, dense, this->Settings.Seconds);
@@ -823,14 +838,10 @@ private:
   void RunLinks(vtkPolyData* mesh, const vtkPatchScene& scene, const Setting& setting,
     std::size_t first)
   {
-    Measurement row;
-    row.How = setting;
-    row.Patches = static_cast<double>(mesh->GetNumberOfCells());
-    row.Result = LEFT_OUT;
+    Measurement row = Describe(mesh, setting);
     if (!this->WasStopped(setting))
     {
       row = Measure(mesh, scene, setting, this->Settings.Seconds);
-      row.AllBytes = Unknown;
     }
     if (row.Result == MEASURED && this->Rows[first].Result == MEASURED)
     {
@@ -980,7 +991,8 @@ private:
         {
           const bool isKnown = !std::isnan(matrix->*value);
           const double other = isKnown ? matrix->*value : Fit(dense, value)(row.Patches);
-          std::cout << std::setw(11) << FormatValue(other / row.*value, 3) << (isKnown ? " " : "*");
+          std::cout << std::setw(11) << FormatValue(other / row.*value, 3)
+                    << (isKnown || std::isnan(other) ? " " : "*");
         }
         std::cout << std::setw(11) << FormatValue(matrix->AllBytes / row.Bytes, 3) << "\n";
       }
