@@ -36,8 +36,10 @@ constexpr double DoublePrecision = 1e-14;
 // More patches than this are linked by clusters unless asked for otherwise: a matrix takes about
 // half a minute from here on.
 constexpr vtkIdType MostDensePatches = 8192;
-// How much coarser the links are that show where light is.
+// How much coarser the links are that show where light is, and how coarse at most: enough for a
+// solution to exist.
 constexpr double CoarseLinks = 4.0;
+constexpr double CoarsestLinks = 0.1;
 
 // The stages of a run as fractions of its progress.
 constexpr double CoarseDone = 0.3;
@@ -235,7 +237,11 @@ bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
   const bool isBright = this->RefineByBrightness && !this->ViewFactors &&
     this->IsHierarchical(scene.GetNumberOfPatches());
   this->SetProgressStage(0.0, isBright ? CoarseDone : ViewFactorsDone);
-  viewFactors = this->UpdateViewFactors(scene, problem, isBright ? CoarseLinks : 1.0);
+  // Of a background the first links tell all: those for the light that there is know no row sums.
+  const bool isCoarse = isBright && !problem.Materials.HasBackground();
+  const double coarse = std::min(CoarseLinks * this->LinkTolerance, CoarsestLinks);
+  viewFactors = this->UpdateViewFactors(scene, problem,
+    isCoarse ? std::max(coarse, this->LinkTolerance) : this->LinkTolerance);
   if (!viewFactors)
   {
     return false;
@@ -258,9 +264,8 @@ bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
 }
 
 //------------------------------------------------------------------------------
-// `coarseness` multiplies the tolerance of hierarchical links.
 vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene,
-  const Problem& problem, double coarseness)
+  const Problem& problem, double linkTolerance)
 {
   vtkSmartPointer<vtkViewFactors> viewFactors = this->ViewFactors;
   const std::vector<bool> senders = problem.Materials.FindSenders();
@@ -270,9 +275,12 @@ vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const vtkPatchSc
     viewFactors = this->InternalViewFactors;
     viewFactors->SetController(this->Controller);
     viewFactors->SetTolerance(this->ViewFactorTolerance);
-    viewFactors->SetEnforceClosure(this->EnforceClosure);
-    viewFactors->SetHierarchical(this->IsHierarchical(scene.GetNumberOfPatches()));
-    viewFactors->SetLinkTolerance(coarseness * this->LinkTolerance);
+    const bool isHierarchical = this->IsHierarchical(scene.GetNumberOfPatches());
+    // Rows of coarse links would return more than they get.
+    viewFactors->SetEnforceClosure(
+      this->EnforceClosure || (isHierarchical && this->RefineByBrightness));
+    viewFactors->SetHierarchical(isHierarchical);
+    viewFactors->SetLinkTolerance(linkTolerance);
   }
   const auto progress = [this](double done) { return this->ReportProgress(done); };
   return viewFactors->UpdateExchange(scene, progress, needsAll ? nullptr : &senders) ? viewFactors
@@ -293,7 +301,7 @@ vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const vtkPatchSc
   }
   vtkNew<vtkViewFactors> viewFactors;
   viewFactors->SetController(this->Controller);
-  viewFactors->SetEnforceClosure(this->EnforceClosure);
+  viewFactors->EnforceClosureOn();
   viewFactors->HierarchicalOn();
   viewFactors->SetLinkTolerance(this->LinkTolerance);
   viewFactors->SetBrightness(brightness);

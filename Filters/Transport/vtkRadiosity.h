@@ -200,9 +200,10 @@ public:
   ///@{
   /**
    * Refine hierarchical links where light is: for the radiosity of a first, coarse solution (links
-   * of four times LinkTolerance, which are kept) instead of one that is the same everywhere. Fewer
-   * links for the same error where little of the scene sends most of the light, but they serve
-   * this one distribution of light and are never kept. Default off.
+   * of four times LinkTolerance, 0.1 at most, or with a background LinkTolerance, which are kept)
+   * instead of one that is the same everywhere. Fewer links for the same error where little of the
+   * scene sends most of the light, but they serve this one distribution of light and are never
+   * kept. Rows are closed as with EnforceClosure: for what is dark links are coarse. Default off.
    */
   vtkSetMacro(RefineByBrightness, bool);
   vtkGetMacro(RefineByBrightness, bool);
@@ -267,7 +268,7 @@ private:
   bool LinkAndSolve(const vtkPatchScene& scene, vtkSmartPointer<vtkViewFactors>& viewFactors,
     Problem& problem, vtkTable* convergence);
   vtkSmartPointer<vtkViewFactors> UpdateViewFactors(const vtkPatchScene& scene,
-    const Problem& problem, double coarseness);
+    const Problem& problem, double linkTolerance);
   vtkSmartPointer<vtkViewFactors> UpdateBrightLinks(const vtkPatchScene& scene,
     const Problem& problem);
   static void AddBackground(const vtkViewFactors* viewFactors, Problem& problem);
