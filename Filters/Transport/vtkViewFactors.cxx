@@ -231,7 +231,8 @@ bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunc
          "on more machines (each holds a part).");
   }
   return outcome == vtkLinkRefinement::DONE && this->StoreLinks(scene, refinement) &&
-    this->FindOpenings(scene, true) && (!this->EnforceClosure || this->CloseRows({}));
+    this->FindOpenings(scene, true) &&
+    (this->EnforceClosure ? this->CloseRows({}) : this->LimitRows());
 }
 
 //------------------------------------------------------------------------------
@@ -459,6 +460,20 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
   vtkTransportThreads::For(0, patches, 64, openings);
   result.Summaries.emplace_back("RaysCast", std::accumulate(rays.begin(), rays.end(), 0.0));
   return true;
+}
+
+//------------------------------------------------------------------------------
+// Coarse links may give a small patch more than there is, and with that an equation without a
+// solution.
+bool vtkViewFactors::LimitRows()
+{
+  vtkViewFactorsResult& result = *this->Result;
+  const auto overfull = std::count_if(result.RowSums.begin(), result.RowSums.end(),
+    [](double sum) { return sum > 1.0; });
+  result.Summaries.emplace_back("OverfullRows", static_cast<double>(overfull));
+  vtkViewFactorClosure::Report report;
+  return vtkViewFactorClosure::Scale(result, std::vector<bool>(result.RowSums.size(), false),
+    this->Controller, report);
 }
 
 //------------------------------------------------------------------------------

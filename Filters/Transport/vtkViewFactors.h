@@ -100,8 +100,9 @@ public:
    * samples that decide which links there are. Single patches may be off by more. Default 1e-2,
    * range 1e-5 to 1. With EnforceClosure the weights of the patches in closed rows are scaled.
    * Field data are then PairsExamined, PairsBackFacing and PairsUnobstructed (pairs of clusters),
-   * RaysCast, NumberOfLinks, NumberOfPatchLinks (of which between two patches), LinkError (the
-   * estimate), MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
+   * OverfullRows (how many were scaled down), LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of
+   * which between two patches), LinkError (the estimate), MatrixBytes, DenseMatrixBytes and
+   * ViewFactorSeconds.
    */
   vtkSetMacro(Hierarchical, bool);
   vtkGetMacro(Hierarchical, bool);
@@ -185,6 +186,7 @@ private:
   void Summarize(const vtkViewFactorAssembly& assembly);
   bool SumRows();
   bool FindOpenings(const vtkPatchScene& scene, bool areRowsWhole);
+  bool LimitRows();
   bool CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs);
 
   double Tolerance = 1e-4;

@@ -28,6 +28,8 @@ constexpr double WorthAWarning = 0.1;
 constexpr double Meaningless = 1.0;
 // Row sums that no error of an integral explains, but patches that overlap.
 constexpr double OverfullRow = 1.01;
+// What rounding and closing leave of a row sum.
+constexpr double MostRounding = 1e-6;
 
 //------------------------------------------------------------------------------
 // A patch in a band: where something is wrong.
@@ -129,7 +131,11 @@ void CheckViewFactors(const vtkRadiosityProblem& problem, const Place& place, do
        << problem.RowSumError << ": ";
   const char* const remedy = " Switch EnforceClosure on, lower ViewFactorTolerance, "
                              "LinkTolerance or the reflectance.";
-  if (effect >= Meaningless)
+  // Where no row sums to more than 1, light cannot grow: doubtful, but a solution.
+  const auto& sums = *problem.RowSums;
+  const bool mayGrow =
+    !sums.empty() && *std::max_element(sums.begin(), sums.end()) > 1.0 + MostRounding;
+  if (effect >= Meaningless && mayGrow)
   {
     text << "the radiosity equation has no unique solution within that error." << remedy;
     bound.Error = text.str();

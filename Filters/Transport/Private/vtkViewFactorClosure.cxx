@@ -395,8 +395,8 @@ bool vtkViewFactorClosure::Scale(vtkViewFactorsResult& result, const std::vector
     {
       sums[row] /= areas[row];
       // A row without links stays one.
-      const bool scales = closed[row] && sums[row] > 0.0;
-      report.Gap = std::max(report.Gap, closed[row] ? std::abs(1.0 - sums[row]) : 0.0);
+      const bool scales = (closed[row] && sums[row] > 0.0) || sums[row] > 1.0;
+      report.Gap = std::max(report.Gap, closed[row] || scales ? std::abs(1.0 - sums[row]) : 0.0);
       weights[row] *= scales ? 1.0 / std::sqrt(sums[row]) : 1.0;
     }
     if (report.Gap <= ScaledGap || step == MaximumScalings)

@@ -39,7 +39,8 @@ VTKLIGHTTRANSPORTFILTERS_EXPORT bool Close(vtkViewFactorsResult& result,
 
 /**
  * For links between clusters (Result.Hierarchy): scale the weights of the patches until the closed
- * rows sum to 1 (symmetric scaling: Sinkhorn and Knopp 1967). RowSums follow. Collective.
+ * rows sum to 1, and others to no more (symmetric scaling: Sinkhorn and Knopp 1967). RowSums
+ * follow. Collective.
  */
 bool Scale(vtkViewFactorsResult& result, const std::vector<bool>& closed,
   vtkMultiProcessController* controller, Report& report);
