@@ -299,6 +299,20 @@ vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const vtkPatchSc
     brightness[k / bands] =
       std::max(brightness[k / bands], std::abs(problem.Solution.Radiosity[k]));
   }
+  // Nothing counts as so dark that row sums, which rows are closed by, are less well known than to
+  // the coarse tolerance.
+  const std::vector<double>& areas = scene.GetAreas();
+  double squared = 0.0;
+  for (std::size_t patch = 0; patch < areas.size(); ++patch)
+  {
+    squared += areas[patch] * brightness[patch] * brightness[patch];
+  }
+  const double darkest =
+    std::sqrt(squared / std::accumulate(areas.begin(), areas.end(), 0.0)) / CoarseLinks;
+  for (double& value : brightness)
+  {
+    value = std::max(value, darkest);
+  }
   vtkNew<vtkViewFactors> viewFactors;
   viewFactors->SetController(this->Controller);
   viewFactors->EnforceClosureOn();

@@ -203,7 +203,7 @@ public:
    * of four times LinkTolerance, 0.1 at most, or with a background LinkTolerance, which are kept)
    * instead of one that is the same everywhere. Fewer links for the same error where little of the
    * scene sends most of the light, but they serve this one distribution of light and are never
-   * kept. Rows are closed as with EnforceClosure: for what is dark links are coarse. Default off.
+   * kept. What is dark is linked coarsely, so rows are closed as with EnforceClosure. Default off.
    */
   vtkSetMacro(RefineByBrightness, bool);
   vtkGetMacro(RefineByBrightness, bool);
