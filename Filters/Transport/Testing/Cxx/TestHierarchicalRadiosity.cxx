@@ -216,7 +216,7 @@ void TestBrightness()
     Check(brightError < 0.6 * tolerance && evenError < 0.6 * tolerance, "radiosity" + what);
     // At this tolerance against the one before.
     Check(tolerance == 3e-2 ||
-        (brightError < 0.5 * coarseError && bright.Get("NumberOfLinks") < 0.8 * coarseLinks),
+        (brightError < 0.5 * coarseError && bright.Get("NumberOfLinks") < 0.85 * coarseLinks),
       "fewer links for the same error");
     coarseError = evenError;
     coarseLinks = even.Get("NumberOfLinks");

@@ -434,7 +434,7 @@ void TestOpenScene(vtkPolyData* data)
   }
   Check(numberOpen > sky.size() / 2 && numberOpen < sky.size() - 50, "open and closed rows");
   Check(worstClosed < 1e-12, "closed rows of an open scene sum to 1");
-  Check(worstOpen < 1e-2, "open rows keep their sums, about: " + std::to_string(worstOpen));
+  Check(worstOpen < 2e-2, "open rows keep their sums, about: " + std::to_string(worstOpen));
 }
 } // namespace
 
