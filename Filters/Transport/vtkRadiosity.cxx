@@ -89,7 +89,8 @@ struct vtkRadiosity::Problem
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
-  int Shots = 0; // of the solver that keeps no view factors
+  bool IsTrial = false; // only to know where light is: nothing to tell users
+  int Shots = 0;        // of the solver that keeps no view factors
 };
 
 //------------------------------------------------------------------------------
@@ -167,7 +168,7 @@ bool vtkRadiosity::ShootsOnDevice() const
 bool vtkRadiosity::CheckSolver()
 {
   const bool given = this->ViewFactors && !this->ShootsOnDevice();
-  const bool givenHierarchical = given && this->ViewFactors->GetHierarchical();
+  const bool givenHierarchical = given && this->ViewFactors->LinksClusters();
   if (given && this->LinkMethod != LINK_METHOD_AUTO &&
     givenHierarchical != (this->LinkMethod == LINK_METHOD_HIERARCHICAL))
   {
@@ -223,7 +224,7 @@ bool vtkRadiosity::IsHierarchical(vtkIdType patches) const
 {
   if (this->ViewFactors)
   {
-    return this->ViewFactors->GetHierarchical();
+    return this->ViewFactors->LinksClusters();
   }
   return this->LinkMethod == LINK_METHOD_HIERARCHICAL ||
     (this->LinkMethod == LINK_METHOD_AUTO && patches > MostDensePatches &&
@@ -253,12 +254,16 @@ bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
     return this->Solve(scene, viewFactors, problem, convergence);
   }
   this->SetProgressStage(CoarseDone, CoarseSolved);
-  if (!this->Solve(scene, viewFactors, problem, convergence))
+  problem.IsTrial = true;
+  const bool isBrightKnown = this->Solve(scene, viewFactors, problem, convergence);
+  problem.IsTrial = false;
+  if (problem.Solution.Status == vtkRadiosityStatus::Aborted)
   {
     return false;
   }
   this->SetProgressStage(CoarseSolved, ViewFactorsDone);
-  viewFactors = this->UpdateBrightLinks(scene, problem);
+  viewFactors = isBrightKnown ? this->UpdateBrightLinks(scene, problem)
+                              : this->UpdateViewFactors(scene, problem, this->LinkTolerance);
   this->SetProgressStage(ViewFactorsDone, SolverDone);
   return viewFactors && this->Solve(scene, viewFactors, problem, convergence);
 }
@@ -276,9 +281,7 @@ vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const vtkPatchSc
     viewFactors->SetController(this->Controller);
     viewFactors->SetTolerance(this->ViewFactorTolerance);
     const bool isHierarchical = this->IsHierarchical(scene.GetNumberOfPatches());
-    // Rows of coarse links would return more than they get.
-    viewFactors->SetEnforceClosure(
-      this->EnforceClosure || (isHierarchical && this->RefineByBrightness));
+    viewFactors->SetEnforceClosure(this->EnforceClosure);
     viewFactors->SetHierarchical(isHierarchical);
     viewFactors->SetLinkTolerance(linkTolerance);
   }
@@ -315,7 +318,6 @@ vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const vtkPatchSc
   }
   vtkNew<vtkViewFactors> viewFactors;
   viewFactors->SetController(this->Controller);
-  viewFactors->EnforceClosureOn();
   viewFactors->HierarchicalOn();
   viewFactors->SetLinkTolerance(this->LinkTolerance);
   viewFactors->SetBrightness(brightness);
@@ -461,6 +463,10 @@ void vtkRadiosity::RecordConvergence(vtkRadiosityProblem& equation, vtkTable* co
 bool vtkRadiosity::CheckSolution(const Problem& problem)
 {
   const vtkRadiositySolution& solution = problem.Solution;
+  if (problem.IsTrial)
+  {
+    return solution.Error.empty() && solution.Status != vtkRadiosityStatus::Aborted;
+  }
   if (!solution.Error.empty())
   {
     const char* hint = problem.Materials.HasGivenFluxes()

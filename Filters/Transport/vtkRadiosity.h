@@ -203,7 +203,7 @@ public:
    * of four times LinkTolerance, 0.1 at most, or with a background LinkTolerance, which are kept)
    * instead of one that is the same everywhere. Fewer links for the same error where little of the
    * scene sends most of the light, but they serve this one distribution of light and are never
-   * kept. What is dark is linked coarsely, so rows are closed as with EnforceClosure. Default off.
+   * kept. Default off.
    */
   vtkSetMacro(RefineByBrightness, bool);
   vtkGetMacro(RefineByBrightness, bool);
@@ -223,7 +223,8 @@ public:
   ///@{
   /**
    * Tolerance and closure of the filter's own view factors (see vtkViewFactors); they are not used
-   * when SetViewFactors gave others. Defaults 1e-4 and off.
+   * when SetViewFactors gave others. Hierarchical links have LinkTolerance instead, and always
+   * close rows. Defaults 1e-4 and off.
    */
   vtkSetClampMacro(ViewFactorTolerance, double, 1e-12, 0.1);
   vtkGetMacro(ViewFactorTolerance, double);

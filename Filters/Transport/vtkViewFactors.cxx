@@ -37,6 +37,8 @@ namespace
 // Rays per patch that tell sky from back faces; more where none of them finds either.
 constexpr int OpeningRays = 128;
 constexpr int MostOpeningRays = 4096;
+// Rays per patch that sees an opening where nothing else tells how large it is.
+constexpr int SamplingRays = 512;
 // Patches that tell whether a scene has openings at all.
 constexpr vtkIdType PatchesThatLook = 2000;
 // Work between two looks at progress and abort: units of 64 x 64 pairs, and partly visible pairs.
@@ -140,7 +142,7 @@ bool vtkViewFactors::IsUpToDate(const vtkPatchScene& scene, const std::vector<bo
   if (!exchange || this->Result->Fingerprint != scene.GetFingerprint() ||
     (this->Result->Hierarchy != nullptr) != this->Hierarchical ||
     this->Result->Tolerance != (this->Hierarchical ? this->LinkTolerance : this->Tolerance) ||
-    this->HasClosedRows() != this->EnforceClosure ||
+    (!this->Hierarchical && this->HasClosedRows() != this->EnforceClosure) ||
     exchange->GetNumberOfParts() != this->GetNumberOfRanks())
   {
     return false;
@@ -214,11 +216,12 @@ bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunc
     return false;
   }
   vtkLinkRefinement refinement(scene, caster);
-  if (!this->Brightness.empty())
+  if (this->Brightness.size() == scene.GetAreas().size())
   {
     refinement.SetBrightness(this->Brightness);
   }
-  refinement.SetClosesRows(this->EnforceClosure && !HasOpenings(scene, caster));
+  const bool hasOpenings = HasOpenings(scene, caster);
+  refinement.SetClosesRows(!hasOpenings);
   const double available = MemoryForLinks * vtkTransportMemory::GetAvailableBytes();
   const vtkLinkRefinement::Outcome outcome = refinement.Refine(this->LinkTolerance, available,
     this->Controller, [&](double done) { return progress(RefineDone * done); });
@@ -231,8 +234,7 @@ bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunc
          "on more machines (each holds a part).");
   }
   return outcome == vtkLinkRefinement::DONE && this->StoreLinks(scene, refinement) &&
-    this->FindOpenings(scene, true) &&
-    (this->EnforceClosure ? this->CloseRows({}) : this->LimitRows());
+    this->FindOpenings(scene, hasOpenings) && this->CloseRows({});
 }
 
 //------------------------------------------------------------------------------
@@ -259,7 +261,8 @@ bool vtkViewFactors::StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinem
     { "LinkRaysCast", count.Rays }, { "LinkError", refinement.GetErrorEstimate() },
     { "MatrixBytes", result.Hierarchy->GetNumberOfBytes() },
     { "DenseMatrixBytes", vtkExchangeMatrix::GetEstimatedBytes(scene.GetNumberOfPatches(), 1) } };
-  result.RowErrors.assign(scene.GetNumberOfPatches(), refinement.GetErrorEstimate());
+  result.RowErrors.assign(scene.GetNumberOfPatches(),
+    refinement.GetErrorEstimate() + vtkLinkRefinement::OpenTolerance + SinglePrecision);
   const bool summed = this->SumRows();
   result.RawRowSums = result.RowSums;
   return summed;
@@ -400,8 +403,9 @@ struct Openings
   {
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
+      const bool samples = this->Result.Hierarchy != nullptr;
       const double missing = 1.0 - this->Result.RowSums[patch];
-      if (missing <= this->Result.RowErrors[patch])
+      if (!samples && missing <= this->Result.RowErrors[patch])
       {
         continue;
       }
@@ -411,7 +415,10 @@ struct Openings
       int sky = 0;
       int back = 0;
       int ray = 0;
-      for (; ray < OpeningRays || (sky + back == 0 && ray < MostOpeningRays); ++ray)
+      for (; ray < OpeningRays ||
+           (samples ? sky + back > 0 && ray < SamplingRays
+                    : sky + back == 0 && ray < MostOpeningRays);
+           ++ray)
       {
         bool front = false;
         const vtkIdType hit = this->Caster.FindHit(sampler.GetPoint(polygon, ray, 0),
@@ -420,11 +427,13 @@ struct Openings
         back += hit >= 0 && !front ? 1 : 0;
       }
       this->Rays[patch] = ray;
-      // Rays only tell how the missing part divides; how much is missing the row sum knows better.
+      // How much is missing the row sum of a matrix knows better than rays, and that of links
+      // between clusters worse.
+      const double open = samples ? static_cast<double>(sky + back) / ray : missing;
       if (sky + back > 0)
       {
-        this->Result.SkyFractions[patch] = missing * sky / (sky + back);
-        this->Result.BackFaceFractions[patch] = missing * back / (sky + back);
+        this->Result.SkyFractions[patch] = open * sky / (sky + back);
+        this->Result.BackFaceFractions[patch] = open * back / (sky + back);
       }
     }
   }
@@ -445,7 +454,7 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
   bool isOpen = false;
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
-    isOpen = isOpen || 1.0 - result.RowSums[patch] > result.RowErrors[patch];
+    isOpen = isOpen || result.Hierarchy || 1.0 - result.RowSums[patch] > result.RowErrors[patch];
   }
   vtkSceneRayCaster caster;
   std::string error;
@@ -460,20 +469,6 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
   vtkTransportThreads::For(0, patches, 64, openings);
   result.Summaries.emplace_back("RaysCast", std::accumulate(rays.begin(), rays.end(), 0.0));
   return true;
-}
-
-//------------------------------------------------------------------------------
-// Coarse links may give a small patch more than there is, and with that an equation without a
-// solution.
-bool vtkViewFactors::LimitRows()
-{
-  vtkViewFactorsResult& result = *this->Result;
-  const auto overfull = std::count_if(result.RowSums.begin(), result.RowSums.end(),
-    [](double sum) { return sum > 1.0; });
-  result.Summaries.emplace_back("OverfullRows", static_cast<double>(overfull));
-  vtkViewFactorClosure::Report report;
-  return vtkViewFactorClosure::Scale(result, std::vector<bool>(result.RowSums.size(), false),
-    this->Controller, report);
 }
 
 //------------------------------------------------------------------------------
@@ -522,6 +517,7 @@ vtkExchange* vtkViewFactors::GetExchange()
 //------------------------------------------------------------------------------
 void vtkViewFactors::SetBrightness(const std::vector<double>& brightness)
 {
+  *this->Result = vtkViewFactorsResult();
   this->Brightness = brightness;
   this->Modified();
 }

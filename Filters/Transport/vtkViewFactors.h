@@ -94,15 +94,23 @@ public:
   ///@{
   /**
    * Links between clusters of patches (vtkExchangeHierarchy) instead of a matrix: their number
-   * hardly grows with that of the patches, and Tolerance has no effect. Default off. LinkTolerance
-   * bounds the error of the irradiance that they give (root mean square over the surface, relative
-   * to the radiosity) for a radiosity that is the same everywhere; it is an estimate from the
-   * samples that decide which links there are. Single patches may be off by more. Default 1e-2,
-   * range 1e-5 to 1. With EnforceClosure the weights of the patches in closed rows are scaled.
-   * Field data are then PairsExamined, PairsBackFacing and PairsUnobstructed (pairs of clusters),
-   * OverfullRows (how many were scaled down), LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of
-   * which between two patches), LinkError (the estimate), MatrixBytes, DenseMatrixBytes and
-   * ViewFactorSeconds.
+   * grows with that of the patches, not with its square, and Tolerance has no effect. Default off.
+   * LinkTolerance (default 1e-2, range 1e-5 to 1) bounds the error of the irradiance that they
+   * give: its root mean square over the surface, relative to the radiosity, for a radiosity that is
+   * the same everywhere. It is an estimate from the samples that decide which links there are;
+   * single patches may be off by much more.
+   *
+   * Rows that sum to more than 1 are scaled down to 1, and rows that see no opening to 1, whether
+   * EnforceClosure is on or not (by weights of the patches: the links stay symmetric). Light that
+   * is reflected often would add up the errors of rows, and closing takes away most of what links
+   * leave out: in a scene without openings there are fewer of them, and LinkTolerance then bounds
+   * the error of the radiosity in a room lit by a lamp. "ViewFactorSum" is the sum before.
+   *
+   * Field data are PairsExamined, PairsBackFacing and PairsUnobstructed (pairs of clusters),
+   * LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of which between two patches), LinkError (the
+   * estimate), ClosureChange (largest change of a row sum), ClosureGap, MatrixBytes,
+   * DenseMatrixBytes and ViewFactorSeconds. "SkyFraction" and "BackFaceFraction" come from 512 rays
+   * a patch.
    */
   vtkSetMacro(Hierarchical, bool);
   vtkGetMacro(Hierarchical, bool);
@@ -110,6 +118,9 @@ public:
   vtkSetClampMacro(LinkTolerance, double, 1e-5, 1.0);
   vtkGetMacro(LinkTolerance, double);
   ///@}
+
+  /// Whether updates give links between clusters: Hierarchical, and nothing was loaded.
+  bool LinksClusters() const { return this->Hierarchical && this->LoadedFile.empty(); }
 
   ///@{
   /**
@@ -141,8 +152,8 @@ public:
   bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders = nullptr);
   /// For hierarchical links: a radiosity for each patch of the scene to refine them for, instead of
-  /// one that is the same everywhere; empty (default) for that. Takes effect where the next
-  /// UpdateExchange computes.
+  /// one that is the same everywhere; of any other size than the scene's for that (default). The
+  /// next UpdateExchange computes.
   void SetBrightness(const std::vector<double>& brightness);
   /// A vtkExchangeMatrix, or with Hierarchical a vtkExchangeHierarchy. Rows are in the order of the
   /// scene's patches, not of the input's polygons.
@@ -186,7 +197,6 @@ private:
   void Summarize(const vtkViewFactorAssembly& assembly);
   bool SumRows();
   bool FindOpenings(const vtkPatchScene& scene, bool areRowsWhole);
-  bool LimitRows();
   bool CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs);
 
   double Tolerance = 1e-4;

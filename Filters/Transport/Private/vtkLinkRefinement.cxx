@@ -23,8 +23,6 @@ namespace
 using Vector = vtkPatchScene::Vector;
 
 constexpr double Pi = 3.14159265358979323846;
-// Of the exchange of two patches with nothing in between, per row.
-constexpr double OpenTolerance = 1e-3;
 // Units of work are the pairs of nodes with this part of the patches each.
 constexpr double UnitsAcross = 64.0;
 constexpr vtkIdType UnitsPerBatch = 32;
@@ -49,7 +47,7 @@ constexpr double SquareParts = 0x1.0p50;
 // The first threshold, as a part of the squared error that is allowed; how fast it falls, and the
 // power of it that the error is taken for.
 constexpr double FirstThreshold = 1.0 / 64.0;
-constexpr double FastestFall = 1.0 / 256.0;
+constexpr double FastestFall = 1.0 / 64.0;
 constexpr double SlowestFall = 0.9;
 constexpr double UsualPower = 0.4;
 constexpr double SmallestPower = 0.33;
@@ -610,7 +608,7 @@ vtkLinkRefinement::Outcome vtkLinkRefinement::RunPass(double threshold, double a
       this->Links.insert(this->Links.end(), result.Links.begin(), result.Links.end());
       this->Total.Add(result.Count);
     }
-    const double bytes = static_cast<double>(this->Links.size()) * sizeof(this->Links[0]) +
+    const double bytes = 2.0 * static_cast<double>(this->Links.size()) * sizeof(this->Links[0]) +
       vtkExchangeHierarchy::GetEstimatedBytes(static_cast<double>(this->Links.size()));
     std::string error;
     if (!vtkPatchScene::Agree(controller, bytes <= availableBytes, error))

@@ -58,6 +58,9 @@ public:
     void Add(const Counters& other);
   };
 
+  /// Of the exchange of two patches with nothing in between: sum of the errors of a row.
+  static constexpr double OpenTolerance = 1e-4;
+
   enum Outcome
   {
     DONE,

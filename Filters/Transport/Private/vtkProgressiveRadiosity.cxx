@@ -63,8 +63,9 @@ bool IsOver(const std::vector<double>& unshot, const std::vector<double>& reflec
   {
     const double rho = reflectances[band];
     const double gain = rho < 1.0 ? 1.0 / (1.0 - rho) : std::numeric_limits<double>::infinity();
-    const double bound = unshot[band] > 0.0 ? gain * unshot[band] : 0.0;
-    solution.ErrorBound = std::max(solution.ErrorBound, bound);
+    // Written so that a NaN does not pass for an answer.
+    const double bound = unshot[band] == 0.0 ? 0.0 : gain * unshot[band];
+    solution.ErrorBound = bound <= solution.ErrorBound ? solution.ErrorBound : bound;
     converged = converged && bound <= problem.Tolerance * sources[band];
     exhausted = exhausted && unshot[band] <= SinglePrecision * sources[band];
   }
@@ -117,6 +118,12 @@ vtkRadiositySolution Solve(vtkDeviceShooter* shooter, const vtkPatchScene& scene
     const vtkIdType shots = shooter->Shoot(std::min(ShotsPerReport, left));
     good = shots >= 0 && shooter->GetLargestUnshot(unshot.data());
     solution.NumberOfIterations += static_cast<int>(shots);
+    if (shots == 0)
+    {
+      // What is left has no power that single precision could tell.
+      solution.Status = vtkRadiosityStatus::Stagnated;
+      break;
+    }
   }
   irradiance.resize(problem.Emission.size());
   solution.Radiosity = problem.Emission;

@@ -30,6 +30,8 @@ constexpr double Meaningless = 1.0;
 constexpr double OverfullRow = 1.01;
 // What rounding and closing leave of a row sum.
 constexpr double MostRounding = 1e-6;
+// Errors of row sums from which on a mirror may be open as well as closed.
+constexpr double WellKnown = 1e-3;
 
 //------------------------------------------------------------------------------
 // A patch in a band: where something is wrong.
@@ -120,7 +122,8 @@ void CheckViewFactors(const vtkRadiosityProblem& problem, const Place& place, do
   {
     return;
   }
-  if (effect >= Meaningless && place.Reflectance >= FullReflectance)
+  if (effect >= Meaningless && place.Reflectance >= FullReflectance &&
+    problem.RowSumError <= WellKnown)
   {
     bound.Error = ExplainNoSolution(problem, place);
     return;

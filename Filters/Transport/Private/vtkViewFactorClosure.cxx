@@ -14,12 +14,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace
 {
 // Row sums of scaled links, and how often they are scaled.
 constexpr double ScaledGap = 1e-13;
 constexpr int MaximumScalings = 300;
+// A step that gains less has no better one after it: these rows cannot all be closed.
+constexpr double SlowestGain = 0.999;
 
 using Array = Eigen::ArrayXd;
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
@@ -387,6 +390,7 @@ bool vtkViewFactorClosure::Scale(vtkViewFactorsResult& result, const std::vector
   std::vector<double> sums(areas.size(), 1.0);
   bool good = links->Initialize(hierarchy, 1) && links->SetVector(0, sums.data());
   std::vector<double> weights = hierarchy->GetWeights();
+  double last = std::numeric_limits<double>::max();
   for (int step = 0; good && step <= MaximumScalings; ++step)
   {
     good = links->Multiply(1, 0) && links->GetVector(1, sums.data());
@@ -396,13 +400,14 @@ bool vtkViewFactorClosure::Scale(vtkViewFactorsResult& result, const std::vector
       sums[row] /= areas[row];
       // A row without links stays one.
       const bool scales = (closed[row] && sums[row] > 0.0) || sums[row] > 1.0;
-      report.Gap = std::max(report.Gap, closed[row] || scales ? std::abs(1.0 - sums[row]) : 0.0);
+      report.Gap = std::max(report.Gap, scales ? std::abs(1.0 - sums[row]) : 0.0);
       weights[row] *= scales ? 1.0 / std::sqrt(sums[row]) : 1.0;
     }
-    if (report.Gap <= ScaledGap || step == MaximumScalings)
+    if (report.Gap <= ScaledGap || step == MaximumScalings || report.Gap > SlowestGain * last)
     {
       break;
     }
+    last = report.Gap;
     hierarchy->SetWeights(weights);
   }
   for (std::size_t row = 0; row < areas.size(); ++row)
