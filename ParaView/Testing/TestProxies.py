@@ -12,7 +12,8 @@ from paraview import servermanager
 from vtkmodules import vtkRenderingCore
 
 # What cannot be, or need not be, a property of a proxy.
-WITHOUT_PROPERTY = {"Controller", "ViewFactors", "Environment", "EnvironmentSamples"}
+WITHOUT_PROPERTY = {
+    "Brightness", "Controller", "Environment", "EnvironmentSamples", "ViewFactors"}
 FILTERS = ("vtkPatchMesher", "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity",
            "vtkSubsurfaceScattering")
 LIGHTS = ("NoLight", "DirectionalLight", "PointLight", "SpotLight")

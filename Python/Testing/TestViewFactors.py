@@ -201,7 +201,8 @@ class TestViewFactors(unittest.TestCase):
         self.assertGreater(max(abs(total - 1.0) for total in sums), 1e-5)
         matrix = get_matrix(closed)
         self.check_close([sum(row) for row in matrix], [1.0] * len(matrix), 1e-6)
-        self.assertGreaterEqual(min(map(min, matrix)), 0.0)
+        # The diagonal holds what single precision has rounded away.
+        self.assertGreaterEqual(min(map(min, matrix)), -1e-7)
         # Faces of the room and of the block differ in area.
         areas = [1 / 9] * 54 + [0.3 * size / 4 for size in (0.4,) * 8 + (0.3,) * 8 + (0.4,) * 8]
         for i, row in enumerate(matrix):
@@ -287,7 +288,7 @@ class TestViewFactors(unittest.TestCase):
                 (good[:-100], ("cut short", "Compute the view factors again", "another copy")),
                 (good + b"x", ("behind its end", "Compute the view factors again")),
                 (flipped, ("Compute the view factors again", "another copy")),
-                (good.replace(b"factors 1", b"factors 9"), ("not version 1", "Compute"))):
+                (good.replace(b"factors 2", b"factors 9"), ("not version 2", "Compute"))):
             if content is not None:
                 with open(self.path("bad.factors"), "wb") as stream:
                     stream.write(content)
