@@ -57,8 +57,9 @@ constexpr double Aim = 0.98;
 // The smallest part of the threshold that a cluster's links get.
 constexpr double SmallestShare = 1.0 / 64.0;
 constexpr int MaximumPasses = 24;
-// A pass that finds hardly more links than the one before is the last.
+// Passes after each other that find hardly more links: there are no more.
 constexpr double LeastGrowth = 1.01;
+constexpr int MostStalls = 3;
 
 //------------------------------------------------------------------------------
 // Random numbers from a key: splitmix64 (Steele, Lea and Flood 2014).
@@ -552,6 +553,7 @@ vtkLinkRefinement::Outcome vtkLinkRefinement::Refine(double tolerance, double av
   ThresholdSearch search(tolerance,
     FirstThreshold * tolerance * tolerance * this->SquaredBrightness);
   double links = 0.0;
+  int stalls = 0;
   for (int pass = 0; pass < MaximumPasses; ++pass)
   {
     // How many passes there will be is not known: each gets half of what is left.
@@ -564,8 +566,8 @@ vtkLinkRefinement::Outcome vtkLinkRefinement::Refine(double tolerance, double av
     }
     this->Assess();
     // Pairs of patches are not divided any further.
-    const bool isFinest = this->Total.Links <= LeastGrowth * links;
-    if (isFinest || search.IsReached(this->ErrorEstimate))
+    stalls = this->Total.Links <= LeastGrowth * links ? stalls + 1 : 0;
+    if (stalls == MostStalls || search.IsReached(this->ErrorEstimate))
     {
       break;
     }
