@@ -5,6 +5,7 @@
  * vtkHierarchicalLinkOperator, for random trees and links that take one texture or many; what is
  * read back; operators that change from one form of links to the other; windows that go; errors.
  */
+#include "CornellBoxTesting.h"
 #include "vtkHierarchicalLinkOperator.h"
 #include "vtkOpenGLLinkOperator.h"
 
@@ -12,7 +13,9 @@
 #include "vtkExchangeMatrix.h"
 #include "vtkNew.h"
 #include "vtkOffScreenOpenGLRenderWindow.h"
+#include "vtkRadiosity.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 #include "vtkTestErrorObserver.h"
 
 #include <algorithm>
@@ -358,6 +361,48 @@ bool TestErrors()
   return Check(!device->Initialize(part, 1), "a part of a hierarchy is taken") &&
     observer->CheckErrorMessage("parts") == 0 && good;
 }
+
+//------------------------------------------------------------------------------
+// The filter on either device: single precision is corrected, so they agree to the tolerance.
+bool TestRadiosity()
+{
+  vtkNew<vtkRadiosity> filters[2];
+  for (vtkRadiosity* filter : { filters[0].Get(), filters[1].Get() })
+  {
+    filter->SetInputData(LightTransportTesting::MakeCornellBox(120.0));
+    filter->SetLinkMethodToHierarchical();
+    filter->SetLinkTolerance(3e-2);
+    filter->SetTolerance(1e-8);
+  }
+  filters[0]->SetDeviceToCPU();
+  filters[1]->SetDeviceToOpenGL();
+  vtkDataArray* values[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    filters[k]->Update();
+    values[k] = filters[k]->GetPolyDataOutput()->GetCellData()->GetArray("Radiosity");
+    if (!Check(values[k] != nullptr, "no radiosity"))
+    {
+      return false;
+    }
+  }
+  double difference = 0.0;
+  double largest = 0.0;
+  for (vtkIdType cell = 0; cell < values[0]->GetNumberOfTuples(); ++cell)
+  {
+    for (int band = 0; band < values[0]->GetNumberOfComponents(); ++band)
+    {
+      const double value = values[0]->GetComponent(cell, band);
+      largest = std::max(largest, value);
+      difference = std::max(difference, std::abs(value - values[1]->GetComponent(cell, band)));
+    }
+  }
+  auto* used = vtkStringArray::SafeDownCast(
+    filters[1]->GetPolyDataOutput()->GetFieldData()->GetAbstractArray("DeviceUsed"));
+  return Check(used && used->GetValue(0).find("OpenGL") == 0, "the device is OpenGL") &&
+    Check(difference <= 2e-8 * largest,
+      "devices differ by " + std::to_string(difference / largest));
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -381,5 +426,6 @@ int TestOpenGLHierarchicalLinks(int, char*[])
   good = TestBytesRead() && good;
   good = TestWindowsAndForms() && good;
   good = TestErrors() && good;
+  good = TestRadiosity() && good;
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
