@@ -56,6 +56,36 @@ constexpr double SinglePrecision = 6e-8;
 namespace
 {
 //------------------------------------------------------------------------------
+// The rays of a patch that meet no front.
+class Lookout
+{
+public:
+  Lookout(const vtkPatchScene& scene, const vtkSceneRayCaster& caster, vtkIdType patch)
+    : Caster(caster), Patch(patch), Sampler(static_cast<std::uint64_t>(patch))
+  {
+    vtkPolygonExchange::MakePolygon(scene, patch, this->Polygon);
+  }
+
+  void Cast(int ray)
+  {
+    bool front = false;
+    const vtkIdType hit = this->Caster.FindHit(this->Sampler.GetPoint(this->Polygon, ray, 0),
+      this->Sampler.GetDirection(this->Polygon.Normal, ray, 2), this->Patch, front);
+    this->Sky += hit < 0 ? 1 : 0;
+    this->Back += hit >= 0 && !front ? 1 : 0;
+  }
+
+  int Sky = 0;
+  int Back = 0;
+
+private:
+  const vtkSceneRayCaster& Caster;
+  vtkIdType Patch;
+  vtkPatchSampler Sampler;
+  vtkPolygonExchange::Polygon Polygon;
+};
+
+//------------------------------------------------------------------------------
 // Whether any of many rays from all over the scene meets no front.
 bool HasOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
 {
@@ -63,18 +93,14 @@ bool HasOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
   const vtkIdType step = std::max<vtkIdType>(patches / PatchesThatLook, 1);
   for (vtkIdType patch = 0; patch < patches; patch += step)
   {
-    const vtkPatchSampler sampler(static_cast<std::uint64_t>(patch));
-    vtkPolygonExchange::Polygon polygon;
-    vtkPolygonExchange::MakePolygon(scene, patch, polygon);
+    Lookout lookout(scene, caster, patch);
     for (int ray = 0; ray < OpeningRays; ++ray)
     {
-      bool front = false;
-      const vtkIdType hit = caster.FindHit(sampler.GetPoint(polygon, ray, 0),
-        sampler.GetDirection(polygon.Normal, ray, 2), patch, front);
-      if (hit < 0 || !front)
-      {
-        return true;
-      }
+      lookout.Cast(ray);
+    }
+    if (lookout.Sky + lookout.Back > 0)
+    {
+      return true;
     }
   }
   return false;
@@ -409,22 +435,16 @@ struct Openings
       {
         continue;
       }
-      const vtkPatchSampler sampler(static_cast<std::uint64_t>(patch));
-      vtkPolygonExchange::Polygon polygon;
-      vtkPolygonExchange::MakePolygon(this->Scene, patch, polygon);
-      int sky = 0;
-      int back = 0;
+      Lookout lookout(this->Scene, this->Caster, patch);
+      const int& sky = lookout.Sky;
+      const int& back = lookout.Back;
       int ray = 0;
       for (; ray < OpeningRays ||
            (samples ? sky + back > 0 && ray < SamplingRays
                     : sky + back == 0 && ray < MostOpeningRays);
            ++ray)
       {
-        bool front = false;
-        const vtkIdType hit = this->Caster.FindHit(sampler.GetPoint(polygon, ray, 0),
-          sampler.GetDirection(polygon.Normal, ray, 2), patch, front);
-        sky += hit < 0 ? 1 : 0;
-        back += hit >= 0 && !front ? 1 : 0;
+        lookout.Cast(ray);
       }
       this->Rays[patch] = ray;
       // How much is missing the row sum of a matrix knows better than rays, and that of links
