@@ -259,8 +259,16 @@ bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunc
       << " of memory that are free for them: raise LinkTolerance, use fewer patches or processes "
          "on more machines (each holds a part).");
   }
-  return outcome == vtkLinkRefinement::DONE && this->StoreLinks(scene, refinement) &&
-    this->FindOpenings(scene, hasOpenings) && this->CloseRows({});
+  if (outcome != vtkLinkRefinement::DONE || !this->StoreLinks(scene, refinement))
+  {
+    return false;
+  }
+  this->ClearOpenings();
+  if (hasOpenings)
+  {
+    this->CastForOpenings(scene, caster);
+  }
+  return this->CloseRows({});
 }
 
 //------------------------------------------------------------------------------
@@ -461,12 +469,19 @@ struct Openings
 } // namespace
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
+void vtkViewFactors::ClearOpenings()
 {
   vtkViewFactorsResult& result = *this->Result;
+  result.SkyFractions.assign(result.RowSums.size(), 0.0);
+  result.BackFaceFractions.assign(result.RowSums.size(), 0.0);
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
+{
+  const vtkViewFactorsResult& result = *this->Result;
   const vtkIdType patches = scene.GetNumberOfPatches();
-  result.SkyFractions.assign(patches, 0.0);
-  result.BackFaceFractions.assign(patches, 0.0);
+  this->ClearOpenings();
   if (!areRowsWhole)
   {
     return true;
@@ -474,7 +489,7 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
   bool isOpen = false;
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
-    isOpen = isOpen || result.Hierarchy || 1.0 - result.RowSums[patch] > result.RowErrors[patch];
+    isOpen = isOpen || 1.0 - result.RowSums[patch] > result.RowErrors[patch];
   }
   vtkSceneRayCaster caster;
   std::string error;
@@ -484,11 +499,18 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
     vtkErrorMacro(<< error);
     return false;
   }
-  std::vector<int> rays(patches, 0);
-  Openings openings{ scene, caster, result, rays };
-  vtkTransportThreads::For(0, patches, 64, openings);
-  result.Summaries.emplace_back("RaysCast", std::accumulate(rays.begin(), rays.end(), 0.0));
+  this->CastForOpenings(scene, caster);
   return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkViewFactors::CastForOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
+{
+  vtkViewFactorsResult& result = *this->Result;
+  std::vector<int> rays(scene.GetNumberOfPatches(), 0);
+  Openings openings{ scene, caster, result, rays };
+  vtkTransportThreads::For(0, scene.GetNumberOfPatches(), 64, openings);
+  result.Summaries.emplace_back("RaysCast", std::accumulate(rays.begin(), rays.end(), 0.0));
 }
 
 //------------------------------------------------------------------------------

@@ -56,6 +56,7 @@
 class vtkExchange;
 class vtkLinkRefinement;
 class vtkPatchScene;
+class vtkSceneRayCaster;
 class vtkTable;
 class vtkViewFactorAssembly;
 struct vtkPartlyVisiblePair;
@@ -196,7 +197,9 @@ private:
   vtkIdType GetMostOfAllRanks(vtkIdType count) const;
   void Summarize(const vtkViewFactorAssembly& assembly);
   bool SumRows();
+  void ClearOpenings();
   bool FindOpenings(const vtkPatchScene& scene, bool areRowsWhole);
+  void CastForOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster);
   bool CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs);
 
   double Tolerance = 1e-4;
