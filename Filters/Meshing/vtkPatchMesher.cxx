@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPatchMesher.h"
 
+#include "vtkMeshingRun.h"
 #include "vtkPatchSources.h"
 #include "vtkSurfaceRemesher.h"
 #include "vtkTriangleSoup.h"
@@ -32,7 +33,6 @@
 #include <map>
 #include <new>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,69 +41,19 @@ vtkStandardNewMacro(vtkPatchMesher);
 
 namespace
 {
+using vtkMeshingRun::Aborted;
+using vtkMeshingRun::InputError;
+using vtkMeshingRun::IsAborted;
+using vtkMeshingRun::Report;
+
 const char* const DEFAULT_REGION_ARRAY = "Region";
 constexpr double MAXIMUM_NUMBER_OF_TRIANGLES = 2e7;
-
-// A problem with the input: what it is and what to do about it.
-class InputError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
-
-struct Aborted
-{
-};
-
-//------------------------------------------------------------------------------
-// VTK before 9.2 has no CheckAbort().
-template <typename Algorithm>
-auto IsAborted(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
-{
-  return algorithm->CheckAbort();
-}
-template <typename Algorithm>
-bool IsAborted(Algorithm* algorithm, long)
-{
-  return algorithm->GetAbortExecute() != 0;
-}
-
-//------------------------------------------------------------------------------
-void Report(vtkAlgorithm* algorithm, double progress)
-{
-  algorithm->UpdateProgress(progress);
-  if (IsAborted(algorithm, 0))
-  {
-    throw Aborted();
-  }
-}
 
 //------------------------------------------------------------------------------
 bool IsOneOfSeveralPieces(vtkInformation* output)
 {
   vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
   return output->Has(pieces) && output->Get(pieces) > 1;
-}
-
-//------------------------------------------------------------------------------
-void CheckInput(vtkPolyData* input)
-{
-  if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
-  {
-    throw InputError(input->GetNumberOfCells() == 0
-        ? "The input has no cells: give a surface made of polygons."
-        : "The input has no polygons, only vertices or lines: give a surface made of polygons.");
-  }
-  double point[3];
-  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
-  {
-    input->GetPoint(i, point);
-    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
-    {
-      throw InputError("The coordinates of point " + std::to_string(i) +
-        " are not finite: remove the points whose coordinates are NaN or infinite.");
-    }
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -388,7 +338,6 @@ std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
 void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
   vtkPolyData* output)
 {
-  CheckInput(input);
   if (!(this->TargetEdgeLength >= 0.0) || !std::isfinite(this->TargetEdgeLength))
   {
     throw InputError("TargetEdgeLength is " + std::to_string(this->TargetEdgeLength) +

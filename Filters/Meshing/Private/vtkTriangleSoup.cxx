@@ -9,6 +9,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
+#include "vtkMeshingRun.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -21,6 +22,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -176,6 +178,27 @@ struct OrientationRecord : public PMP::Default_orientation_visitor
 };
 
 //------------------------------------------------------------------------------
+void CheckInput(vtkPolyData* input)
+{
+  if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
+  {
+    throw vtkMeshingRun::InputError(input->GetNumberOfCells() == 0
+        ? "The input has no cells: give a surface made of polygons."
+        : "The input has no polygons, only vertices or lines: give a surface made of polygons.");
+  }
+  double point[3];
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    input->GetPoint(i, point);
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+    {
+      throw vtkMeshingRun::InputError("The coordinates of point " + std::to_string(i) +
+        " are not finite: remove the points whose coordinates are NaN or infinite.");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // Disjoint sets of indices.
 class Components
 {
@@ -203,6 +226,7 @@ private:
 //------------------------------------------------------------------------------
 void vtkTriangleSoup::Read(vtkPolyData* input)
 {
+  CheckInput(input);
   SoupReader reader(input, *this);
   const vtkIdType firstPolygon = input->GetNumberOfVerts() + input->GetNumberOfLines();
   reader.ReadPolygons(firstPolygon);

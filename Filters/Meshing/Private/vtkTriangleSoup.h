@@ -35,7 +35,8 @@ public:
 
   /**
    * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
-   * equal coordinates.
+   * equal coordinates. Throws vtkMeshingRun::InputError when there are no polygons or coordinates
+   * are not finite.
    */
   void Read(vtkPolyData* input);
 
