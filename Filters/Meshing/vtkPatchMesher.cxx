@@ -43,7 +43,6 @@ namespace
 {
 using vtkMeshingRun::Aborted;
 using vtkMeshingRun::InputError;
-using vtkMeshingRun::IsAborted;
 using vtkMeshingRun::Report;
 
 const char* const DEFAULT_REGION_ARRAY = "Region";
@@ -374,7 +373,7 @@ void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCe
   const auto monitor = [this](double fraction)
   {
     this->UpdateProgress(0.15 + 0.65 * fraction);
-    return !IsAborted(this, 0);
+    return !vtkAbortCheck::IsAborted(this);
   };
   if (!remesher.Remesh(length, this->NumberOfIterations, monitor))
   {

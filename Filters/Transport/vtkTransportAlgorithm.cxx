@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
+#include "vtkAbortCheck.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
@@ -27,20 +28,6 @@ namespace
 {
 // Seconds from which on a user wants to know how long it takes.
 constexpr double LongTime = 2.0;
-
-//------------------------------------------------------------------------------
-// vtkAlgorithm::CheckAbort appeared after VTK 9.2; before it there is the flag alone.
-template <typename Algorithm>
-auto IsAborted(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
-{
-  return algorithm->CheckAbort();
-}
-
-template <typename Algorithm>
-bool IsAborted(Algorithm* algorithm, long)
-{
-  return algorithm->GetAbortExecute() != 0;
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -139,7 +126,7 @@ bool vtkTransportAlgorithm::ReportProgress(double fraction)
   const double done = this->StageBegin + within * (this->StageEnd - this->StageBegin);
   this->SetTimeLeft(done);
   this->UpdateProgress(done);
-  int aborted = IsAborted(this, 0) ? 1 : 0;
+  int aborted = vtkAbortCheck::IsAborted(this) ? 1 : 0;
   if (this->GetNumberOfRanks() > 1)
   {
     // One rank that leaves alone would let the others wait for it for ever.

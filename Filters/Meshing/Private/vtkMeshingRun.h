@@ -5,6 +5,7 @@
 #ifndef vtkMeshingRun_h
 #define vtkMeshingRun_h
 
+#include "vtkAbortCheck.h"
 #include "vtkAlgorithm.h"
 
 #include <stdexcept>
@@ -24,24 +25,11 @@ struct Aborted
 };
 
 //------------------------------------------------------------------------------
-// VTK before 9.2 has no CheckAbort().
-template <typename Algorithm>
-auto IsAborted(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
-{
-  return algorithm->CheckAbort();
-}
-template <typename Algorithm>
-bool IsAborted(Algorithm* algorithm, long)
-{
-  return algorithm->GetAbortExecute() != 0;
-}
-
-//------------------------------------------------------------------------------
 /// Tell the observers of the filter, on its own thread, and throw when one of them aborts it.
 inline void Report(vtkAlgorithm* algorithm, double progress)
 {
   algorithm->UpdateProgress(progress);
-  if (IsAborted(algorithm, 0))
+  if (vtkAbortCheck::IsAborted(algorithm))
   {
     throw Aborted();
   }

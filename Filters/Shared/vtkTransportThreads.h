@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Threads for the whole module, in one place. Debian's ParaView leaves vtkSMPTools sequential
+ * Threads for all filters, in one place. Debian's ParaView leaves vtkSMPTools sequential
  * unless told otherwise; where nobody told it (no VTK_SMP_BACKEND_IN_USE), the STDThread backend is
  * used within a local scope, so that the host's choice for everything else stays as it is.
  */
