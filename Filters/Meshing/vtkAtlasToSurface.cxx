@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkAtlasToSurface.h"
+
+#include "vtkMeshingRun.h"
+#include "vtkTexelMaps.h"
+#include "vtkTexelPieces.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <new>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkAtlasToSurface);
+
+namespace
+{
+using vtkMeshingRun::Aborted;
+using vtkMeshingRun::InputError;
+using vtkMeshingRun::Report;
+
+//------------------------------------------------------------------------------
+int GetResolution(vtkImageData* image)
+{
+  std::array<int, 3> size;
+  image->GetDimensions(size.data());
+  if (image->GetNumberOfPoints() == 0)
+  {
+    throw InputError("The image has no points: give it one point per texel.");
+  }
+  if (size[0] != size[1] || size[2] != 1)
+  {
+    throw InputError("The image has " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
+      " x " + std::to_string(size[2]) +
+      " points: it must be square and have one layer, with one point per texel of the atlas.");
+  }
+  return size[0];
+}
+
+// Weighted means of the texels of one array.
+class Means
+{
+public:
+  Means(vtkDataArray* texels, vtkDataSetAttributes* data, vtkIdType size)
+    : Texels(texels), Components(texels->GetNumberOfComponents())
+  {
+    this->Array->SetName(texels->GetName());
+    this->Array->SetNumberOfComponents(this->Components);
+    this->Array->CopyComponentNames(texels);
+    this->Array->SetNumberOfTuples(size);
+    this->Array->Fill(0.0);
+    data->AddArray(this->Array);
+  }
+
+  // `share` is the part that the texel has in all that is known of the mean. Moving the mean by
+  // that part of the difference leaves a constant exactly as it is.
+  void Add(vtkIdType id, vtkIdType texel, double share)
+  {
+    double* mean = this->Array->GetPointer(id * this->Components);
+    for (int i = 0; i < this->Components; ++i)
+    {
+      mean[i] += share * (this->Texels->GetComponent(texel, i) - mean[i]);
+    }
+  }
+
+private:
+  vtkDataArray* Texels;
+  int Components;
+  vtkNew<vtkDoubleArray> Array;
+};
+
+//------------------------------------------------------------------------------
+std::vector<vtkDataArray*> GetArrays(vtkImageData* image)
+{
+  std::vector<vtkDataArray*> arrays;
+  for (int i = 0; i < image->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = image->GetPointData()->GetArray(i);
+    if (array && array->GetName() && !vtkTexelMaps::IsTexelMap(array->GetName()) &&
+      std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) != 0)
+    {
+      arrays.push_back(array);
+    }
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface)
+{
+  std::vector<Means> ofCells;
+  std::vector<Means> ofPoints;
+  for (vtkDataArray* array : GetArrays(image))
+  {
+    ofCells.emplace_back(array, surface->GetCellData(), surface->GetNumberOfCells());
+    ofPoints.emplace_back(array, surface->GetPointData(), surface->GetNumberOfPoints());
+  }
+  std::vector<double> weightOfPoint(surface->GetNumberOfPoints(), 0.0);
+  vtkNew<vtkIdList> ids;
+  vtkIdType cell = -1;
+  double area = 0.0;
+  vtkTexelPieces::Visit(surface, resolution,
+    [&](const vtkTexelPieces::Piece& piece)
+    {
+      area = piece.Cell == cell ? area + piece.Area : piece.Area;
+      cell = piece.Cell;
+      for (Means& means : ofCells)
+      {
+        means.Add(cell, piece.Texel, piece.Area / area);
+      }
+      vtkIdType size;
+      const vtkIdType* corners;
+      surface->GetPolys()->GetCellAtId(cell, size, corners, ids);
+      for (int i = 0; i < 3; ++i)
+      {
+        // Never nothing, so that a point among triangles without area has a value, too.
+        const double weight =
+          std::max(piece.Weights[i] * piece.Area, std::numeric_limits<double>::min());
+        weightOfPoint[corners[i]] += weight;
+        for (Means& means : ofPoints)
+        {
+          means.Add(corners[i], piece.Texel, weight / weightOfPoint[corners[i]]);
+        }
+      }
+    });
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkAtlasToSurface::vtkAtlasToSurface()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkAtlasToSurface::~vtkAtlasToSurface() = default;
+
+//------------------------------------------------------------------------------
+void vtkAtlasToSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+
+//------------------------------------------------------------------------------
+int vtkAtlasToSurface::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkAtlasToSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
+  vtkInformationVector*)
+{
+  // A piece of the surface may have its texels anywhere in the image.
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* image = inputs[1]->GetInformationObject(0);
+  if (image->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    image->Set(Pipeline::UPDATE_EXTENT(), image->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputs);
+  std::string error;
+  try
+  {
+    vtkImageData* image = vtkImageData::GetData(inputs[1]);
+    output->ShallowCopy(vtkPolyData::GetData(inputs[0]));
+    const int resolution = GetResolution(image);
+    vtkTexelPieces::Check(output, resolution);
+    Report(this, 0.1);
+    Transfer(image, resolution, output);
+    Report(this, 1.0);
+    return 1;
+  }
+  catch (const Aborted&)
+  {
+    output->Initialize();
+    return 1;
+  }
+  catch (const InputError& problem)
+  {
+    error = problem.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "Not enough memory: give an image with fewer arrays.";
+  }
+  catch (const std::exception& problem)
+  {
+    error = "The texels could not be brought to the surface: " + std::string(problem.what());
+  }
+  output->Initialize();
+  vtkErrorMacro(<< error);
+  return 0;
+}

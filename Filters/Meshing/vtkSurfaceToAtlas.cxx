@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSurfaceToAtlas.h"
+
+#include "vtkMeshingRun.h"
+#include "vtkTexelMaps.h"
+#include "vtkTexelPieces.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <exception>
+#include <new>
+#include <set>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkSurfaceToAtlas);
+
+namespace
+{
+using vtkMeshingRun::Aborted;
+using vtkMeshingRun::InputError;
+using vtkMeshingRun::Report;
+
+//------------------------------------------------------------------------------
+// 0 when neither the property nor the surface says it.
+int ChooseResolution(int wanted, vtkPolyData* surface)
+{
+  if (wanted != 0 || !surface)
+  {
+    return wanted;
+  }
+  vtkDataArray* made = surface->GetFieldData()->GetArray("AtlasResolution");
+  const bool known = made && made->GetNumberOfValues() == 1;
+  return known ? static_cast<int>(made->GetComponent(0, 0)) : 0;
+}
+
+//------------------------------------------------------------------------------
+// Whether a mean of the array's values says anything.
+bool HasMeans(vtkDataSetAttributes* data, int index)
+{
+  static const std::set<std::string> skipped = { "AtlasCoordinates", "OriginalCellIds",
+    "OriginalPointIds", vtkDataSetAttributes::GhostArrayName() };
+  vtkDataArray* array = data->GetArray(index);
+  if (!array || !array->GetName())
+  {
+    return false;
+  }
+  const int attribute = data->IsArrayAnAttribute(index);
+  return (attribute < 0 || attribute == vtkDataSetAttributes::SCALARS ||
+           attribute == vtkDataSetAttributes::VECTORS ||
+           attribute == vtkDataSetAttributes::TENSORS) &&
+    !vtkTexelMaps::IsTexelMap(array->GetName()) && skipped.count(array->GetName()) == 0;
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkTexelMaps::Source> GetSources(vtkPolyData* surface)
+{
+  std::vector<vtkTexelMaps::Source> sources;
+  std::set<std::string> names;
+  const auto add = [&](vtkDataSetAttributes* data, bool ofPoints)
+  {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      if (HasMeans(data, i) && names.insert(data->GetArray(i)->GetName()).second)
+      {
+        sources.push_back({ data->GetArray(i), ofPoints });
+      }
+    }
+  };
+  add(surface->GetCellData(), false);
+  add(surface->GetPointData(), true);
+  return sources;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkSurfaceToAtlas::vtkSurfaceToAtlas() = default;
+
+//------------------------------------------------------------------------------
+vtkSurfaceToAtlas::~vtkSurfaceToAtlas() = default;
+
+//------------------------------------------------------------------------------
+void vtkSurfaceToAtlas::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Resolution: " << this->Resolution << "\n";
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceToAtlas::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceToAtlas::RequestInformation(vtkInformation*, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
+{
+  if (this->Resolution == 0)
+  {
+    // Filters of images need to know the extent before anything is computed.
+    int port;
+    vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port);
+    producer->Update(port);
+  }
+  const int resolution = ChooseResolution(this->Resolution, vtkPolyData::GetData(inputs[0]));
+  const double spacing = resolution > 0 ? 1.0 / resolution : 1.0;
+  vtkInformation* info = outputs->GetInformationObject(0);
+  const int extent[6] = { 0, resolution - 1, 0, resolution - 1, 0, 0 };
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  info->Set(vtkDataObject::SPACING(), spacing, spacing, spacing);
+  info->Set(vtkDataObject::ORIGIN(), 0.5 * spacing, 0.5 * spacing, 0.0);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceToAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
+{
+  vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
+  vtkImageData* maps = vtkImageData::GetData(outputs);
+  std::string error;
+  try
+  {
+    const int resolution = ChooseResolution(this->Resolution, surface);
+    if (resolution == 0)
+    {
+      throw InputError("The surface has no field data array \"AtlasResolution\" that says how many "
+                       "texels a side its atlas is made for: set Resolution.");
+    }
+    vtkTexelPieces::Check(surface, resolution);
+    Report(this, 0.1);
+    vtkTexelMaps::Make(surface, resolution, maps, GetSources(surface));
+    Report(this, 1.0);
+    return 1;
+  }
+  catch (const Aborted&)
+  {
+    maps->Initialize();
+    return 1;
+  }
+  catch (const InputError& problem)
+  {
+    error = problem.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "Not enough memory: set a smaller Resolution.";
+  }
+  catch (const std::exception& problem)
+  {
+    error = "The texel maps could not be made: " + std::string(problem.what());
+  }
+  maps->Initialize();
+  vtkErrorMacro(<< error);
+  return 0;
+}
