@@ -22,10 +22,16 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
+#include <ImfTiledInputPart.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <new>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -194,6 +200,109 @@ void TurnRows(vtkDataArray* array, vtkIdType height)
 }
 
 //------------------------------------------------------------------------------
+// The first part of a file, of lines or tiles, and its levels.
+class Image
+{
+public:
+  explicit Image(const char* fileName) : File(fileName)
+  {
+    const Imf::Header& header = this->GetHeader();
+    if (header.hasType() && header.type() == Imf::TILEDIMAGE)
+    {
+      this->Tiles.emplace(this->File, 0);
+    }
+    else
+    {
+      this->Lines.emplace(this->File, 0);
+    }
+  }
+
+  const Imf::Header& GetHeader() const { return this->File.header(0); }
+
+  int GetNumberOfLevels() const
+  {
+    return this->Tiles ? std::max(this->Tiles->numXLevels(), this->Tiles->numYLevels()) : 1;
+  }
+
+  Imath::Box2i GetWindow(int level) const
+  {
+    return this->Tiles
+      ? this->Tiles->dataWindowForLevel(this->GetXLevel(level), this->GetYLevel(level))
+      : this->GetHeader().dataWindow();
+  }
+
+  /// `advance` takes the fraction that is done and gives false to stop.
+  template <typename Advance>
+  void Read(int level, const Imf::FrameBuffer& target, Advance advance)
+  {
+    if (this->Tiles)
+    {
+      this->ReadTiles(this->GetXLevel(level), this->GetYLevel(level), target, advance);
+    }
+    else
+    {
+      this->ReadLines(target, advance);
+    }
+  }
+
+private:
+  // Of a ripmap those levels are taken that a mipmap would have.
+  int GetXLevel(int level) const { return std::min(level, this->Tiles->numXLevels() - 1); }
+  int GetYLevel(int level) const { return std::min(level, this->Tiles->numYLevels() - 1); }
+
+  template <typename Advance>
+  void ReadTiles(int xLevel, int yLevel, const Imf::FrameBuffer& target, Advance advance)
+  {
+    this->Tiles->setFrameBuffer(target);
+    const int rows = this->Tiles->numYTiles(yLevel);
+    const int last = this->Tiles->numXTiles(xLevel) - 1;
+    bool goOn = true;
+    for (int row = 0; row < rows && goOn; ++row)
+    {
+      this->Tiles->readTiles(0, last, row, row, xLevel, yLevel);
+      goOn = advance(static_cast<double>(row + 1) / rows);
+    }
+  }
+
+  template <typename Advance>
+  void ReadLines(const Imf::FrameBuffer& target, Advance advance)
+  {
+    this->Lines->setFrameBuffer(target);
+    const Imath::Box2i& window = this->GetHeader().dataWindow();
+    const int height = window.max.y - window.min.y + 1;
+    // DWAB, the tallest chunk, has 256 lines: no chunk is decoded twice.
+    constexpr int block = 256;
+    bool goOn = true;
+    for (int row = 0; row < height && goOn; row += block)
+    {
+      const int last = std::min(row + block, height) - 1;
+      this->Lines->readPixels(window.min.y + row, window.min.y + last);
+      goOn = advance(static_cast<double>(last + 1) / height);
+    }
+  }
+
+  Imf::MultiPartInputFile File;
+  std::optional<Imf::InputPart> Lines;
+  std::optional<Imf::TiledInputPart> Tiles;
+};
+
+//------------------------------------------------------------------------------
+std::array<int, 6> GetExtent(const Imath::Box2i& window)
+{
+  return { window.min.x, window.max.x, window.min.y, window.max.y, 0, 0 };
+}
+
+//------------------------------------------------------------------------------
+// Origin and spacing in one direction: a level of `count` texels covers what the `wholeCount` of
+// level 0 do, which lie at begin + offset, begin + 1 + offset and so on.
+void PlaceLevel(int begin, double wholeCount, double count, double offset, double& origin,
+  double& spacing)
+{
+  spacing = wholeCount / count;
+  origin = offset + begin - 0.5 + (0.5 - begin) * spacing;
+}
+
+//------------------------------------------------------------------------------
 void AddDisplayWindow(vtkImageData* output, const Imath::Box2i& window)
 {
   vtkNew<vtkIntArray> array;
@@ -201,6 +310,15 @@ void AddDisplayWindow(vtkImageData* output, const Imath::Box2i& window)
   array->SetNumberOfComponents(4);
   const int values[4] = { window.min.x, window.max.x, window.min.y, window.max.y };
   array->InsertNextTypedTuple(values);
+  output->GetFieldData()->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void AddNumber(vtkImageData* output, const char* name, int value)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
   output->GetFieldData()->AddArray(array);
 }
 } // namespace
@@ -262,30 +380,47 @@ int vtkOpenEXRReader::RequestInformation(vtkInformation*, vtkInformationVector**
   {
     output->Initialize();
   }
+  this->NumberOfLevels = 0;
   if (!this->CheckFile())
   {
     return 0;
   }
   try
   {
-    const Imf::InputFile file(this->FileName);
-    const Imath::Box2i& data = file.header().dataWindow();
-    const Imath::Box2i& display = file.header().displayWindow();
-    const std::vector<ArrayLayout> arrays = GroupChannels(file.header().channels());
-    const ArrayLayout& scalars = FindScalars(arrays);
-    const int extent[6] = { data.min.x, data.max.x, data.min.y, data.max.y, 0, 0 };
-    const double lift = (double(display.min.y) + display.max.y) - (double(data.min.y) + data.max.y);
-    const double origin[3] = { 0.0, lift, 0.0 };
-    const double spacing[3] = { 1.0, 1.0, 1.0 };
+    const Image image(this->FileName);
+    const Imf::Header& header = image.GetHeader();
+    const int levels = image.GetNumberOfLevels();
+    this->NumberOfLevels = levels;
+    if (this->Level >= levels)
+    {
+      return this->Fail(vtkErrorCode::UserError,
+        "level " + std::to_string(this->Level) + " is wanted, but the last one is level " +
+          std::to_string(levels - 1));
+    }
+    const Imath::Box2i& whole = header.dataWindow();
+    const Imath::Box2i& display = header.displayWindow();
+    const Imath::Box2i window = image.GetWindow(this->Level);
+    const double lift =
+      (double(display.min.y) + display.max.y) - (double(whole.min.y) + whole.max.y);
+    const std::array<int, 6> extent = GetExtent(window);
+    double origin[3] = { 0.0, 0.0, 0.0 };
+    double spacing[3] = { 1.0, 1.0, 1.0 };
+    PlaceLevel(whole.min.x, whole.size().x + 1.0, window.size().x + 1.0, 0.0, origin[0],
+      spacing[0]);
+    PlaceLevel(whole.min.y, whole.size().y + 1.0, window.size().y + 1.0, lift, origin[1],
+      spacing[1]);
     vtkInformation* info = outputs->GetInformationObject(0);
-    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
     info->Set(vtkDataObject::ORIGIN(), origin, 3);
     info->Set(vtkDataObject::SPACING(), spacing, 3);
-    const bool integers = FindType(file.header().channels(), scalars) == Imf::UINT;
+    const std::vector<ArrayLayout> arrays = GroupChannels(header.channels());
+    const ArrayLayout& scalars = FindScalars(arrays);
+    const bool integers = FindType(header.channels(), scalars) == Imf::UINT;
     this->DataScalarType = integers ? VTK_UNSIGNED_INT : VTK_FLOAT;
     this->NumberOfScalarComponents = static_cast<int>(scalars.Channels.size());
-    std::copy_n(extent, 6, this->DataExtent);
+    std::copy_n(extent.data(), 6, this->DataExtent);
     std::copy_n(origin, 3, this->DataOrigin);
+    std::copy_n(spacing, 3, this->DataSpacing);
     vtkDataObject::SetPointDataActiveScalarInfo(info, this->DataScalarType,
       this->NumberOfScalarComponents);
   }
@@ -294,6 +429,39 @@ int vtkOpenEXRReader::RequestInformation(vtkInformation*, vtkInformationVector**
     return this->Fail(vtkErrorCode::FileFormatError, exception.what());
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRReader::ReadLevel(vtkImageData* output)
+{
+  Image image(this->FileName);
+  const Imf::Header& header = image.GetHeader();
+  const Imath::Box2i window = image.GetWindow(this->Level);
+  const std::vector<ArrayLayout> layouts = GroupChannels(header.channels());
+  Imf::FrameBuffer target;
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  for (const ArrayLayout& layout : layouts)
+  {
+    arrays.push_back(MakeArray(layout, FindType(header.channels(), layout), window, target));
+  }
+  image.Read(this->Level, target,
+    [this](double done)
+    {
+      this->UpdateProgress(done);
+      return !this->AbortExecute;
+    });
+  output->SetExtent(GetExtent(window).data());
+  output->SetOrigin(this->DataOrigin);
+  output->SetSpacing(this->DataSpacing);
+  for (vtkDataArray* array : arrays)
+  {
+    TurnRows(array, vtkIdType(window.max.y) - window.min.y + 1);
+    output->GetPointData()->AddArray(array);
+  }
+  output->GetPointData()->SetActiveScalars(FindScalars(layouts).Name.c_str());
+  AddDisplayWindow(output, header.displayWindow());
+  AddNumber(output, "NumberOfLevels", image.GetNumberOfLevels());
+  AddNumber(output, "Level", this->Level);
 }
 
 //------------------------------------------------------------------------------
@@ -307,47 +475,25 @@ int vtkOpenEXRReader::RequestData(vtkInformation*, vtkInformationVector**,
   }
   try
   {
-    Imf::InputFile file(this->FileName);
-    const Imf::Header& header = file.header();
-    const Imath::Box2i& window = header.dataWindow();
-    const std::vector<ArrayLayout> layouts = GroupChannels(header.channels());
-    Imf::FrameBuffer target;
-    std::vector<vtkSmartPointer<vtkDataArray>> arrays;
-    for (const ArrayLayout& layout : layouts)
-    {
-      arrays.push_back(MakeArray(layout, FindType(header.channels(), layout), window, target));
-    }
-    file.setFrameBuffer(target);
-    const vtkIdType height = vtkIdType(window.max.y) - window.min.y + 1;
-    // DWAB, the tallest chunk, has 256 lines: no chunk is decoded twice.
-    constexpr vtkIdType block = 256;
-    for (vtkIdType row = 0; row < height && !this->AbortExecute; row += block)
-    {
-      const vtkIdType last = std::min(row + block, height) - 1;
-      file.readPixels(static_cast<int>(window.min.y + row), static_cast<int>(window.min.y + last));
-      this->UpdateProgress(static_cast<double>(last + 1) / static_cast<double>(height));
-    }
-    output->SetExtent(window.min.x, window.max.x, window.min.y, window.max.y, 0, 0);
-    output->SetOrigin(this->DataOrigin);
-    output->SetSpacing(1.0, 1.0, 1.0);
-    for (vtkDataArray* array : arrays)
-    {
-      TurnRows(array, height);
-      output->GetPointData()->AddArray(array);
-    }
-    output->GetPointData()->SetActiveScalars(FindScalars(layouts).Name.c_str());
-    AddDisplayWindow(output, header.displayWindow());
+    this->ReadLevel(output);
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->Fail(vtkErrorCode::UnknownError, "there is not enough memory for its pixels");
   }
   catch (const std::exception& exception)
   {
-    output->Initialize();
-    return this->Fail(vtkErrorCode::FileFormatError, exception.what());
+    this->Fail(vtkErrorCode::FileFormatError, exception.what());
   }
-  return 1;
+  output->Initialize();
+  return 0;
 }
 
 //------------------------------------------------------------------------------
 void vtkOpenEXRReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Level: " << this->Level << '\n';
+  os << indent << "NumberOfLevels: " << this->NumberOfLevels << '\n';
 }

@@ -26,10 +26,25 @@
  * different data windows in the same display window lie over each other; it is zero where both
  * windows are the same. Spacing is 1.
  *
+ * Of a tiled file with mip levels (or both kinds of ripmap levels: those of equal index in x and y)
+ * one is read, see Level. Its extent starts where that of level 0 does and has the level's size;
+ * origin and spacing are such that it covers the same area. All levels in Python:
+ *
+ *     reader.UpdateInformation()
+ *     for level in range(reader.GetNumberOfLevels()):
+ *         reader.SetLevel(level)
+ *         reader.Update()
+ *
+ * The field data arrays "NumberOfLevels" and "Level" (int) tell what the file has and what was
+ * read.
+ *
  * Of a file in several parts the first is read. Deep images and channels with subsampling are
- * refused. Sizes named in the header are checked against the length of the file before anything is
- * allocated for them; a file that is truncated, damaged, or not OpenEXR gives one error that names
- * the file and the fault.
+ * refused. A file that is truncated, unfinished, damaged, or not OpenEXR gives one error that names
+ * the file and the fault. Sizes named in the header are checked against the length of the file
+ * before anything is allocated for them: the pixels of level 0 may be as many times larger than the
+ * file's data as the compression can make of them at most (none 1, RLE 64, ZIPS and ZIP 1032, PIZ
+ * 454, PXR24 1376, B44 and B44A 11, DWAA and DWAB 66048), and one tile or block of lines may take
+ * 64 MiB, or four times what the whole level 0 takes.
  */
 #ifndef vtkOpenEXRReader_h
 #define vtkOpenEXRReader_h
@@ -38,6 +53,8 @@
 #include "vtkLightTransportIOModule.h" // for export macro
 
 #include <string> // for std::string
+
+class vtkImageData;
 
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRReader : public vtkImageReader2
 {
@@ -51,6 +68,17 @@ public:
 
   const char* GetFileExtensions() override { return ".exr"; }
   const char* GetDescriptiveName() override { return "OpenEXR"; }
+
+  ///@{
+  /// The mip level to read, from 0, the whole image, which is the default. One that the file does
+  /// not have gives an error.
+  vtkSetClampMacro(Level, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Level, int);
+  ///@}
+
+  /// The levels that the file has; 1 unless it is tiled. 0 before UpdateInformation() and of a
+  /// file that cannot be read.
+  vtkGetMacro(NumberOfLevels, int);
 
 protected:
   vtkOpenEXRReader();
@@ -67,6 +95,10 @@ private:
 
   bool Fail(unsigned long errorCode, const std::string& problem);
   bool CheckFile();
+  void ReadLevel(vtkImageData* output);
+
+  int Level = 0;
+  int NumberOfLevels = 0;
 };
 
 #endif

@@ -11,14 +11,25 @@
  * (three), with "name.A" (four), else "name.0", "name.1" and so on. vtkOpenEXRReader puts them
  * together again. Values are written as they are; no transfer curve and no scaling, whatever the
  * array's type. vtkUnsignedIntArrays become unsigned integer channels, all others half or float
- * (see PixelType).
+ * (see PixelType); arrays of other integers that half cannot hold exactly (above 2048) become
+ * float, and are refused where float cannot either (above 16777216).
  *
  * The data window is the extent; the display window is the field data array "DisplayWindow" (int,
  * xmin, xmax, ymin, ymax) if there is one, else the extent too. Origin and spacing are not written.
  * Rows are turned round: OpenEXR starts with the topmost.
  *
- * The file appears under its name when it is complete: after an error an older file of that name is
- * still there, and no new one.
+ * With MipLevels the file holds a pyramid, as a GPU would make it: the image is level 0, and each
+ * texel of a further level is the mean of the 2 x 2 (at a width or height of 1: two) texels below
+ * it. An array that is a density over a surface needs a WeightArray, the surface's area in each
+ * texel, for its mean to be that of the surface: sum of value times weight over sum of weight.
+ * Texels of weight 0 do not count; a texel over such alone takes their plain mean. The weights
+ * themselves are averaged plainly, so that value times weight is the plain mean of value times
+ * weight at every level. Arrays of an integer type hold ids, which have no mean: each texel takes
+ * the one at the lower left of those below it. Means are computed in double precision from level to
+ * level and rounded once.
+ *
+ * The file appears under its name when it is complete: after an error (also a full disk) or an
+ * abort an older file of that name is still there, and no new one.
  */
 #ifndef vtkOpenEXRWriter_h
 #define vtkOpenEXRWriter_h
@@ -92,6 +103,38 @@ public:
   void SetCompressionToDWAB() { this->SetCompression(COMPRESSION_DWAB); }
   ///@}
 
+  ///@{
+  /// Whether the pixels are stored in tiles, in place of lines. Default off. MipLevels implies it.
+  vtkSetMacro(Tiled, bool);
+  vtkGetMacro(Tiled, bool);
+  vtkBooleanMacro(Tiled, bool);
+  ///@}
+
+  ///@{
+  /// Width and height of a tile in pixels, at most the image's own. Default 64, range 1 to 4096.
+  vtkSetClampMacro(TileSize, int, 1, 4096);
+  vtkGetMacro(TileSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether all mip levels down to one texel are computed and written. Default off. Width and
+   * height must each be a power of two.
+   */
+  vtkSetMacro(MipLevels, bool);
+  vtkGetMacro(MipLevels, bool);
+  vtkBooleanMacro(MipLevels, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The point array (float or double, one component, finite, not negative) by which mip levels are
+   * weighted, such as "Area". Default none: plain means. Unused without MipLevels.
+   */
+  vtkSetStringMacro(WeightArray);
+  vtkGetStringMacro(WeightArray);
+  ///@}
+
 protected:
   vtkOpenEXRWriter();
   ~vtkOpenEXRWriter() override;
@@ -103,11 +146,17 @@ private:
   vtkOpenEXRWriter(const vtkOpenEXRWriter&) = delete;
   void operator=(const vtkOpenEXRWriter&) = delete;
 
+  void Fail(unsigned long errorCode, const std::string& problem);
   std::string FindProblem(vtkImageData* image);
+  bool WriteImage(vtkImageData* image, const std::string& fileName);
 
   char* FileName = nullptr;
   int PixelType = PIXEL_TYPE_FLOAT;
   int Compression = COMPRESSION_ZIP;
+  bool Tiled = false;
+  int TileSize = 64;
+  bool MipLevels = false;
+  char* WeightArray = nullptr;
 };
 
 #endif

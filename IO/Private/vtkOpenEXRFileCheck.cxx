@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenEXRFileCheck.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace vtkOpenEXRFileCheck
 {
@@ -40,13 +43,14 @@ public:
     this->Length = static_cast<std::int64_t>(length);
   }
 
-  std::int64_t GetRemaining() { return this->Length - static_cast<std::int64_t>(this->Position); }
+  std::int64_t GetLength() const { return this->Length; }
+  std::int64_t GetPosition() const { return this->Position; }
+  std::int64_t GetRemaining() const { return this->Length - this->Position; }
 
   void Skip(std::int64_t count)
   {
     this->Need(count);
-    this->Position += count;
-    this->Stream.seekg(this->Position);
+    this->Seek(this->Position + count);
   }
 
   std::uint8_t ReadByte()
@@ -66,6 +70,13 @@ public:
     return value;
   }
 
+  std::int64_t ReadLong()
+  {
+    const std::uint64_t low = this->ReadInt();
+    const std::uint64_t high = this->ReadInt();
+    return static_cast<std::int64_t>(high << 32 | low);
+  }
+
   std::string ReadName()
   {
     std::string name;
@@ -80,12 +91,30 @@ public:
     return name;
   }
 
+  std::string ReadText(std::int64_t size)
+  {
+    this->Need(size);
+    std::string text;
+    for (std::int64_t i = 0; i < size && text.size() <= LongestName; ++i)
+    {
+      text.push_back(static_cast<char>(this->ReadByte()));
+    }
+    return text;
+  }
+
+  void Seek(std::int64_t position)
+  {
+    this->Position = position;
+    this->Stream.seekg(position);
+  }
+
 private:
   void Need(std::int64_t count)
   {
     if (count > this->GetRemaining())
     {
-      throw Error{ Fault::Truncated, "the file is truncated: it ends within its header" };
+      throw Error{ Fault::Truncated,
+        "the file is truncated: it ends within its header or its table of offsets" };
     }
   }
 
@@ -95,30 +124,46 @@ private:
 };
 
 //------------------------------------------------------------------------------
+enum class LevelMode
+{
+  One,
+  Mipmap,
+  Ripmap
+};
+
 // What one header (one part of the file) promises.
 struct Part
 {
   bool HasChannels = false;
   bool HasWindow = false;
   bool HasTiles = false;
+  std::string Type;
+  std::string Subsampled;
   std::int64_t BytesPerPixel = 0;
   std::int64_t Width = 0;
   std::int64_t Height = 0;
   std::int64_t TileWidth = 0;
   std::int64_t TileHeight = 0;
+  LevelMode Levels = LevelMode::One;
+  bool RoundUp = false;
   int Compression = 0;
 };
 
-// Lines in one chunk, and how much smaller than its pixels a chunk may at most be (with a margin),
-// by OpenEXR's compression number.
+// Lines in one chunk, and how many times larger than a chunk its pixels can be at most, by
+// OpenEXR's compression number. A run of RLE turns 2 bytes into 128. Deflate turns 2 bits into 258
+// bytes. PIZ's Huffman code turns 9 bits into 255 values of 2 bytes. PXR24 deflates 3 of 4 bytes.
+// B44 has 3 bytes for 16 values of 2 bytes. DWA deflates runs, and for 64 values of 4 bytes two of
+// 2 bytes.
 struct CompressionLimits
 {
   int Lines;
   double Ratio;
 };
-constexpr std::array<CompressionLimits, 10> Limits = { { { 1, 1 }, { 1, 128 }, { 1, 2048 },
-  { 16, 2048 }, { 32, 2048 }, { 16, 2048 }, { 32, 64 }, { 32, 64 }, { 32, 262144 },
-  { 256, 262144 } } };
+constexpr std::array<CompressionLimits, 10> Limits = { { { 1, 1 }, { 1, 64 }, { 1, 1032 },
+  { 16, 1032 }, { 32, 454 }, { 16, 1376 }, { 32, 11 }, { 32, 11 }, { 32, 66048 },
+  { 256, 66048 } } };
+constexpr double AlwaysAllowedChunk = 1 << 26;
+constexpr double AllowedChunkRatio = 4.0;
 
 //------------------------------------------------------------------------------
 void ReadChannels(Input& input, Part& part)
@@ -136,8 +181,7 @@ void ReadChannels(Input& input, Part& part)
     const std::uint32_t ySampling = input.ReadInt();
     if (xSampling != 1 || ySampling != 1)
     {
-      throw Error{ Fault::Unsupported,
-        "channel \"" + name + "\" is subsampled; save the image with full-size channels" };
+      part.Subsampled = name;
     }
   }
   part.HasChannels = true;
@@ -166,7 +210,13 @@ void ReadTiles(Input& input, Part& part)
 {
   part.TileWidth = input.ReadInt();
   part.TileHeight = input.ReadInt();
-  input.Skip(1);
+  const int mode = input.ReadByte();
+  if (mode % 16 > static_cast<int>(LevelMode::Ripmap) || mode / 16 > 1)
+  {
+    throw Error{ Fault::Damaged, "the header has an unknown mode of levels" };
+  }
+  part.Levels = static_cast<LevelMode>(mode % 16);
+  part.RoundUp = mode / 16 == 1;
   part.HasTiles = true;
 }
 
@@ -201,6 +251,10 @@ bool ReadHeader(Input& input, Part& part)
     {
       part.Compression = input.ReadByte();
     }
+    else if (name == "type" && type == "string")
+    {
+      part.Type = input.ReadText(size);
+    }
     const std::int64_t rest = input.GetRemaining() - end;
     if (rest < 0)
     {
@@ -212,7 +266,52 @@ bool ReadHeader(Input& input, Part& part)
 }
 
 //------------------------------------------------------------------------------
-void CheckPart(const Part& part, bool tiled, std::int64_t remaining)
+// The tiles in one direction at each level.
+std::vector<double> CountTiles(std::int64_t size, std::int64_t levelsFor, std::int64_t tileSize,
+  bool roundUp)
+{
+  std::vector<double> counts;
+  std::int64_t divisor = 1;
+  for (bool last = false; !last; divisor *= 2)
+  {
+    const auto divide = [&](std::int64_t value) {
+      return std::max<std::int64_t>(roundUp ? (value + divisor - 1) / divisor : value / divisor, 1);
+    };
+    counts.push_back(static_cast<double>((divide(size) - 1) / tileSize + 1));
+    last = divide(levelsFor) == 1;
+  }
+  return counts;
+}
+
+//------------------------------------------------------------------------------
+double CountChunks(const Part& part, bool tiled)
+{
+  if (!tiled)
+  {
+    const std::int64_t lines = Limits[part.Compression].Lines;
+    return static_cast<double>((part.Height - 1) / lines + 1);
+  }
+  const std::int64_t larger = std::max(part.Width, part.Height);
+  const bool ripmap = part.Levels == LevelMode::Ripmap;
+  const std::vector<double> across =
+    CountTiles(part.Width, ripmap ? part.Width : larger, part.TileWidth, part.RoundUp);
+  const std::vector<double> down =
+    CountTiles(part.Height, ripmap ? part.Height : larger, part.TileHeight, part.RoundUp);
+  switch (part.Levels)
+  {
+    case LevelMode::One:
+      return across.front() * down.front();
+    case LevelMode::Mipmap:
+      return std::inner_product(across.begin(), across.end(), down.begin(), 0.0);
+    default:
+      return std::accumulate(across.begin(), across.end(), 0.0) *
+        std::accumulate(down.begin(), down.end(), 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Whether the header is one at all, before anything is computed from it.
+void CheckHeader(const Part& part, bool tiled)
 {
   if (!part.HasChannels || !part.HasWindow || part.BytesPerPixel == 0)
   {
@@ -222,28 +321,107 @@ void CheckPart(const Part& part, bool tiled, std::int64_t remaining)
   {
     throw Error{ Fault::Unsupported, "the compression method is unknown" };
   }
-  const CompressionLimits& limits = Limits[part.Compression];
-  const bool useTiles = tiled || part.HasTiles;
-  const std::int64_t chunkWidth = useTiles ? part.TileWidth : part.Width;
-  const std::int64_t chunkHeight = useTiles ? part.TileHeight : limits.Lines;
-  if (chunkWidth < 1 || chunkHeight < 1)
+  if (tiled && (!part.HasTiles || part.TileWidth < 1 || part.TileHeight < 1))
   {
     throw Error{ Fault::Damaged, "the header has no valid tile size" };
   }
-  const double across = static_cast<double>((part.Width - 1) / chunkWidth + 1);
-  const double down = static_cast<double>((part.Height - 1) / chunkHeight + 1);
-  // At least an offset, a line number, a size and one byte of data for each chunk.
-  const double leastLength = across * down * (8 + 8 + 1);
-  // Whole chunks count: OpenEXR's buffers hold one even where the image is smaller.
-  const double bytes = across * static_cast<double>(chunkWidth) * down *
-    static_cast<double>(chunkHeight) * static_cast<double>(part.BytesPerPixel);
-  constexpr double alwaysAllowed = 1 << 20;
-  const double available = static_cast<double>(remaining);
-  if (leastLength > available || (bytes > alwaysAllowed && bytes > limits.Ratio * available))
+}
+
+//------------------------------------------------------------------------------
+void CheckSizes(const Part& part, bool tiled, double chunks, std::int64_t remaining)
+{
+  const Error tooShort{ Fault::Truncated,
+    "the file is truncated or damaged: it is too short for the image its header describes" };
+  // Each chunk has an offset, a place, a size and at least one byte of data.
+  const double data = static_cast<double>(remaining) - chunks * (8 + 8);
+  const CompressionLimits& limits = Limits[part.Compression];
+  const double bytesPerPixel = static_cast<double>(part.BytesPerPixel);
+  const double pixels =
+    static_cast<double>(part.Width) * static_cast<double>(part.Height) * bytesPerPixel;
+  if (data < chunks || pixels > limits.Ratio * data)
+  {
+    throw tooShort;
+  }
+  // OpenEXR's buffers hold a whole chunk even where the image is smaller.
+  const std::int64_t chunkWidth = tiled ? part.TileWidth : part.Width;
+  const std::int64_t chunkHeight = tiled ? part.TileHeight : limits.Lines;
+  const double chunk =
+    static_cast<double>(chunkWidth) * static_cast<double>(chunkHeight) * bytesPerPixel;
+  if (chunk > std::max(AlwaysAllowedChunk, AllowedChunkRatio * pixels))
+  {
+    throw Error{ Fault::Unsupported,
+      "its tiles or blocks of lines are far larger than the image; save it with smaller tiles or "
+      "another compression" };
+  }
+}
+
+//------------------------------------------------------------------------------
+// All chunks must begin after the tables and within the file, the last one must end there too.
+void CheckOffsets(Input& input, double chunks, double chunksOfAllParts, int chunkHeader)
+{
+  const std::int64_t tablesEnd =
+    input.GetPosition() + static_cast<std::int64_t>(chunksOfAllParts) * 8;
+  std::int64_t last = 0;
+  for (auto i = static_cast<std::int64_t>(chunks); i > 0; --i)
+  {
+    const std::int64_t offset = input.ReadLong();
+    if (offset == 0)
+    {
+      throw Error{ Fault::Truncated,
+        "the file is incomplete: the program that wrote it did not finish" };
+    }
+    if (offset < tablesEnd || offset > input.GetLength() - chunkHeader)
+    {
+      throw Error{ Fault::Truncated,
+        "the file is truncated or damaged: pixels should lie where the file has none" };
+    }
+    last = std::max(last, offset);
+  }
+  input.Seek(last + chunkHeader - 4);
+  const std::int64_t size = static_cast<std::int32_t>(input.ReadInt());
+  if (size < 0 || size > input.GetRemaining())
+  {
+    throw Error{ Fault::Truncated, "the file is truncated: it ends within its pixels" };
+  }
+}
+
+//------------------------------------------------------------------------------
+// The first part is read, so that it must be sound; OpenEXR allocates tables for all.
+void CheckParts(Input& input, const std::vector<Part>& parts, std::uint32_t version)
+{
+  const bool multiPart = (version & MultiPartFlag) != 0;
+  const auto isTiled = [&](const Part& part)
+  {
+    return multiPart ? (part.Type == "tiledimage" || part.Type == "deeptile")
+                     : (version & TiledFlag) != 0;
+  };
+  double chunksOfAllParts = 0.0;
+  for (const Part& part : parts)
+  {
+    CheckHeader(part, isTiled(part));
+    chunksOfAllParts += CountChunks(part, isTiled(part));
+  }
+  const Part& first = parts.front();
+  if (first.Type.rfind("deep", 0) == 0 || (!multiPart && (version & DeepFlag)))
+  {
+    throw Error{ Fault::Unsupported, "deep images are not supported; flatten the image first" };
+  }
+  if (!first.Subsampled.empty())
+  {
+    throw Error{ Fault::Unsupported,
+      "channel \"" + first.Subsampled +
+        "\" is subsampled; save the image with full-size channels" };
+  }
+  const bool tiled = isTiled(first);
+  const double chunks = CountChunks(first, tiled);
+  const std::int64_t remaining = input.GetRemaining();
+  if (chunksOfAllParts * 8 > static_cast<double>(remaining))
   {
     throw Error{ Fault::Truncated,
       "the file is truncated or damaged: it is too short for the image its header describes" };
   }
+  CheckSizes(first, tiled, chunks, remaining);
+  CheckOffsets(input, chunks, chunksOfAllParts, (multiPart ? 4 : 0) + (tiled ? 20 : 8));
 }
 
 //------------------------------------------------------------------------------
@@ -255,24 +433,22 @@ void CheckAll(const std::string& fileName)
     throw Error{ Fault::NotOpenEXR, "it is not an OpenEXR file" };
   }
   const std::uint32_t version = input.ReadInt();
-  if (version & DeepFlag)
-  {
-    throw Error{ Fault::Unsupported, "deep images are not supported; flatten the image first" };
-  }
+  std::vector<Part> parts;
   Part part;
   while (ReadHeader(input, part))
   {
-    CheckPart(part, (version & TiledFlag) != 0, input.GetRemaining());
+    parts.push_back(part);
     part = Part();
     if (!(version & MultiPartFlag))
     {
-      return;
+      break;
     }
   }
-  if (!(version & MultiPartFlag))
+  if (parts.empty())
   {
     throw Error{ Fault::Damaged, "the header is empty" };
   }
+  CheckParts(input, parts, version);
 }
 } // namespace
 

@@ -6,10 +6,14 @@
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkOpenEXRReader.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 #include "vtkTestUtilities.h"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <string>
 
@@ -55,6 +59,32 @@ inline vtkSmartPointer<vtkImageData> MakeImage(const int extent[6], int componen
   image->SetExtent(const_cast<int*>(extent));
   image->GetPointData()->SetScalars(MakeValues("Scalars", components, image->GetNumberOfPoints()));
   return image;
+}
+
+// One level of a file; null, and what is wrong, where it cannot be read.
+inline vtkSmartPointer<vtkImageData> ReadFile(const std::string& path, int level = 0)
+{
+  vtkNew<vtkOpenEXRReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->SetLevel(level);
+  reader->Update();
+  return Check(reader->GetErrorCode() == 0, "level " + std::to_string(level) + " of " + path)
+    ? reader->GetOutput()
+    : nullptr;
+}
+
+inline int CountLevels(const std::string& path)
+{
+  vtkNew<vtkOpenEXRReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->UpdateInformation();
+  return reader->GetNumberOfLevels();
+}
+
+inline bool HasExtent(vtkImageData* image, const std::array<int, 4>& expected)
+{
+  const int* extent = image->GetExtent();
+  return std::equal(expected.begin(), expected.end(), extent) && extent[4] == 0 && extent[5] == 0;
 }
 } // namespace OpenEXRTestTools
 
