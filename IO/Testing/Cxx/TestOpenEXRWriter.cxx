@@ -4,6 +4,7 @@
 // half; and the writer's errors.
 #include "OpenEXRTestTools.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
@@ -19,6 +20,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#if defined(__linux__)
+#include <csignal>
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
 
 using namespace OpenEXRTestTools;
 
@@ -175,6 +185,159 @@ bool TestErrors(const std::string& path)
   good &= ExpectError(writer, "Cannot write the OpenEXR file");
   return good;
 }
+
+//------------------------------------------------------------------------------
+// An image that cannot be written leaves the older file as it was, and nothing beside it.
+bool ExpectOldFile(vtkOpenEXRWriter* writer, const std::string& path, const std::string& message)
+{
+  const auto load = [&]()
+  {
+    std::ifstream stream(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  };
+  const std::string before = load();
+  bool good = ExpectError(writer, message);
+  good &= Check(!before.empty() && load() == before, "the older file is still there: " + message);
+  good &= Check(!std::filesystem::exists(path + ".part"), "nothing unfinished stays: " + message);
+  return good;
+}
+
+//------------------------------------------------------------------------------
+bool TestFullDisk(const std::string& path)
+{
+  bool good = true;
+#if defined(__linux__)
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(MakeImage(Extent, 3));
+  writer->SetFileName(path.c_str());
+  writer->SetCompressionToNone();
+  // A write beyond the limit then fails as it does on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const bool tiled : { false, true })
+  {
+    writer->SetTiled(tiled);
+    good &= Check(writer->Write() == 1, "the disk has room");
+    const std::uintmax_t size = std::filesystem::file_size(path);
+    for (const std::uintmax_t room : { std::uintmax_t(0), std::uintmax_t(100), size / 2, size - 1 })
+    {
+      const rlimit limits{ static_cast<rlim_t>(room), before.rlim_max };
+      setrlimit(RLIMIT_FSIZE, &limits);
+      const bool kept = ExpectOldFile(writer, path, "make room on the disk");
+      setrlimit(RLIMIT_FSIZE, &before);
+      good &= Check(kept && writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError,
+        "room for " + std::to_string(room) + " bytes");
+    }
+  }
+  std::filesystem::create_symlink("/dev/full", path + ".part");
+  good &= ExpectOldFile(writer, path, "make room on the disk");
+  writer->SetFileName("/dev/full");
+  good &= ExpectError(writer, "the name is that of a folder or device");
+  good &= Check(std::filesystem::is_character_file("/dev/full"), "a device stays one");
+#endif
+  return good;
+}
+
+//------------------------------------------------------------------------------
+bool TestPermissions(const std::string& path)
+{
+  bool good = true;
+#if defined(__linux__)
+  const std::filesystem::path folder = path + ".folder";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  const std::string inside = (folder / "image.exr").string();
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(MakeImage(Extent, 3));
+  writer->SetFileName(inside.c_str());
+  good &= Check(writer->Write() == 1, "a folder that may be written");
+  // The administrator may write everywhere, so that the test must be somebody else for a while.
+  constexpr uid_t nobody = 65534;
+  const bool administrator = geteuid() == 0;
+  using std::filesystem::perms;
+  const perms readable = perms::owner_read | perms::owner_exec | perms::group_read |
+    perms::group_exec | perms::others_read | perms::others_exec;
+  std::filesystem::permissions(folder, readable);
+  good &= Check(!administrator || seteuid(nobody) == 0, "another user");
+  const bool visible = std::filesystem::exists(folder);
+  good &=
+    !visible || ExpectOldFile(writer, inside, administrator ? "may not be written" : "let you");
+  good &= Check(!administrator || seteuid(0) == 0, "the user of before");
+  std::filesystem::permissions(folder, perms::all);
+  std::filesystem::permissions(inside, perms::owner_read | perms::group_read | perms::others_read);
+  good &= Check(!administrator || seteuid(nobody) == 0, "another user");
+  good &= !visible || ExpectOldFile(writer, inside, "the file is there and may not be written");
+  good &= Check(!administrator || seteuid(0) == 0, "the user of before");
+  std::filesystem::remove_all(folder);
+#endif
+  return good;
+}
+
+//------------------------------------------------------------------------------
+bool TestReplacement(const std::string& path)
+{
+  std::filesystem::remove(path);
+  const std::string link = path + ".link";
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(std::filesystem::absolute(path), link);
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(MakeImage(Extent, 1));
+  writer->SetFileName(path.c_str());
+  bool good = Check(writer->Write() == 1, "a file");
+  writer->SetInputData(MakeImage(Extent, 3));
+  writer->SetFileName(link.c_str());
+  good &= Check(writer->Write() == 1, "a file through a link");
+  good &= Check(std::filesystem::is_symlink(link), "the link stays");
+  good &= Check(ReadFile(path)->GetPointData()->GetArray("RGB"), "what it leads to is replaced");
+  std::filesystem::remove(link);
+  writer->SetFileName(std::filesystem::path(path).parent_path().c_str());
+  good &= ExpectError(writer, "the name is that of a folder or device");
+
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { vtkAlgorithm::SafeDownCast(caller)->AbortExecuteOn(); });
+  writer->AddObserver(vtkCommand::ProgressEvent, abort);
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(MakeImage(Extent, 4));
+  good &= Check(writer->Write() == 0, "an aborted writer says so");
+  good &= Check(ReadFile(path)->GetPointData()->GetArray("RGB"), "and the older file stays");
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// Ids must not become other ids.
+bool TestIntegers(const std::string& path)
+{
+  const int extent[6] = { 0, 3, 0, 1, 0, 0 };
+  const vtkSmartPointer<vtkImageData> image = MakeImage(extent, 1);
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("ChartId");
+  for (int i = 0; i < 8; ++i)
+  {
+    ids->InsertNextValue(16777216 - 3 * i);
+  }
+  image->GetPointData()->AddArray(ids);
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(path.c_str());
+  writer->SetPixelTypeToHalf();
+  bool good = Check(writer->Write() == 1, "ids are written");
+  const vtkSmartPointer<vtkImageData> found = ReadFile(path);
+  good &= Check(Compare(ids, found->GetPointData()->GetArray("ChartId")) == 0.0,
+    "ids that half cannot hold are the same");
+  ids->SetValue(3, -16777217);
+  ids->Modified();
+  good &= ExpectError(writer, "make it a vtkUnsignedIntArray");
+  vtkNew<vtkDoubleArray> large;
+  large->SetName("ChartId");
+  large->SetNumberOfTuples(8);
+  large->Fill(1e39);
+  image->GetPointData()->AddArray(large);
+  writer->SetPixelTypeToFloat();
+  good &= ExpectError(writer, "values above 3.4e38");
+  return good;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -195,6 +358,10 @@ int TestOpenEXRWriter(int argc, char* argv[])
     }
   }
   good &= TestNamedChannels(path);
+  good &= TestIntegers(path);
+  good &= TestReplacement(path);
+  good &= TestFullDisk(path);
+  good &= TestPermissions(path);
   good &= TestErrors(GetPath(argc, argv, "TestOpenEXRWriterErrors.exr"));
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
