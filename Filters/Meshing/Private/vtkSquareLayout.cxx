@@ -18,10 +18,10 @@ using Coordinates = vtkSquareMap::Coordinates;
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 // Springs are not weaker than this, where 1.15 is what the edges of an even mesh have.
-constexpr double WEAKEST_SPRING = 0.01;
+constexpr double WEAKEST_SPRING = 1e-4;
 
 // Iterations end when the next one would lower the squared stretch by less than this fraction.
-constexpr double LEAST_GAIN = 1e-5;
+constexpr double LEAST_GAIN = 1e-4;
 
 //------------------------------------------------------------------------------
 double Cross(const Coordinates& a, const Coordinates& b)
@@ -229,10 +229,18 @@ vtkSquareLayout::vtkSquareLayout(const vtkSquareMap::Disc& disc,
   const std::vector<unsigned char>& sides)
   : Surface(disc), Sides(sides)
 {
+  double area = 0.0;
   for (const auto& triangle : disc.Triangles)
   {
     this->Shapes.push_back(this->MakeShape(triangle));
-    this->Area += this->Shapes.back().Area;
+    area += this->Shapes.back().Area;
+  }
+  for (Shape& shape : this->Shapes)
+  {
+    shape.Length /= std::sqrt(area);
+    shape.Apex[0] /= std::sqrt(area);
+    shape.Apex[1] /= std::sqrt(area);
+    shape.Area /= area;
   }
 }
 
@@ -395,11 +403,13 @@ double vtkSquareLayout::GetSquaredStretch(std::size_t triangle,
   {
     return INFINITE;
   }
-  return 0.5 *
-    (shape.Length * shape.Length * Dot(second, second) -
-      2.0 * shape.Length * shape.Apex[0] * Dot(first, second) +
-      Dot(shape.Apex, shape.Apex) * Dot(first, first)) /
-    (twiceArea * twiceArea);
+  // The derivatives of the surface's point by u and by v, in the triangle's plane. Squares of these
+  // add up without cancellation, unlike the products of edges' lengths.
+  const double xu = shape.Length * second[1] - shape.Apex[0] * first[1];
+  const double xv = shape.Apex[0] * first[0] - shape.Length * second[0];
+  const double yu = shape.Apex[1] * first[1];
+  const double yv = shape.Apex[1] * first[0];
+  return 0.5 * (xu * xu + xv * xv + yu * yu + yv * yv) / (twiceArea * twiceArea);
 }
 
 //------------------------------------------------------------------------------
@@ -413,7 +423,7 @@ std::vector<double> vtkSquareLayout::GetPointStretch(const std::vector<Coordinat
     for (std::size_t point : this->Surface.Triangles[i])
     {
       areas[point] += this->Shapes[i].Area;
-      stretch[point] += this->Shapes[i].Area * squared / this->Area;
+      stretch[point] += this->Shapes[i].Area * squared;
     }
   }
   for (std::size_t point = 0; point < uv.size(); ++point)
@@ -431,7 +441,7 @@ double vtkSquareLayout::MeasureL2Stretch(const std::vector<Coordinates>& uv) con
   {
     sum += this->Shapes[i].Area * this->GetSquaredStretch(i, uv);
   }
-  return std::sqrt(sum) / this->Area;
+  return std::sqrt(sum);
 }
 
 //------------------------------------------------------------------------------
@@ -448,7 +458,7 @@ double vtkSquareLayout::GetLInfinityStretch() const
     // The squares of the singular values have this mean and the growth of the area as geometric
     // one.
     const double squared = mean + std::sqrt(std::max(0.0, (mean - growth) * (mean + growth)));
-    largest = std::max(largest, std::sqrt(squared / this->Area));
+    largest = std::max(largest, std::sqrt(squared));
   }
   return largest;
 }
@@ -529,8 +539,7 @@ void vtkSquareLayout::Minimize(int maximumNumberOfIterations)
         uv.col(j) =
           Eigen::Map<const Eigen::Vector2d>(this->UV[this->Surface.Triangles[i][j]].data());
       }
-      const StretchElement element(shapeGradients[i], uv,
-        this->Shapes[i].Area / (this->Area * this->Area));
+      const StretchElement element(shapeGradients[i], uv, this->Shapes[i].Area);
       solver.Add(element.Curvature, element.Slope);
     }
     Eigen::VectorXd unknowns;
@@ -547,10 +556,6 @@ void vtkSquareLayout::Minimize(int maximumNumberOfIterations)
       }
     }
     const double slope = solver.GetSlope().dot(unknowns);
-    if (!(-slope > LEAST_GAIN * value))
-    {
-      return;
-    }
     double length = std::min(1.0, 0.8 * this->GetLargestStep(step));
     std::vector<Coordinates> uv = Add(this->UV, length, step);
     double next = measure(uv);
@@ -566,5 +571,9 @@ void vtkSquareLayout::Minimize(int maximumNumberOfIterations)
     }
     this->UV = std::move(uv);
     value = next;
+    if (!(-slope > LEAST_GAIN * value))
+    {
+      return;
+    }
   }
 }

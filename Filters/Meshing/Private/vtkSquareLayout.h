@@ -63,8 +63,8 @@ public:
   ///@}
 
 private:
-  /// A triangle on the surface: in its plane, with the first corner at the origin and the second
-  /// one at (Length, 0), the third one is Apex.
+  /// A triangle on the surface, which is scaled to have the square's area: in its plane, with the
+  /// first corner at the origin and the second one at (Length, 0), the third one is Apex.
   struct Shape
   {
     double Length;
@@ -82,7 +82,6 @@ private:
   const vtkSquareMap::Disc& Surface;
   const std::vector<unsigned char>& Sides;
   std::vector<Shape> Shapes;
-  double Area = 0.0;
   /// Per triangle: its part in the springs of the edges opposite to its corners.
   std::vector<std::array<double, 3>> Springs;
   std::vector<Coordinates> UV;

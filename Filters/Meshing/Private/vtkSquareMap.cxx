@@ -10,6 +10,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -21,6 +23,10 @@ using Triangle = vtkSquareMap::Triangle;
 using Coordinates = vtkSquareMap::Coordinates;
 using Edge = std::pair<std::size_t, std::size_t>;
 using Corners = std::array<std::size_t, 4>;
+
+// How many corners are tried, and how many of these after a first look.
+constexpr int BEGINNINGS = 8;
+constexpr std::size_t FINALISTS = 3;
 
 constexpr double PI = 3.14159265358979323846;
 
@@ -59,6 +65,7 @@ struct Border
   std::size_t GetSize() const { return this->Points.size(); }
   double GetLength() const { return this->Lengths.back(); }
   std::size_t FindSharpest(double from, double to) const;
+  std::vector<std::size_t> FindSharpestApart(std::size_t number, double apart) const;
 };
 
 //------------------------------------------------------------------------------
@@ -101,7 +108,7 @@ Border::Border(const Disc& disc)
 //------------------------------------------------------------------------------
 // Halve the inner edges that join two points of one side. The middle of an edge lies on no side, so
 // that no other such edges come into being.
-void HalveEdgesAlongSides(Disc& disc, std::vector<unsigned char>& sides)
+const Disc& HalveEdgesAlongSides(Disc& disc, std::vector<unsigned char>& sides)
 {
   std::map<Edge, std::size_t> owners;
   for (std::size_t i = 0; i < disc.Triangles.size(); ++i)
@@ -151,6 +158,7 @@ void HalveEdgesAlongSides(Disc& disc, std::vector<unsigned char>& sides)
     halve(edge, middle);
     halve(Edge(edge.second, edge.first), middle);
   }
+  return disc;
 }
 
 //------------------------------------------------------------------------------
@@ -207,113 +215,128 @@ bool IsBijective(const Disc& disc, const Border& border, const Corners& corners,
 }
 
 //------------------------------------------------------------------------------
-// The point of the border that turns most to the left between two lengths.
+// The point that turns most to the left among those between two lengths, or the first one after.
 std::size_t Border::FindSharpest(double from, double to) const
 {
   const double length = this->GetLength();
-  std::size_t best = 0;
-  double bestValue = -1e300;
+  std::size_t sharpest = 0;
+  double sharpestAt = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < this->GetSize(); ++i)
   {
-    double at = this->Lengths[i];
-    at -= length * std::floor((at - from) / length);
-    if (at <= to && this->Turns[i] > bestValue)
+    const double at = this->Lengths[i] - length * std::floor((this->Lengths[i] - from) / length);
+    if (at < to && sharpestAt < to ? this->Turns[i] > this->Turns[sharpest] : at < sharpestAt)
     {
-      best = i;
-      bestValue = this->Turns[i];
+      sharpest = i;
+      sharpestAt = at;
     }
   }
-  if (bestValue > -1e300)
-  {
-    return best;
-  }
-  // No point within: the next one.
-  double nearest = 1e300;
-  for (std::size_t i = 0; i < this->GetSize(); ++i)
-  {
-    double at = this->Lengths[i];
-    at -= length * std::floor((at - from) / length);
-    if (at < nearest)
-    {
-      nearest = at;
-      best = i;
-    }
-  }
-  return best;
+  return sharpest;
 }
 
 //------------------------------------------------------------------------------
-bool AreDistinct(const Corners& corners, std::size_t size)
+// Up to `number` points that turn most to the left and are at least so far apart, in order.
+std::vector<std::size_t> Border::FindSharpestApart(std::size_t number, double apart) const
 {
-  std::size_t around = 0;
-  for (int i = 0; i < 4; ++i)
+  std::vector<std::size_t> order(this->GetSize());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return this->Turns[a] > this->Turns[b]; });
+  std::vector<std::size_t> chosen;
+  for (auto i = order.begin(); i != order.end() && chosen.size() < number; ++i)
   {
-    const std::size_t distance = (corners[(i + 1) % 4] + size - corners[i]) % size;
-    if (distance == 0)
+    const bool isFree = std::none_of(chosen.begin(), chosen.end(),
+      [&](std::size_t j)
+      {
+        const double distance = std::abs(this->Lengths[*i] - this->Lengths[j]);
+        return std::min(distance, this->GetLength() - distance) < apart;
+      });
+    if (isFree)
     {
-      return false;
+      chosen.push_back(*i);
     }
-    around += distance;
   }
-  return around == size;
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
 }
 
 //------------------------------------------------------------------------------
+bool AreInOrder(const Corners& corners)
+{
+  return corners[0] < corners[1] && corners[1] < corners[2] && corners[2] < corners[3];
+}
+
+//------------------------------------------------------------------------------
+// Places for the corners: quarters of the border from several beginnings, each moved to the
+// sharpest point nearby, and the sharpest points of all that are not too close together.
 std::set<Corners> GetCandidates(const Border& border)
 {
   std::set<Corners> candidates;
   const auto add = [&](Corners corners)
   {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    if (AreDistinct(corners, border.GetSize()))
+    if (AreInOrder(corners))
     {
       candidates.insert(corners);
     }
   };
-  constexpr int OFFSETS = 4;
-  const double window = 0.25 / OFFSETS * border.GetLength();
-  for (int offset = 0; offset < OFFSETS; ++offset)
+  const double quarter = 0.25 * border.GetLength();
+  for (int beginning = 0; beginning < BEGINNINGS; ++beginning)
   {
+    const double window = quarter / BEGINNINGS;
     Corners corners;
     for (int i = 0; i < 4; ++i)
     {
-      const double from = 0.25 * i * border.GetLength() + offset * window;
+      const double from = i * quarter + beginning * window;
       corners[i] = border.FindSharpest(from, from + window);
     }
     add(corners);
   }
-  // The four sharpest points that are not close together.
-  for (double apart : { 0.125, 0.06, 0.0 })
+  for (double apart : { 0.5 * quarter, 0.25 * quarter, 0.0 })
   {
-    std::vector<std::size_t> order(border.GetSize());
-    for (std::size_t i = 0; i < order.size(); ++i)
+    const std::vector<std::size_t> corners = border.FindSharpestApart(4, apart);
+    if (corners.size() == 4)
     {
-      order[i] = i;
-    }
-    std::stable_sort(order.begin(), order.end(),
-      [&](std::size_t a, std::size_t b) { return border.Turns[a] > border.Turns[b]; });
-    std::vector<std::size_t> chosen;
-    for (std::size_t i : order)
-    {
-      bool free = chosen.size() < 4;
-      for (std::size_t j : chosen)
-      {
-        const double distance = std::abs(border.Lengths[i] - border.Lengths[j]);
-        free =
-          free && std::min(distance, border.GetLength() - distance) >= apart * border.GetLength();
-      }
-      if (free)
-      {
-        chosen.push_back(i);
-      }
-    }
-    if (chosen.size() == 4)
-    {
-      std::sort(chosen.begin(), chosen.end());
-      add({ chosen[0], chosen[1], chosen[2], chosen[3] });
+      add({ corners[0], corners[1], corners[2], corners[3] });
     }
   }
   return candidates;
+}
+
+// A disc with its corners chosen, on its way to the square.
+struct Trial
+{
+  Trial(const Disc& disc, const Border& border, const Corners& corners)
+    : SquareCorners(corners), Halved(disc), Sides(GetSides(border, corners, disc.Points.size())),
+      Layout(HalveEdgesAlongSides(this->Halved, this->Sides), this->Sides)
+  {
+  }
+
+  Corners SquareCorners;
+  Disc Halved;
+  std::vector<unsigned char> Sides;
+  vtkSquareLayout Layout;
+  double Stretch = std::numeric_limits<double>::infinity();
+};
+using Trials = std::vector<std::unique_ptr<Trial>>;
+
+//------------------------------------------------------------------------------
+// The trials that a step has succeeded for, the least stretch first, and at most `number`.
+template <typename Step>
+void KeepBest(Trials& trials, std::size_t number, Step&& step)
+{
+  for (auto& trial : trials)
+  {
+    if (!step(trial->Layout))
+    {
+      trial.reset();
+      continue;
+    }
+    trial->Stretch = trial->Layout.GetL2Stretch();
+  }
+  trials.erase(std::remove(trials.begin(), trials.end(), nullptr), trials.end());
+  std::sort(trials.begin(), trials.end(),
+    [](const auto& a, const auto& b) { return a->Stretch < b->Stretch; });
+  trials.resize(std::min(number, trials.size()));
 }
 } // namespace
 
@@ -323,54 +346,47 @@ bool vtkSquareMap::Map(Disc& disc, std::string& problem)
   const Border border(disc);
   if (border.GetSize() < 4)
   {
-    problem = "The border of a chart has fewer than four points.";
+    problem = "the border of a disc has fewer than four points";
     return false;
   }
-  struct Trial
+  const std::set<Corners> candidates = GetCandidates(border);
+  for (auto springs :
+    { vtkSquareLayout::SpringKind::Conformal, vtkSquareLayout::SpringKind::Uniform })
   {
-    double Stretch;
-    Corners SquareCorners;
-    Disc Halved;
-    std::vector<Coordinates> UV;
-  };
-  for (auto kind : { vtkSquareLayout::SpringKind::Conformal, vtkSquareLayout::SpringKind::Uniform })
-  {
-    double best = std::numeric_limits<double>::infinity();
-    Corners bestCorners{};
-    for (const Corners& corners : GetCandidates(border))
+    // Which corners are best shows late, but one step of reweighting tells most of them apart.
+    Trials trials;
+    for (const Corners& corners : candidates)
     {
-      Disc halved = disc;
-      std::vector<unsigned char> sides = GetSides(border, corners, disc.Points.size());
-      HalveEdgesAlongSides(halved, sides);
-      vtkSquareLayout layout(halved, sides);
-      if (layout.Balance(kind) && layout.GetL2Stretch() < best)
+      trials.push_back(std::make_unique<Trial>(disc, border, corners));
+    }
+    KeepBest(trials, FINALISTS,
+      [&](vtkSquareLayout& layout)
       {
-        best = layout.GetL2Stretch();
-        bestCorners = corners;
+        const bool isOneToOne = layout.Balance(springs) && layout.IsOneToOne();
+        layout.Reweight(1);
+        return isOneToOne;
+      });
+    KeepBest(trials, FINALISTS,
+      [](vtkSquareLayout& layout)
+      {
+        layout.Reweight(10);
+        layout.Minimize(3);
+        return true;
+      });
+    for (auto& trial : trials)
+    {
+      trial->Layout.Minimize(30);
+      if (IsBijective(trial->Halved, border, trial->SquareCorners, trial->Layout.GetCoordinates()))
+      {
+        this->UV = trial->Layout.GetCoordinates();
+        this->L2Stretch = trial->Layout.GetL2Stretch();
+        this->LInfinityStretch = trial->Layout.GetLInfinityStretch();
+        disc = std::move(trial->Halved);
+        return true;
       }
     }
-    if (!(best < std::numeric_limits<double>::infinity()))
-    {
-      continue;
-    }
-    Disc halved = disc;
-    std::vector<unsigned char> sides = GetSides(border, bestCorners, disc.Points.size());
-    HalveEdgesAlongSides(halved, sides);
-    vtkSquareLayout layout(halved, sides);
-    layout.Balance(kind);
-    layout.Reweight(10);
-    layout.Minimize(20);
-    if (IsBijective(halved, border, bestCorners, layout.GetCoordinates()))
-    {
-      this->UV = layout.GetCoordinates();
-      this->L2Stretch = layout.GetL2Stretch();
-      this->LInfinityStretch = layout.GetLInfinityStretch();
-      disc = std::move(halved);
-      return true;
-    }
   }
-  problem =
-    "Rounding leaves a triangle of a chart without area in the square, whatever weights are "
-    "tried: its triangles are too thin.";
+  problem = "rounding leaves a triangle of a disc without area in the square: the disc has "
+            "triangles that are too thin, or branches that are too long";
   return false;
 }
