@@ -3,7 +3,7 @@
 #include "vtkPatchMesher.h"
 
 #include "vtkMeshingRun.h"
-#include "vtkPatchSources.h"
+#include "vtkSizedRemeshing.h"
 #include "vtkSurfaceRemesher.h"
 #include "vtkTriangleSoup.h"
 
@@ -46,7 +46,7 @@ using vtkMeshingRun::InputError;
 using vtkMeshingRun::Report;
 
 const char* const DEFAULT_REGION_ARRAY = "Region";
-constexpr double MAXIMUM_NUMBER_OF_TRIANGLES = 2e7;
+const char* const DEFAULT_LENGTH_ARRAY = "EdgeLength";
 
 //------------------------------------------------------------------------------
 bool IsOneOfSeveralPieces(vtkInformation* output)
@@ -110,6 +110,17 @@ void CheckDefects(const vtkTriangleSoup& soup)
 }
 
 //------------------------------------------------------------------------------
+// Lengths with a default that depends on the input.
+void CheckLength(const char* name, double length, const char* remedy)
+{
+  if (!(length >= 0.0) || !std::isfinite(length))
+  {
+    throw InputError(std::string(name) + " is " + std::to_string(length) +
+      ": give a positive length, or 0 for " + remedy + ".");
+  }
+}
+
+//------------------------------------------------------------------------------
 double ChooseEdgeLength(double wanted, const vtkTriangleSoup& soup)
 {
   if (soup.Triangles.empty())
@@ -118,20 +129,6 @@ double ChooseEdgeLength(double wanted, const vtkTriangleSoup& soup)
   }
   const double partsOfDiagonal = 50.0;
   return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
-}
-
-//------------------------------------------------------------------------------
-void CheckEdgeLength(double length, double numberOfTriangles)
-{
-  // Written so that a length too small for the estimate, infinite then, is refused too.
-  if (!(numberOfTriangles <= MAXIMUM_NUMBER_OF_TRIANGLES))
-  {
-    std::ostringstream text;
-    text << "TargetEdgeLength " << length << " would give about " << numberOfTriangles
-         << " triangles, more than " << MAXIMUM_NUMBER_OF_TRIANGLES
-         << " are refused: give a larger length.";
-    throw InputError(text.str());
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -160,7 +157,7 @@ void WriteGeometry(const vtkSurfaceRemesher::Result& patches, bool flip, vtkPoly
 
 //------------------------------------------------------------------------------
 void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleSoup& soup,
-  vtkPatchSources& sources, double reach, vtkCellData* from, vtkCellData* to)
+  vtkCellData* from, vtkCellData* to)
 {
   const vtkIdType size = static_cast<vtkIdType>(patches.Triangles.size());
   vtkNew<vtkIdTypeArray> ids;
@@ -170,15 +167,7 @@ void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleS
   to->CopyAllocate(from, size);
   for (vtkIdType i = 0; i < size; ++i)
   {
-    vtkTriangleSoup::Point center{ 0.0, 0.0, 0.0 };
-    for (const std::size_t corner : patches.Triangles[i])
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        center[j] += patches.Points[corner][j] / 3.0;
-      }
-    }
-    const vtkIdType cell = soup.CellIds[sources.Find(patches.Parts[i], center, reach).Triangle];
+    const vtkIdType cell = soup.CellIds[patches.SourcesOfTriangles[i]];
     to->CopyData(from, cell, i);
     ids->SetValue(i, cell);
   }
@@ -190,22 +179,12 @@ void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleS
 
 //------------------------------------------------------------------------------
 void WritePointData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleSoup& soup,
-  vtkPatchSources& sources, double reach, vtkPointData* from, vtkPointData* to)
+  vtkPointData* from, vtkPointData* to)
 {
   if (from->GetNumberOfArrays() == 0)
   {
     return;
   }
-  const std::size_t unknown = patches.Triangles.size();
-  std::vector<std::size_t> triangleOfPoint(patches.Points.size(), unknown);
-  for (std::size_t i = 0; i < patches.Triangles.size(); ++i)
-  {
-    for (const std::size_t corner : patches.Triangles[i])
-    {
-      triangleOfPoint[corner] = std::min(triangleOfPoint[corner], i);
-    }
-  }
-
   to->CopyNormalsOff();
   to->CopyTangentsOff();
   to->CopyTCoordsOff();
@@ -214,11 +193,12 @@ void WritePointData(const vtkSurfaceRemesher::Result& patches, const vtkTriangle
   ids->SetNumberOfIds(3);
   for (std::size_t i = 0; i < patches.Points.size(); ++i)
   {
-    vtkPatchSources::Place place =
-      sources.Find(patches.Parts[triangleOfPoint[i]], patches.Points[i], reach);
+    const vtkTriangleSoup::Triangle& source = soup.Triangles[patches.SourcesOfPoints[i]];
+    vtkSourceSurface::Place place = vtkSourceSurface::GetClosest(soup.Points[source[0]],
+      soup.Points[source[1]], soup.Points[source[2]], patches.Points[i]);
     for (int j = 0; j < 3; ++j)
     {
-      ids->SetId(j, soup.PointIds[soup.Triangles[place.Triangle][j]]);
+      ids->SetId(j, soup.PointIds[source[j]]);
     }
     to->InterpolatePoint(from, static_cast<vtkIdType>(i), ids, place.Weights.data());
   }
@@ -251,6 +231,8 @@ vtkPatchMesher::vtkPatchMesher()
 {
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS,
     DEFAULT_REGION_ARRAY);
+  this->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    DEFAULT_LENGTH_ARRAY);
 }
 
 //------------------------------------------------------------------------------
@@ -261,6 +243,12 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetEdgeLength: " << this->TargetEdgeLength << "\n";
+  os << indent << "SizeField: " << this->SizeField << "\n";
+  os << indent << "ApproximationError: " << this->ApproximationError << "\n";
+  os << indent << "MinimumEdgeLength: " << this->MinimumEdgeLength << "\n";
+  os << indent << "Grading: " << this->Grading << "\n";
+  os << indent << "CoarsePlanarRegions: " << (this->CoarsePlanarRegions ? "on" : "off") << "\n";
+  os << indent << "TargetNumberOfPatches: " << this->TargetNumberOfPatches << "\n";
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
   os << indent << "NumberOfIterations: " << this->NumberOfIterations << "\n";
   os << indent << "Repair: " << (this->Repair ? "on" : "off") << "\n";
@@ -280,7 +268,8 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   std::string error;
   try
   {
-    this->Mesh(input, this->ReadRegions(inputs), output);
+    this->CheckProperties();
+    this->Mesh(input, this->ReadRegions(inputs), this->ReadLengths(inputs), output);
     return 1;
   }
   catch (const Aborted&)
@@ -294,7 +283,7 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   }
   catch (const std::bad_alloc&)
   {
-    error = "Not enough memory: give a larger TargetEdgeLength.";
+    error = "Not enough memory: give larger edge lengths.";
   }
   catch (const std::exception& problem)
   {
@@ -334,15 +323,75 @@ std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
-  vtkPolyData* output)
+std::vector<double> vtkPatchMesher::ReadLengths(vtkInformationVector** inputs)
 {
-  if (!(this->TargetEdgeLength >= 0.0) || !std::isfinite(this->TargetEdgeLength))
+  if (this->SizeField != SIZE_FIELD_ARRAY)
   {
-    throw InputError("TargetEdgeLength is " + std::to_string(this->TargetEdgeLength) +
-      ": give a positive length, or 0 for the diagonal of the bounding box / 50.");
+    return {};
   }
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkDataArray* array =
+    vtkDataArray::SafeDownCast(this->GetInputAbstractArrayToProcess(1, inputs, association));
+  const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
+  const std::string name = chosen && *chosen ? chosen : DEFAULT_LENGTH_ARRAY;
+  if (!chosen || !*chosen)
+  {
+    association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    array = vtkPolyData::GetData(inputs[0])->GetPointData()->GetArray(DEFAULT_LENGTH_ARRAY);
+  }
+  if (!array || association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  {
+    throw InputError("There is no numeric point array \"" + name +
+      "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature.");
+  }
+  return vtkSizedRemeshing::ReadLengths(array);
+}
 
+//------------------------------------------------------------------------------
+void vtkPatchMesher::CheckProperties()
+{
+  CheckLength("TargetEdgeLength", this->TargetEdgeLength, "the diagonal of the bounding box / 50");
+  CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100");
+  CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10");
+  if (!(this->Grading > 0.0) || !std::isfinite(this->Grading))
+  {
+    throw InputError(
+      "Grading is " + std::to_string(this->Grading) + ": give a positive number, such as 0.3.");
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSizedRemeshing::Settings vtkPatchMesher::GetSettings(const vtkTriangleSoup& soup,
+  const std::vector<double>& lengthOfPoint)
+{
+  const double length = ChooseEdgeLength(this->TargetEdgeLength, soup);
+  const double shortest = this->MinimumEdgeLength > 0.0 ? this->MinimumEdgeLength : 0.1 * length;
+  const double error = this->ApproximationError > 0.0 ? this->ApproximationError : 0.01 * length;
+  if (shortest > length)
+  {
+    throw InputError("MinimumEdgeLength " + std::to_string(shortest) +
+      " is larger than TargetEdgeLength " + std::to_string(length) + ": give a smaller one.");
+  }
+  return { this->SizeField, length, shortest, error, this->Grading, this->CoarsePlanarRegions,
+    this->TargetNumberOfPatches, this->NumberOfIterations, lengthOfPoint };
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchMesher::CheckNumberOfPatches(vtkIdType number)
+{
+  const double wanted = static_cast<double>(this->TargetNumberOfPatches);
+  if (wanted > 0.0 && std::abs(number - wanted) > 0.05 * wanted)
+  {
+    vtkWarningMacro(<< number << " patches came out instead of " << this->TargetNumberOfPatches
+                    << ", for the edges to keep allow no other number: ask for more patches, or "
+                       "give a larger FeatureAngle.");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
+  const std::vector<double>& lengthOfPoint, vtkPolyData* output)
+{
   vtkTriangleSoup soup;
   soup.Read(input);
   Report(this, 0.05);
@@ -356,39 +405,27 @@ void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCe
   }
   Report(this, 0.1);
 
-  const double length = ChooseEdgeLength(this->TargetEdgeLength, soup);
   std::vector<int> regions;
   for (const vtkIdType cell : soup.CellIds)
   {
     regions.push_back(regionOfCell[cell]);
   }
+  const vtkSizedRemeshing::Settings settings = this->GetSettings(soup, lengthOfPoint);
   vtkSurfaceRemesher remesher;
   if (!remesher.Build(soup, regions, this->FeatureAngle))
   {
     throw InputError("The surface is not a manifold, even after the repair: split it first.");
   }
-  CheckEdgeLength(length, remesher.EstimateNumberOfTriangles(length));
-  remesher.SplitKeptEdges(length);
-  Report(this, 0.15);
-  const auto monitor = [this](double fraction)
-  {
-    this->UpdateProgress(0.15 + 0.65 * fraction);
-    return !vtkAbortCheck::IsAborted(this);
-  };
-  if (!remesher.Remesh(length, this->NumberOfIterations, monitor))
-  {
-    throw Aborted();
-  }
-  Report(this, 0.8);
+  const double length = vtkSizedRemeshing::Remesh(remesher, soup, settings,
+    [this](double fraction) { Report(this, 0.1 + 0.75 * fraction); });
+  Report(this, 0.85);
 
   const vtkSurfaceRemesher::Result patches = remesher.GetResult();
-  vtkPatchSources sources(soup, remesher.GetPartsOfSoup(), remesher.GetNumberOfParts());
-  // New points lie on the old surface, centroids nearly so.
-  const double reach = 0.1 * length;
   WriteGeometry(patches, this->FlipNormals, output);
-  WriteCellData(patches, soup, sources, reach, input->GetCellData(), output->GetCellData());
-  Report(this, 0.9);
-  WritePointData(patches, soup, sources, reach, input->GetPointData(), output->GetPointData());
+  WriteCellData(patches, soup, input->GetCellData(), output->GetCellData());
+  Report(this, 0.95);
+  WritePointData(patches, soup, input->GetPointData(), output->GetPointData());
   WriteSummary(soup, output->GetNumberOfCells(), length, output->GetFieldData());
+  this->CheckNumberOfPatches(output->GetNumberOfCells());
   this->UpdateProgress(1.0);
 }

@@ -2,25 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkPatchMesher
- * @brief turns a surface into patches: triangles of nearly equal size that keep edges and materials
+ * @brief turns a surface into patches: good triangles of chosen size that keep edges and materials
  *
  * The input is a vtkPolyData of triangles, polygons and triangle strips; its vertices and lines are
  * ignored and ghost cells do not count. Points with equal coordinates are merged, polygons are
- * triangulated, defects are repaired (see Repair) and the surface is remeshed with CGAL's isotropic
- * remeshing (Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004).
+ * triangulated, defects are repaired (see Repair) and the surface is remeshed: long edges are
+ * split, short ones collapsed, edges flipped and points moved along the surface (Botsch and
+ * Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004), with a length that may differ
+ * from place to place (Dunyach et al., "Adaptive remeshing for real-time mesh deformation", 2013).
  *
- * Three kinds of edges are kept as they are, except that they are first split evenly to at most 4/3
- * of the target edge length: borders, edges between two regions (see below), and edges sharper than
- * FeatureAngle. They are never collapsed: where such edges are much shorter than the target length,
- * the patches beside them are small too. The parts of the surface between these edges are remeshed
- * one by one and every new point is put onto the part that it belongs to, so planar faces stay
- * planar and two sides of a thin wall are never mixed up.
+ * Three kinds of edges are kept: borders, edges between two regions (see below), and edges sharper
+ * than FeatureAngle. They are first split evenly to at most 4/3 of the edge length, and joined only
+ * where they lie on one line. Where such edges are much shorter than that, the patches beside them
+ * are small too, and grow away from them (see Grading). The parts of the surface between these
+ * edges are remeshed one by one and every new point is put onto the part that it belongs to, so
+ * planar faces stay planar and two sides of a thin wall are never mixed up. On smooth surfaces the
+ * patches and the input are nowhere farther apart than half of the edge length there.
  *
  * *Regions*: a cell array, chosen with SetInputArrayToProcess(0, 0, 0,
  * vtkDataObject::FIELD_ASSOCIATION_CELLS, name), "Region" by default. Edges between cells of
  * different values are kept, so no patch ever lies in two regions. Any type, any number of
  * components. The default array is optional: without it the surface is one region. An array of
  * another name that is missing is an error; an empty name stands for the default.
+ *
+ * *Edge lengths*, if SizeField is Array: a point array of one component, in the input's unit,
+ * chosen with SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name),
+ * "EdgeLength" by default: the length that edges should have at each point, interpolated linearly.
  *
  * The output holds triangles, points in double precision, and
  * - every array of the input's cells, each patch with the tuple of the input cell it lies on (the
@@ -32,14 +39,17 @@
  * - the input's field data, and one-tuple field data arrays "NumberOfPatches",
  *   "NumberOfDroppedTriangles" (degenerate or duplicate), "NumberOfReversedTriangles",
  *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points; vtkIdTypeArray each)
- *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used).
+ *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used; if SizeField is Array, the
+ *   one with which as many equal triangles cover the surface).
  *
  * Lengths are in the input's unit. The same input gives the same output.
  *
  * Errors, each with an empty output: no polygons, coordinates that are not finite, a negative or
- * infinite TargetEdgeLength, a length that would give more than 20 million triangles, a missing
- * region array, nothing left but degenerate triangles, and, with Repair off, a surface that needs
- * repair. An empty piece of a data set that is distributed over several processes is no error.
+ * infinite length, a MinimumEdgeLength above TargetEdgeLength, a Grading that is not positive, a
+ * length that would give more than 20 million triangles, a missing region array, a missing array of
+ * edge lengths or one with other than positive, finite values, nothing left but degenerate
+ * triangles, and, with Repair off, a surface that needs repair. An empty piece of a data set that
+ * is distributed over several processes is no error.
  */
 #ifndef vtkPatchMesher_h
 #define vtkPatchMesher_h
@@ -48,6 +58,12 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <vector> // for std::vector
+
+class vtkTriangleSoup;
+namespace vtkSizedRemeshing
+{
+struct Settings;
+}
 
 class VTKLIGHTTRANSPORTMESHING_EXPORT vtkPatchMesher : public vtkPolyDataAlgorithm
 {
@@ -58,12 +74,85 @@ public:
 
   ///@{
   /**
-   * The edge length that the patches should have, in the input's unit. Default 0: the diagonal of
-   * the bounding box divided by 50. Edges come out between about 2/3 and 4/3 of it,
-   * on average a little shorter than it.
+   * The edge length that the patches should have, or the largest one if SizeField is Curvature, in
+   * the input's unit. Default 0: the diagonal of the bounding box divided by 50. Most edges come
+   * out between 4/5 and 4/3 of it. Without meaning if SizeField is Array.
    */
   vtkSetMacro(TargetEdgeLength, double);
   vtkGetMacro(TargetEdgeLength, double);
+  ///@}
+
+  enum
+  {
+    SIZE_FIELD_UNIFORM = 0,
+    SIZE_FIELD_CURVATURE = 1,
+    SIZE_FIELD_ARRAY = 2
+  };
+
+  ///@{
+  /**
+   * Where the edge length comes from.
+   * - Uniform (default): TargetEdgeLength everywhere.
+   * - Curvature: sqrt(6 e / k - 3 e^2), e the ApproximationError and k the largest absolute normal
+   *   curvature of the input, between MinimumEdgeLength and TargetEdgeLength. Inside planar regions
+   *   larger than a few patches it is TargetEdgeLength.
+   * - Array: a point array, see above.
+   */
+  vtkSetClampMacro(SizeField, int, SIZE_FIELD_UNIFORM, SIZE_FIELD_ARRAY);
+  vtkGetMacro(SizeField, int);
+  void SetSizeFieldToUniform() { this->SetSizeField(SIZE_FIELD_UNIFORM); }
+  void SetSizeFieldToCurvature() { this->SetSizeField(SIZE_FIELD_CURVATURE); }
+  void SetSizeFieldToArray() { this->SetSizeField(SIZE_FIELD_ARRAY); }
+  ///@}
+
+  ///@{
+  /**
+   * How far patches may lie from the surface that the input stands for, in the input's unit, if
+   * SizeField is Curvature. Default 0: a hundredth of the TargetEdgeLength.
+   */
+  vtkSetMacro(ApproximationError, double);
+  vtkGetMacro(ApproximationError, double);
+  ///@}
+
+  ///@{
+  /**
+   * The smallest edge length, in the input's unit, that curvature leads to. Default 0: a tenth of
+   * the TargetEdgeLength.
+   */
+  vtkSetMacro(MinimumEdgeLength, double);
+  vtkGetMacro(MinimumEdgeLength, double);
+  ///@}
+
+  ///@{
+  /**
+   * By how much the edge length may grow per unit of distance over the surface, whatever makes it
+   * short: the size field or edges to keep that are short. Lengths that grow faster are
+   * shortened. Default 0.3, more than 0.
+   */
+  vtkSetMacro(Grading, double);
+  vtkGetMacro(Grading, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether planar regions (connected triangles in one plane, without edges to keep between them,
+   * larger than a few patches) may have patches as large as Grading allows. Their borders are kept
+   * then. Default off.
+   */
+  vtkSetMacro(CoarsePlanarRegions, bool);
+  vtkGetMacro(CoarsePlanarRegions, bool);
+  vtkBooleanMacro(CoarsePlanarRegions, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How many patches should come out: all edge lengths of the size field are multiplied by the same
+   * factor so that the number is met within 5 %, or as nearly as the edges to keep allow (a warning
+   * then). "TargetEdgeLength" in the field data says what was used. Takes two or three times as
+   * long. Default 0: the lengths are taken as they are.
+   */
+  vtkSetClampMacro(TargetNumberOfPatches, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(TargetNumberOfPatches, vtkIdType);
   ///@}
 
   ///@{
@@ -113,6 +202,12 @@ protected:
     vtkInformationVector* outputs) override;
 
   double TargetEdgeLength = 0.0;
+  int SizeField = SIZE_FIELD_UNIFORM;
+  double ApproximationError = 0.0;
+  double MinimumEdgeLength = 0.0;
+  double Grading = 0.3;
+  bool CoarsePlanarRegions = false;
+  vtkIdType TargetNumberOfPatches = 0;
   double FeatureAngle = 60.0;
   int NumberOfIterations = 3;
   bool Repair = true;
@@ -124,7 +219,14 @@ private:
 
   /// One number per input cell, equal for cells of the same region.
   std::vector<int> ReadRegions(vtkInformationVector** inputs);
-  void Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell, vtkPolyData* output);
+  /// One length per input point if the size field is an array, else none.
+  std::vector<double> ReadLengths(vtkInformationVector** inputs);
+  void CheckProperties();
+  vtkSizedRemeshing::Settings GetSettings(const vtkTriangleSoup& soup,
+    const std::vector<double>& lengthOfPoint);
+  void CheckNumberOfPatches(vtkIdType number);
+  void Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
+    const std::vector<double>& lengthOfPoint, vtkPolyData* output);
 };
 
 #endif

@@ -2,115 +2,215 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceRemesher.h"
 
+#include "vtkPatchSizing.h"
+#include "vtkRemeshingSteps.h"
+#include "vtkWorkingMesh.h"
+
 #include "vtkMath.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <queue>
+#include <utility>
 
 namespace
 {
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using KeptEdges = Mesh::Property_map<Mesh::Edge_index, bool>;
-using FaceParts = Mesh::Property_map<Mesh::Face_index, std::size_t>;
+using Edge = vtkWorkingMesh::Edge;
+using Face = vtkWorkingMesh::Face;
+using Halfedge = vtkWorkingMesh::Halfedge;
+using Point = vtkWorkingMesh::Point;
+using Vector = vtkWorkingMesh::Vector;
+using Vertex = vtkWorkingMesh::Vertex;
 
-constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t NONE = vtkSourceSurface::NONE;
 
-// Edges up to this multiple of the target length may stay: the remesher ends only if no edge that
-// it must keep is longer. A little less, since halving a length is not exact.
-constexpr double LONGEST_KEPT_EDGE = 4.0 / 3.0 * (1.0 - 1e-6);
-
-struct Interrupted
-{
-};
-
-//------------------------------------------------------------------------------
-// The points of the mesh for the remesher. It has no hook to report or to stop, but it looks up
-// points all the time; so the look-ups are counted.
-class MonitoredPoints
-{
-public:
-  using Points = Mesh::Property_map<Mesh::Vertex_index, Kernel::Point_3>;
-  using key_type = Mesh::Vertex_index;
-  using value_type = Kernel::Point_3;
-  using reference = const Kernel::Point_3&;
-  using category = boost::read_write_property_map_tag;
-
-  struct Counter
-  {
-    const vtkSurfaceRemesher::Monitor* Monitor;
-    double ExpectedLookUps;
-    std::size_t Interval;
-    std::size_t LookUps = 0;
-  };
-
-  MonitoredPoints() = default;
-  MonitoredPoints(const Points& points, Counter* counter) : Map(points), Count(counter) {}
-
-  friend reference get(const MonitoredPoints& map, Mesh::Vertex_index vertex)
-  {
-    if (++map.Count->LookUps % map.Count->Interval == 0)
-    {
-      const double fraction = map.Count->LookUps / map.Count->ExpectedLookUps;
-      if (!(*map.Count->Monitor)(std::min(fraction, 1.0)))
-      {
-        throw Interrupted();
-      }
-    }
-    return get(map.Map, vertex);
-  }
-  friend void put(const MonitoredPoints& map, Mesh::Vertex_index vertex,
-    const Kernel::Point_3& point)
-  {
-    put(map.Map, vertex, point);
-  }
-
-private:
-  Points Map;
-  Counter* Count = nullptr;
-};
-
-//------------------------------------------------------------------------------
-Kernel::Vector_3 GetNormal(const Mesh& mesh, Mesh::Face_index face)
-{
-  const Mesh::Halfedge_index h = mesh.halfedge(face);
-  const Kernel::Point_3& p = mesh.point(mesh.source(h));
-  return CGAL::cross_product(mesh.point(mesh.target(h)) - p,
-    mesh.point(mesh.target(mesh.next(h))) - p);
-}
+// Edges up to this multiple of the wanted length may stay.
+constexpr double LONGEST = 4.0 / 3.0;
+// Beside edges to keep that are shorter than wanted, others may be this much longer than they are:
+// the smallest angle of such a triangle is 39 degrees.
+constexpr double LONGEST_BESIDE_KEPT = 1.5;
 
 //------------------------------------------------------------------------------
 // Whether the normals at an edge differ by more than the angle with this cosine.
-bool IsSharp(const Mesh& mesh, Mesh::Face_index a, Mesh::Face_index b, double cosine)
+bool IsSharp(const vtkWorkingMesh& work, Face a, Face b, double cosine)
 {
-  const Kernel::Vector_3 m = GetNormal(mesh, a);
-  const Kernel::Vector_3 n = GetNormal(mesh, b);
+  const Vector m = work.GetNormal(a);
+  const Vector n = work.GetNormal(b);
   const double lengths = std::sqrt(m.squared_length() * n.squared_length());
   // Rounding must not make an edge within a plane sharp.
   const double tolerance = 1e-12;
   return m * n < (cosine - tolerance) * lengths;
+}
+
+//------------------------------------------------------------------------------
+void FindParts(vtkWorkingMesh& work)
+{
+  PMP::connected_components(work.Mesh, work.Parts,
+    CGAL::parameters::edge_is_constrained_map(work.Kept));
+}
+
+//------------------------------------------------------------------------------
+// The length at a new vertex between two old ones.
+double GetNewLength(const vtkWorkingMesh& work, Edge edge, double interpolated)
+{
+  double ceiling = std::numeric_limits<double>::max();
+  for (const unsigned int side : { 0u, 1u })
+  {
+    const Halfedge h = work.Mesh.halfedge(edge, side);
+    if (!work.Mesh.is_border(h))
+    {
+      ceiling = std::min(ceiling, work.Ceilings[work.Mesh.face(h)]);
+    }
+  }
+  return std::max(ceiling, interpolated);
+}
+
+//------------------------------------------------------------------------------
+// Where to split an edge, between 0 and 1; 0 if it is to stay. Edges to keep are split so that all
+// pieces are alike, measured by the lengths wanted along them; other edges in the middle, if they
+// are longer than wanted at both ends, so that lengths within them can be told apart.
+double FindSplit(const vtkWorkingMesh& work, Edge edge)
+{
+  const double length = work.GetLength(edge);
+  const double a = work.Lengths[work.Mesh.vertex(edge, 0)];
+  const double b = work.Lengths[work.Mesh.vertex(edge, 1)];
+  if (!work.Kept[edge])
+  {
+    return length > LONGEST * std::max(a, b) ? 0.5 : 0.0;
+  }
+  const double growth = std::log(b / a);
+  const bool even = std::abs(growth) < 1e-6;
+  // The integral of 1 / wanted length along the edge.
+  const double count = even ? length / a : length * growth / (b - a);
+  const double pieces = std::max(std::ceil(count / LONGEST * (1.0 - 1e-9)), std::round(count));
+  const double part = std::floor(0.5 * pieces) / pieces;
+  return even ? part : std::expm1(part * growth) / std::expm1(growth);
+}
+
+//------------------------------------------------------------------------------
+// Longest edges come first: it keeps triangles from getting thin.
+void SplitEdges(vtkWorkingMesh& work)
+{
+  std::priority_queue<std::pair<double, Edge>> queue;
+  const auto add = [&](Edge edge)
+  {
+    if (FindSplit(work, edge) > 0.0)
+    {
+      queue.emplace(work.GetLength(edge), edge);
+    }
+  };
+  for (const Edge edge : work.Mesh.edges())
+  {
+    add(edge);
+  }
+  while (!queue.empty())
+  {
+    const std::pair<double, Edge> longest = queue.top();
+    const Edge edge = longest.second;
+    queue.pop();
+    const double part = FindSplit(work, edge);
+    if (longest.first != work.GetLength(edge) || !(part > 0.0))
+    {
+      continue;
+    }
+    const Vertex from = work.Mesh.vertex(edge, 0);
+    const Vertex to = work.Mesh.vertex(edge, 1);
+    const double wanted =
+      GetNewLength(work, edge, (1.0 - part) * work.Lengths[from] + part * work.Lengths[to]);
+    const Point& start = work.Mesh.point(from);
+    const Vertex vertex =
+      work.Split(work.Mesh.halfedge(edge), start + part * (work.Mesh.point(to) - start));
+    work.Lengths[vertex] = wanted;
+    for (const Halfedge around : work.Mesh.halfedges_around_target(work.Mesh.halfedge(vertex)))
+    {
+      add(work.Mesh.edge(around));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Edges to keep that are short need short ones beside them, unless they can be joined.
+void LimitToKeptEdges(vtkWorkingMesh& work)
+{
+  std::vector<double> longest(work.Mesh.number_of_vertices(), 0.0);
+  for (const Edge edge : work.Mesh.edges())
+  {
+    if (work.Kept[edge])
+    {
+      const double length = work.GetLength(edge);
+      for (const unsigned int end : { 0u, 1u })
+      {
+        const Vertex vertex = work.Mesh.vertex(edge, end);
+        longest[vertex] = std::max(longest[vertex], length);
+      }
+    }
+  }
+  for (const Vertex vertex : work.Mesh.vertices())
+  {
+    if (work.Fixed[vertex] && !work.IsStraight(vertex))
+    {
+      work.Lengths[vertex] = std::min(work.Lengths[vertex], LONGEST_BESIDE_KEPT * longest[vertex]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// The mesh as arrays. Nothing may have been removed from it.
+vtkSourceSurface ToSources(const vtkWorkingMesh& work)
+{
+  vtkSourceSurface sources;
+  for (const Vertex vertex : work.Mesh.vertices())
+  {
+    const Point& point = work.Mesh.point(vertex);
+    sources.Points.push_back({ point.x(), point.y(), point.z() });
+  }
+  for (const Face face : work.Mesh.faces())
+  {
+    vtkSourceSurface::Triangle triangle;
+    std::array<std::size_t, 3> neighbours;
+    Halfedge h = work.Mesh.halfedge(face);
+    for (int i = 0; i < 3; ++i)
+    {
+      triangle[i] = work.Mesh.source(h);
+      neighbours[i] =
+        work.Kept[work.Mesh.edge(h)] ? NONE : std::size_t(work.Mesh.face(work.Mesh.opposite(h)));
+      h = work.Mesh.next(h);
+    }
+    sources.Triangles.push_back(triangle);
+    sources.Neighbours.push_back(neighbours);
+    sources.Parts.push_back(work.Parts[face]);
+    sources.Sources.push_back(work.Sources[face]);
+  }
+  sources.Link();
+  return sources;
 }
 } // namespace
 
 //------------------------------------------------------------------------------
 struct vtkSurfaceRemesher::Internals
 {
-  Mesh Triangles;
-  KeptEdges Kept;
-  FaceParts Parts;
-  double Area = 0.0;
-  double LengthOfKeptEdges = 0.0;
+  /// The mesh that Build() and Set...() make, and the one that Prepare() and Remesh() change.
+  vtkWorkingMesh Original;
+  std::unique_ptr<vtkWorkingMesh> Work;
+
+  void MarkFixed()
+  {
+    for (const Edge edge : this->Original.Mesh.edges())
+    {
+      if (this->Original.Kept[edge])
+      {
+        this->Original.Fixed[this->Original.Mesh.vertex(edge, 0)] = true;
+        this->Original.Fixed[this->Original.Mesh.vertex(edge, 1)] = true;
+      }
+    }
+  }
 };
 
 //------------------------------------------------------------------------------
-vtkSurfaceRemesher::vtkSurfaceRemesher() : Surface(new Internals) {}
+vtkSurfaceRemesher::vtkSurfaceRemesher() : Meshes(new Internals) {}
 
 //------------------------------------------------------------------------------
 vtkSurfaceRemesher::~vtkSurfaceRemesher() = default;
@@ -119,129 +219,175 @@ vtkSurfaceRemesher::~vtkSurfaceRemesher() = default;
 bool vtkSurfaceRemesher::Build(const vtkTriangleSoup& soup, const std::vector<int>& regions,
   double featureAngle)
 {
-  Mesh& mesh = this->Surface->Triangles;
-  std::vector<Mesh::Vertex_index> vertices(soup.Points.size());
-  for (const vtkTriangleSoup::Triangle& triangle : soup.Triangles)
+  vtkWorkingMesh& work = this->Meshes->Original;
+  std::vector<Vertex> vertices(soup.Points.size());
+  for (std::size_t i = 0; i < soup.Triangles.size(); ++i)
   {
+    const vtkTriangleSoup::Triangle& triangle = soup.Triangles[i];
     for (const std::size_t corner : triangle)
     {
-      if (vertices[corner] == Mesh::null_vertex())
+      if (vertices[corner] == vtkWorkingMesh::Surface::null_vertex())
       {
         const vtkTriangleSoup::Point& point = soup.Points[corner];
-        vertices[corner] = mesh.add_vertex(Kernel::Point_3(point[0], point[1], point[2]));
+        vertices[corner] = work.Mesh.add_vertex(Point(point[0], point[1], point[2]));
+        this->PointsOfSoup.push_back(corner);
       }
     }
-    // Faces are numbered as the triangles are: `regions` and PartsOfSoup rely on it.
-    if (mesh.add_face(vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]) ==
-      Mesh::null_face())
+    const Face face =
+      work.Mesh.add_face(vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]);
+    if (face == vtkWorkingMesh::Surface::null_face())
     {
       return false;
     }
-    this->Surface->Area += 0.5 * vtkMath::Norm(soup.GetNormal(triangle).data());
+    work.Sources[face] = i;
   }
 
-  this->Surface->Kept = mesh.add_property_map<Mesh::Edge_index, bool>("e:kept", false).first;
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(featureAngle));
-  for (const Mesh::Edge_index edge : mesh.edges())
+  for (const Edge edge : work.Mesh.edges())
   {
-    const Mesh::Face_index a = mesh.face(mesh.halfedge(edge, 0));
-    const Mesh::Face_index b = mesh.face(mesh.halfedge(edge, 1));
-    const bool kept =
-      mesh.is_border(edge) || regions[a] != regions[b] || IsSharp(mesh, a, b, cosine);
-    this->Surface->Kept[edge] = kept;
-    if (kept)
-    {
-      this->Surface->LengthOfKeptEdges += std::sqrt(
-        CGAL::squared_distance(mesh.point(mesh.vertex(edge, 0)), mesh.point(mesh.vertex(edge, 1))));
-    }
+    const Face a = work.Mesh.face(work.Mesh.halfedge(edge, 0));
+    const Face b = work.Mesh.face(work.Mesh.halfedge(edge, 1));
+    work.Kept[edge] = work.Mesh.is_border(edge) ||
+      regions[work.Sources[a]] != regions[work.Sources[b]] || IsSharp(work, a, b, cosine);
   }
-  this->PartsOfSoup.resize(soup.Triangles.size());
+  this->Meshes->MarkFixed();
+  FindParts(work);
   return true;
 }
 
 //------------------------------------------------------------------------------
-double vtkSurfaceRemesher::EstimateNumberOfTriangles(double targetEdgeLength) const
+vtkSourceSurface vtkSurfaceRemesher::GetSurface() const
 {
-  const double areaOfTriangle = std::sqrt(3.0) / 4.0 * targetEdgeLength * targetEdgeLength;
-  return this->Surface->Area / areaOfTriangle + this->Surface->LengthOfKeptEdges / targetEdgeLength;
+  return ToSources(this->Meshes->Original);
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceRemesher::SplitKeptEdges(double targetEdgeLength)
+void vtkSurfaceRemesher::SetLengths(const std::vector<double>& lengths)
 {
-  Mesh& mesh = this->Surface->Triangles;
-  std::vector<Mesh::Edge_index> kept;
-  for (const Mesh::Edge_index edge : mesh.edges())
+  vtkWorkingMesh& work = this->Meshes->Original;
+  for (const Vertex vertex : work.Mesh.vertices())
   {
-    if (this->Surface->Kept[edge])
+    work.Lengths[vertex] = lengths[vertex];
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions, double length,
+  bool keepBorders)
+{
+  vtkWorkingMesh& work = this->Meshes->Original;
+  for (const Face face : work.Mesh.faces())
+  {
+    work.Ceilings[face] = regions[face] == NONE ? 0.0 : length;
+  }
+  for (const Edge edge : work.Mesh.edges())
+  {
+    if (keepBorders && !work.Kept[edge])
     {
-      kept.push_back(edge);
+      const Face a = work.Mesh.face(work.Mesh.halfedge(edge, 0));
+      const Face b = work.Mesh.face(work.Mesh.halfedge(edge, 1));
+      work.Kept[edge] = regions[a] != regions[b];
     }
   }
-  PMP::split_long_edges(kept, LONGEST_KEPT_EDGE * targetEdgeLength, mesh,
-    CGAL::parameters::edge_is_constrained_map(this->Surface->Kept));
-
-  this->Surface->Parts = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:part", NONE).first;
-  this->NumberOfParts = PMP::connected_components(mesh, this->Surface->Parts,
-    CGAL::parameters::edge_is_constrained_map(this->Surface->Kept));
-  // Splitting cuts pieces off a face but never removes it, so it still tells its part.
-  for (std::size_t i = 0; i < this->PartsOfSoup.size(); ++i)
-  {
-    this->PartsOfSoup[i] = this->Surface->Parts[Mesh::Face_index(static_cast<Mesh::size_type>(i))];
-  }
+  this->Meshes->MarkFixed();
+  FindParts(work);
 }
 
 //------------------------------------------------------------------------------
-bool vtkSurfaceRemesher::Remesh(double targetEdgeLength, int numberOfIterations,
-  const Monitor& monitor)
+double vtkSurfaceRemesher::Prepare(double factor, double grading)
 {
-  // Measured: 50 to 200 look-ups per triangle and iteration.
-  const double lookUps = 100.0;
-  Mesh& mesh = this->Surface->Triangles;
-  const double numberOfReports = 200.0;
-  MonitoredPoints::Counter counter;
-  counter.Monitor = &monitor;
-  counter.ExpectedLookUps =
-    lookUps * numberOfIterations * this->EstimateNumberOfTriangles(targetEdgeLength);
-  counter.Interval = 1 + static_cast<std::size_t>(counter.ExpectedLookUps / numberOfReports);
-  try
+  this->Meshes->Work.reset(new vtkWorkingMesh(this->Meshes->Original));
+  vtkWorkingMesh& work = *this->Meshes->Work;
+  for (const Vertex vertex : work.Mesh.vertices())
   {
-    PMP::isotropic_remeshing(mesh.faces(), targetEdgeLength, mesh,
-      CGAL::parameters::number_of_iterations(numberOfIterations)
-        .protect_constraints(true)
-        .edge_is_constrained_map(this->Surface->Kept)
-        .face_patch_map(this->Surface->Parts)
-        .vertex_point_map(MonitoredPoints(mesh.points(), &counter)));
+    work.Lengths[vertex] *= factor;
   }
-  catch (const Interrupted&)
+  for (const Face face : work.Mesh.faces())
   {
-    return false;
+    work.Ceilings[face] *= factor;
   }
-  return true;
+  SplitEdges(work);
+  // Lengths that have become shorter may split edges once more, which shortens others a little.
+  for (int i = 0; i < 2; ++i)
+  {
+    SplitEdges(work);
+    LimitToKeptEdges(work);
+    this->Sources = ToSources(work);
+    this->Lengths.clear();
+    for (const Vertex vertex : work.Mesh.vertices())
+    {
+      this->Lengths.push_back(work.Lengths[vertex]);
+    }
+    vtkPatchSizing::Grade(this->Sources, grading, this->Lengths);
+    for (const Vertex vertex : work.Mesh.vertices())
+    {
+      work.Lengths[vertex] = this->Lengths[vertex];
+    }
+  }
+  for (const Vertex vertex : work.Mesh.vertices())
+  {
+    work.Origins[vertex] = vertex;
+    work.Places[vertex].Triangle = *this->Sources.GetTrianglesAround(vertex).First;
+    work.Places[vertex].Position = this->Sources.Points[vertex];
+  }
+  return vtkPatchSizing::EstimateNumberOfTriangles(this->Sources, this->Lengths);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
+{
+  double done = 0.0;
+  const auto alive = [&]() { monitor(done); };
+  vtkRemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, alive);
+  for (int i = 0; i < numberOfIterations; ++i)
+  {
+    steps.SplitLongEdges();
+    steps.CollapseShortEdges();
+    steps.FlipEdges();
+    steps.MoveVertices();
+    done = (i + 1.0) / (numberOfIterations + 1.0);
+    monitor(done);
+  }
+  // The last move may have left edges that are better flipped, and better places then.
+  steps.FlipEdges();
+  steps.MoveVertices();
+  steps.FlipEdges();
+}
+
+//------------------------------------------------------------------------------
+std::size_t vtkSurfaceRemesher::GetNumberOfTriangles() const
+{
+  return this->Meshes->Work->Mesh.number_of_faces();
 }
 
 //------------------------------------------------------------------------------
 vtkSurfaceRemesher::Result vtkSurfaceRemesher::GetResult() const
 {
-  const Mesh& mesh = this->Surface->Triangles;
+  vtkWorkingMesh& work = *this->Meshes->Work;
+  const vtkRemeshingSteps steps(work, this->Sources, this->Lengths, []() {});
   Result result;
-  std::vector<std::size_t> indices(mesh.num_vertices(), NONE);
-  for (const Mesh::Face_index face : mesh.faces())
+  std::vector<std::size_t> indices(
+    work.Mesh.number_of_vertices() + work.Mesh.number_of_removed_vertices(), NONE);
+  for (const Face face : work.Mesh.faces())
   {
     vtkTriangleSoup::Triangle triangle;
     int corner = 0;
-    for (const Mesh::Vertex_index vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+    for (const Vertex vertex : work.Mesh.vertices_around_face(work.Mesh.halfedge(face)))
     {
       if (indices[vertex] == NONE)
       {
-        const Kernel::Point_3& point = mesh.point(vertex);
+        const Point& point = work.Mesh.point(vertex);
         indices[vertex] = result.Points.size();
         result.Points.push_back({ point.x(), point.y(), point.z() });
+        const std::size_t triangleOfPoint = work.Fixed[vertex]
+          ? *this->Sources.GetTrianglesAround(work.Origins[vertex]).First
+          : work.Places[vertex].Triangle;
+        result.SourcesOfPoints.push_back(this->Sources.Sources[triangleOfPoint]);
       }
       triangle[corner++] = indices[vertex];
     }
     result.Triangles.push_back(triangle);
-    result.Parts.push_back(this->Surface->Parts[face]);
+    result.SourcesOfTriangles.push_back(this->Sources.Sources[steps.FindSource(face)]);
   }
   return result;
 }

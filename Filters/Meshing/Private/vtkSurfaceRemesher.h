@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A manifold surface that is remeshed with CGAL. The edges to keep cut it into parts; each part is
- * remeshed on its own and projected onto itself only.
+ * Remeshes a manifold surface to a length per point. The edges to keep cut it into parts; each part
+ * is remeshed on its own and projected onto itself only.
  *
- * All methods throw what CGAL throws (std::exception).
+ * Call Build(), SetLengths(), Prepare() and Remesh() in this order; Prepare() starts anew from what
+ * SetLengths() left. All methods throw what CGAL throws (std::exception).
  */
 #ifndef vtkSurfaceRemesher_h
 #define vtkSurfaceRemesher_h
 
+#include "vtkSourceSurface.h"
 #include "vtkTriangleSoup.h"
 
 #include <functional>
@@ -30,39 +32,56 @@ public:
    */
   bool Build(const vtkTriangleSoup& soup, const std::vector<int>& regions, double featureAngle);
 
-  /// How many triangles edges of this length will give, about.
-  double EstimateNumberOfTriangles(double targetEdgeLength) const;
+  /// The surface as it was built. Its points are those of the soup that triangles use, in order.
+  vtkSourceSurface GetSurface() const;
+  /// The point of the soup that each point of GetSurface() is.
+  const std::vector<std::size_t>& GetPointsOfSoup() const { return this->PointsOfSoup; }
 
-  /// Split the edges to keep, and tell the parts between them apart.
-  void SplitKeptEdges(double targetEdgeLength);
+  /// The length that edges should have at each point of GetSurface().
+  void SetLengths(const std::vector<double>& lengths);
+
+  /**
+   * Let edges be as long as `length` inside the planar `regions` (one per triangle, NONE where
+   * there is none). `keepBorders`: also keep the edges around them.
+   */
+  void SetPlanarRegions(const std::vector<std::size_t>& regions, double length, bool keepBorders);
+
+  /**
+   * Multiply all lengths by `factor`, split the edges to keep, limit the lengths to what these
+   * allow and to the `grading`, and tell the parts apart. Returns how many triangles will come out,
+   * about.
+   */
+  double Prepare(double factor, double grading);
 
   /**
    * Called now and then while Remesh() works, with the fraction of the work that is done (an
-   * estimate); when it returns false, Remesh() gives up.
+   * estimate); it may throw to stop.
    */
-  using Monitor = std::function<bool(double)>;
+  using Monitor = std::function<void(double)>;
+  void Remesh(int numberOfIterations, const Monitor& monitor);
 
-  /// Remesh between the edges to keep. Returns false when the monitor said so.
-  bool Remesh(double targetEdgeLength, int numberOfIterations, const Monitor& monitor);
+  std::size_t GetNumberOfTriangles() const;
+
+  /// The prepared surface, and the length that edges should have at each of its points.
+  const vtkSourceSurface& GetSources() const { return this->Sources; }
+  const std::vector<double>& GetLengths() const { return this->Lengths; }
 
   struct Result
   {
     std::vector<vtkTriangleSoup::Point> Points;
     std::vector<vtkTriangleSoup::Triangle> Triangles;
-    /// The part that each triangle belongs to.
-    std::vector<std::size_t> Parts;
+    /// The triangle of the soup that each point comes from, and each triangle.
+    std::vector<std::size_t> SourcesOfPoints;
+    std::vector<std::size_t> SourcesOfTriangles;
   };
   Result GetResult() const;
 
-  /// The part that each triangle of the soup belongs to; valid after SplitKeptEdges().
-  const std::vector<std::size_t>& GetPartsOfSoup() const { return this->PartsOfSoup; }
-  std::size_t GetNumberOfParts() const { return this->NumberOfParts; }
-
 private:
   struct Internals;
-  std::unique_ptr<Internals> Surface;
-  std::vector<std::size_t> PartsOfSoup;
-  std::size_t NumberOfParts = 0;
+  std::unique_ptr<Internals> Meshes;
+  std::vector<std::size_t> PointsOfSoup;
+  vtkSourceSurface Sources;
+  std::vector<double> Lengths;
 };
 
 #endif

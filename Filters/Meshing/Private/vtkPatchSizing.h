@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// How long the edges of patches should be, and where: one length per point of a surface.
+#ifndef vtkPatchSizing_h
+#define vtkPatchSizing_h
+
+#include "vtkLightTransportMeshingModule.h" // for export macro
+#include "vtkSourceSurface.h"
+
+#include <vector>
+
+namespace vtkPatchSizing
+{
+/**
+ * The largest absolute normal curvature at each point, from the angles at the edges around it
+ * (Cohen-Steiner and Morvan, "Restricted Delaunay triangulations and normal cycle", 2003). Edges to
+ * keep do not count, and at a point where they meet the part with the largest curvature does.
+ */
+VTKLIGHTTRANSPORTMESHING_EXPORT std::vector<double> GetCurvatures(const vtkSourceSurface& surface);
+
+/**
+ * The edge length of triangles that deviate by `error` from a surface of this curvature, between
+ * `shortest` and `longest` (Dunyach et al., "Adaptive remeshing for real-time mesh deformation",
+ * 2013).
+ */
+VTKLIGHTTRANSPORTMESHING_EXPORT double GetLengthForCurvature(double curvature, double error,
+  double shortest, double longest);
+
+/**
+ * The planar region that each triangle belongs to, or vtkSourceSurface::NONE: connected triangles,
+ * without edges to keep between them, within 1e-6 of the region's size of one plane, and at least
+ * as large as a few patches of the length that their points have.
+ */
+VTKLIGHTTRANSPORTMESHING_EXPORT std::vector<std::size_t> FindPlanarRegions(
+  const vtkSourceSurface& surface, const std::vector<double>& lengths);
+
+/**
+ * Shorten the lengths so that along every path on the surface they grow by at most `grading` per
+ * unit of distance: a sweep from the shortest length on, like Dijkstra's, through triangles
+ * instead of along edges (as in fast marching).
+ */
+VTKLIGHTTRANSPORTMESHING_EXPORT void Grade(const vtkSourceSurface& surface, double grading,
+  std::vector<double>& lengths);
+
+/// How many triangles with edges of these lengths cover the surface, about.
+VTKLIGHTTRANSPORTMESHING_EXPORT double EstimateNumberOfTriangles(const vtkSourceSurface& surface,
+  const std::vector<double>& lengths);
+
+/// The length with which as many equal triangles cover the surface as with these lengths.
+VTKLIGHTTRANSPORTMESHING_EXPORT double GetMeanLength(const vtkSourceSurface& surface,
+  const std::vector<double>& lengths);
+} // namespace vtkPatchSizing
+
+#endif

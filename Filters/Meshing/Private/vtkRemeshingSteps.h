@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The steps that isotropic remeshing repeats (Botsch and Kobbelt, "A Remeshing Approach to
+ * Multiresolution Modeling", 2004; with a length per vertex: Dunyach et al., "Adaptive remeshing
+ * for real-time mesh deformation", 2013): split long edges, collapse short ones, flip edges, move
+ * vertices along the surface.
+ *
+ * Edges to keep are never split or flipped, and collapsed only along a straight line. No step turns
+ * a triangle over.
+ */
+#ifndef vtkRemeshingSteps_h
+#define vtkRemeshingSteps_h
+
+#include "vtkSourceSurface.h"
+#include "vtkWorkingMesh.h"
+
+#include <functional>
+#include <vector>
+
+class vtkRemeshingSteps
+{
+public:
+  /// `lengths` are those of the points of `sources`. `alive` is called now and then and may throw.
+  vtkRemeshingSteps(vtkWorkingMesh& mesh, const vtkSourceSurface& sources,
+    const std::vector<double>& lengths, std::function<void()> alive);
+
+  void SplitLongEdges();
+  void CollapseShortEdges();
+  /// Flip edges until all are Delaunay, or flat enough no more.
+  void FlipEdges();
+  void MoveVertices();
+
+  /// The triangle of `sources` that is closest to the center of a face.
+  std::size_t FindSource(vtkWorkingMesh::Face face) const;
+
+private:
+  using Vertex = vtkWorkingMesh::Vertex;
+  using Halfedge = vtkWorkingMesh::Halfedge;
+  using Edge = vtkWorkingMesh::Edge;
+  using Face = vtkWorkingMesh::Face;
+  using Point = vtkWorkingMesh::Point;
+  using Vector = vtkWorkingMesh::Vector;
+
+  double GetRatio(Edge edge) const;
+  vtkSourceSurface::Place Find(Vertex start, std::size_t part, const Point& position) const;
+  void Put(Vertex vertex, const vtkSourceSurface::Place& place);
+  /// The halfedge whose start may be moved into its end; none if the edge must stay.
+  Halfedge FindCollapse(Edge edge) const;
+  bool CanCollapse(Halfedge h) const;
+  Vertex Collapse(Halfedge h);
+  bool ShouldFlip(Edge edge) const;
+  bool CanMove(Vertex vertex, const Point& to) const;
+  void Move(Vertex vertex);
+  void CountStep();
+
+  vtkWorkingMesh& Work;
+  vtkWorkingMesh::Surface& Mesh;
+  const vtkSourceSurface& Sources;
+  const std::vector<double>& Lengths;
+  std::function<void()> Alive;
+  std::size_t Steps = 0;
+};
+
+#endif
