@@ -326,6 +326,24 @@ bool TestTileSizes(const std::string& path)
     "empty tiles: " + probe.GetText());
   return good;
 }
+
+//------------------------------------------------------------------------------
+// Chunks that should begin within the header or behind the end.
+bool TestOffsets(const std::string& path)
+{
+  WriteSmall(path, vtkOpenEXRWriter::COMPRESSION_ZIPS, false, false);
+  const std::string whole = Load(path);
+  Probe probe(path);
+  bool good = true;
+  for (const int offset : { 8, static_cast<int>(whole.size()) - 7, -1 })
+  {
+    Save(path, Patch(whole, whole.substr(FindHeaderEnd(whole), 8), 0, { offset, 0 }));
+    good &= Check(probe.Read(true) &&
+        probe.GetText().find("where the file has none") != std::string::npos,
+      "a chunk at " + std::to_string(offset) + ": " + probe.GetText());
+  }
+  return good;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -351,5 +369,6 @@ int TestOpenEXRHostile(int argc, char* argv[])
   good &= TestKind(path, "two parts", true, false);
   good &= TestPromises(path);
   good &= TestTileSizes(path);
+  good &= TestOffsets(path);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -30,8 +30,11 @@ using namespace OpenEXRTestTools;
 
 namespace
 {
-// Neither begins at 0 nor has a side that is a power of two or divided by the tiles.
-const Imath::Box2i Data({ -5, 12 }, { 21, 30 });
+// Neither begin at 0 nor have a side that is a power of two or divided by the tiles; a ripmap has
+// more levels in x of one, in y of the other.
+const Imath::Box2i Wide({ -5, 12 }, { 21, 24 });
+const Imath::Box2i Tall({ -5, 12 }, { 7, 38 });
+Imath::Box2i Data = Wide;
 const Imath::Box2i Display({ 0, 0 }, { 63, 47 });
 
 //------------------------------------------------------------------------------
@@ -254,9 +257,14 @@ bool TestDeep(const std::string& path)
 int TestOpenEXRLibraryFiles(int argc, char* argv[])
 {
   const std::string path = GetPath(argc, argv, "TestOpenEXRLibraryFiles.exr");
-  bool good = TestTiles(path);
-  good &= TestDecreasingLines(path);
-  good &= TestParts(path);
+  bool good = true;
+  for (const Imath::Box2i& window : { Wide, Tall })
+  {
+    Data = window;
+    good &= TestTiles(path);
+    good &= TestDecreasingLines(path);
+    good &= TestParts(path);
+  }
   good &= TestDeep(path);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
