@@ -252,9 +252,55 @@ void Shrink(const Polygon& polygon, Range& range)
   }
 }
 
+//------------------------------------------------------------------------------
+// Twice the area of the triangle of a polygon's first vertex and two others in barycentric
+// coordinates, in which a triangle that is a needle in the atlas is as wide as any other.
+double GetPart(const Polygon& polygon, int second)
+{
+  const std::array<double, 3>& o = polygon.Vertices[0].Weights;
+  const std::array<double, 3>& p = polygon.Vertices[second].Weights;
+  const std::array<double, 3>& q = polygon.Vertices[second + 1].Weights;
+  return (p[1] - o[1]) * (q[2] - o[2]) - (p[2] - o[2]) * (q[1] - o[1]);
+}
+
+//------------------------------------------------------------------------------
+double GetSize(const Polygon& polygon)
+{
+  double size = 0.0;
+  for (int i = 1; i + 1 < polygon.Size; ++i)
+  {
+    size += GetPart(polygon, i);
+  }
+  return std::max(size, 0.0);
+}
+
+//------------------------------------------------------------------------------
+// Never outside the polygon, even if rounding has turned parts of it over.
+std::array<double, 3> GetCentroid(const Polygon& polygon)
+{
+  std::array<double, 3> moment{ 0.0, 0.0, 0.0 };
+  double size = 0.0;
+  for (int i = 1; i + 1 < polygon.Size; ++i)
+  {
+    const double part = std::max(GetPart(polygon, i), std::numeric_limits<double>::min());
+    size += part;
+    for (int j = 0; j < 3; ++j)
+    {
+      moment[j] += part *
+        (polygon.Vertices[0].Weights[j] + polygon.Vertices[i].Weights[j] +
+          polygon.Vertices[i + 1].Weights[j]);
+    }
+  }
+  for (double& weight : moment)
+  {
+    weight /= 3.0 * size;
+  }
+  return moment;
+}
+
 // Halves a triangle along the lines of the grid until each part lies in one texel: the parts have
 // been cut only a few times each, so that rounding does not add up even in a triangle that covers
-// millions of texels.
+// millions of texels. At each cut the area is shared out, so that none is lost or made.
 class Divider
 {
 public:
@@ -266,20 +312,22 @@ public:
   void Divide(vtkIdType cell, double area, const Polygon& triangle)
   {
     this->Piece.Cell = cell;
-    this->CellArea = area;
-    this->Divide(triangle, Range{ { 0, 0 }, { this->Resolution, this->Resolution } });
+    this->Divide(triangle, area, Range{ { 0, 0 }, { this->Resolution, this->Resolution } });
   }
 
 private:
-  void Divide(const Polygon& polygon, Range range)
+  void Divide(const Polygon& polygon, double area, Range range)
   {
     Shrink(polygon, range);
     const int columns = range.Last[0] - range.First[0];
     const int rows = range.Last[1] - range.First[1];
     if (columns == 1 && rows == 1)
     {
-      this->Emit(polygon,
-        range.First[0] + static_cast<vtkIdType>(this->Resolution) * range.First[1]);
+      this->Piece.Texel =
+        range.First[0] + static_cast<vtkIdType>(this->Resolution) * range.First[1];
+      this->Piece.Area = std::max(area, std::numeric_limits<double>::min());
+      this->Piece.Weights = GetCentroid(polygon);
+      this->Visitor(this->Piece);
       return;
     }
     const int axis = columns >= rows ? 0 : 1;
@@ -287,51 +335,25 @@ private:
     Polygon below;
     Polygon above;
     Split(polygon, axis, middle, below, above);
-    Range lower = range;
-    lower.Last[axis] = middle;
-    this->Divide(below, lower);
-    range.First[axis] = middle;
-    this->Divide(above, range);
-  }
-
-  // Areas are measured in barycentric coordinates, in which a triangle that is a needle in the
-  // atlas is as wide as any other.
-  void Emit(const Polygon& polygon, vtkIdType texel)
-  {
-    const auto& origin = polygon.Vertices[0].Weights;
-    std::array<double, 3> moment{ 0.0, 0.0, 0.0 };
-    double fraction = 0.0;
-    for (int i = 1; i + 1 < polygon.Size; ++i)
+    const double sizeBelow = GetSize(below);
+    const double sizeAbove = GetSize(above);
+    if (sizeBelow > 0.0)
     {
-      const auto& p = polygon.Vertices[i].Weights;
-      const auto& q = polygon.Vertices[i + 1].Weights;
-      const double part =
-        (p[1] - origin[1]) * (q[2] - origin[2]) - (p[2] - origin[2]) * (q[1] - origin[1]);
-      if (part > 0.0)
-      {
-        fraction += part;
-        for (int j = 0; j < 3; ++j)
-        {
-          moment[j] += part * (origin[j] + p[j] + q[j]);
-        }
-      }
+      Range lower = range;
+      lower.Last[axis] = middle;
+      this->Divide(below, area * (sizeBelow / (sizeBelow + sizeAbove)), lower);
     }
-    if (fraction > 0.0)
+    if (sizeAbove > 0.0 || sizeBelow == 0.0)
     {
-      this->Piece.Texel = texel;
-      this->Piece.Area = std::max(fraction * this->CellArea, std::numeric_limits<double>::min());
-      for (int j = 0; j < 3; ++j)
-      {
-        this->Piece.Weights[j] = moment[j] / (3.0 * fraction);
-      }
-      this->Visitor(this->Piece);
+      range.First[axis] = middle;
+      const double share = sizeBelow == 0.0 ? 1.0 : sizeAbove / (sizeBelow + sizeAbove);
+      this->Divide(above, area * share, range);
     }
   }
 
   int Resolution;
   const vtkTexelPieces::Visitor& Visitor;
   vtkTexelPieces::Piece Piece;
-  double CellArea = 0.0;
 };
 } // namespace
 
