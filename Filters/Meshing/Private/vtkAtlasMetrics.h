@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// How good an atlas is, whoever made it: see vtkSurfaceAtlas for what the numbers mean.
+#ifndef vtkAtlasMetrics_h
+#define vtkAtlasMetrics_h
+
+#include "vtkLightTransportMeshingModule.h" // for export macro
+
+class vtkDataArray;
+class vtkPolyData;
+
+struct VTKLIGHTTRANSPORTMESHING_EXPORT vtkAtlasMetrics
+{
+  double L2Stretch = 0.0;
+  double LInfinityStretch = 0.0;
+  double AreaDistortion = 0.0;
+  /// Share of the unit square that triangles cover.
+  double TexelUse = 0.0;
+
+  /// `surface` has triangles only; texture coordinates lie in [0,1]^2, and no triangle is without
+  /// area there.
+  vtkAtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates);
+};
+
+#endif
