@@ -131,17 +131,8 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkPatchScene scene;
   Problem problem;
-  std::string error;
-  if (!this->CheckSolver())
-  {
-    return 0;
-  }
-  if (!scene.Build(input, this->Controller, error))
-  {
-    vtkErrorMacro(<< error);
-    return 0;
-  }
-  if (!this->ReadMaterials(input, scene, problem))
+  if (!this->CheckSolver() || !this->BuildScene(input, scene) ||
+    !this->ReadMaterials(input, scene, problem))
   {
     return 0;
   }
@@ -196,6 +187,25 @@ bool vtkRadiosity::CheckSolver()
     return false;
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+// The number of patches decides how they are linked, which decides on their order.
+bool vtkRadiosity::BuildScene(vtkDataObject* input, vtkPatchScene& scene)
+{
+  std::string error;
+  bool built = scene.Build(input, this->Controller, error);
+  const int tree = this->ViewFactors ? this->ViewFactors->GetClusterTree() : this->ClusterTree;
+  if (built && tree == CLUSTER_TREE_ATLAS && !this->ShootsOnDevice() &&
+    this->IsHierarchical(scene.GetNumberOfPatches()))
+  {
+    built = scene.Build(input, this->Controller, error, vtkPatchScene::Order::Atlas);
+  }
+  if (!built)
+  {
+    vtkErrorMacro(<< error);
+  }
+  return built;
 }
 
 //------------------------------------------------------------------------------
@@ -648,6 +658,7 @@ void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
   PrintValues(os << indent << "BackgroundRadiance:", this->BackgroundRadiances);
   os << indent << "LinkMethod: " << this->LinkMethod << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
+  os << indent << "ClusterTree: " << this->ClusterTree << "\n";
   os << indent << "RefineByBrightness: " << this->RefineByBrightness << "\n";
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "ViewFactorTolerance: " << this->ViewFactorTolerance << "\n";

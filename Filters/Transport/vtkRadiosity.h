@@ -199,6 +199,18 @@ public:
 
   ///@{
   /**
+   * What tree the clusters of hierarchical links are nodes of, see vtkViewFactors::SetClusterTree,
+   * whose own decides where SetViewFactors gave one. Default CLUSTER_TREE_AUTO.
+   */
+  vtkSetClampMacro(ClusterTree, int, CLUSTER_TREE_AUTO, CLUSTER_TREE_ATLAS);
+  vtkGetMacro(ClusterTree, int);
+  void SetClusterTreeToAuto() { this->SetClusterTree(CLUSTER_TREE_AUTO); }
+  void SetClusterTreeToSpatial() { this->SetClusterTree(CLUSTER_TREE_SPATIAL); }
+  void SetClusterTreeToAtlas() { this->SetClusterTree(CLUSTER_TREE_ATLAS); }
+  ///@}
+
+  ///@{
+  /**
    * Refine hierarchical links where light is: for the radiosity of a first, coarse solution (links
    * of four times LinkTolerance, 0.1 at most, or with a background LinkTolerance, which are kept)
    * instead of one that is the same everywhere. Fewer links for the same error where little of the
@@ -264,6 +276,7 @@ private:
   struct Problem;
   bool ShootsOnDevice() const;
   bool CheckSolver();
+  bool BuildScene(vtkDataObject* input, vtkPatchScene& scene);
   bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
   bool IsHierarchical(vtkIdType patches) const;
   bool LinkAndSolve(const vtkPatchScene& scene, vtkSmartPointer<vtkViewFactors>& viewFactors,
@@ -293,6 +306,7 @@ private:
   std::vector<double> BackgroundRadiances;
   int LinkMethod = LINK_METHOD_AUTO;
   double LinkTolerance = 1e-2;
+  int ClusterTree = CLUSTER_TREE_AUTO;
   bool RefineByBrightness = false;
   int Device = DEVICE_AUTO;
   double ViewFactorTolerance = 1e-4;

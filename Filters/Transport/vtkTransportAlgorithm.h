@@ -48,6 +48,14 @@ public:
     DEVICE_OPENGL = 2
   };
 
+  /// The cluster tree of hierarchical links, for the filters that have a ClusterTree property.
+  enum ClusterTreeType
+  {
+    CLUSTER_TREE_AUTO = 0,
+    CLUSTER_TREE_SPATIAL = 1,
+    CLUSTER_TREE_ATLAS = 2
+  };
+
   ///@{
   /**
    * Point values are not averaged across edges whose two normals differ by more than this angle, in

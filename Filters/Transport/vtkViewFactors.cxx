@@ -122,6 +122,12 @@ bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFu
   const std::vector<bool>* senders)
 {
   this->Patches.clear();
+  if (!this->Hierarchical && scene.GetOrder() != vtkPatchScene::Order::Spatial)
+  {
+    vtkErrorMacro("A matrix needs the spatial order of the scene: set ClusterTree to Spatial or "
+                  "switch Hierarchical on.");
+    return false;
+  }
   // A closure needs whole rows, and clusters hold who sends and who does not.
   const bool all = !senders || this->EnforceClosure || this->Hierarchical ||
     std::all_of(senders->begin(), senders->end(), [](bool sends) { return sends; });
@@ -278,6 +284,7 @@ bool vtkViewFactors::StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinem
   const int ranks = this->GetNumberOfRanks();
   const int rank = ranks > 1 ? this->Controller->GetLocalProcessId() : 0;
   result.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
+  result.ClusterTree = scene.GetOrder() == vtkPatchScene::Order::Atlas ? "Atlas" : "Spatial";
   const bool stored =
     result.Hierarchy->SetTree(scene.GetAreas(), refinement.GetNodes(), rank, ranks) &&
     result.Hierarchy->SetLinks(refinement.GetLinks());
@@ -653,6 +660,10 @@ void vtkViewFactors::AddSummaries(vtkFieldData* fields) const
   {
     AddSummary(fields, summary.first.c_str(), summary.second);
   }
+  if (this->Result->Hierarchy)
+  {
+    AddSummary(fields, "ClusterTreeUsed", this->Result->ClusterTree);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -666,7 +677,10 @@ int vtkViewFactors::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformation* choice = this->GetInputArrayInformation(0);
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   std::string error;
-  if (!scene.Build(input, this->Controller, error) ||
+  const auto order = this->LinksClusters() && this->ClusterTree == CLUSTER_TREE_ATLAS
+    ? vtkPatchScene::Order::Atlas
+    : vtkPatchScene::Order::Spatial;
+  if (!scene.Build(input, this->Controller, error, order) ||
     !vtkViewFactorGroups::Gather(scene, input, name && *name ? name : "Group", groups, error))
   {
     vtkErrorMacro(<< error);
@@ -699,6 +713,7 @@ void vtkViewFactors::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
   os << indent << "Hierarchical: " << this->Hierarchical << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
+  os << indent << "ClusterTree: " << this->ClusterTree << "\n";
   os << indent << "LoadedFile: " << this->LoadedFile << "\n";
   for (const auto& summary : this->Result->Summaries)
   {

@@ -107,17 +107,33 @@ public:
    * leave out: in a scene without openings there are fewer of them, and LinkTolerance then bounds
    * the error of the radiosity in a room lit by a lamp. "ViewFactorSum" is the sum before.
    *
-   * Field data are PairsExamined, PairsBackFacing and PairsUnobstructed (pairs of clusters),
-   * LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of which between two patches), LinkError (the
-   * estimate), ClosureChange (largest change of a row sum), ClosureGap, MatrixBytes,
-   * DenseMatrixBytes and ViewFactorSeconds. "SkyFraction" and "BackFaceFraction" come from 512 rays
-   * a patch.
+   * Field data are ClusterTreeUsed ("Spatial" or "Atlas"), PairsExamined, PairsBackFacing and
+   * PairsUnobstructed (pairs of clusters), LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of
+   * which between two patches), LinkError (the estimate), ClosureChange (largest change of a row
+   * sum), ClosureGap, MatrixBytes, DenseMatrixBytes and ViewFactorSeconds. "SkyFraction" and
+   * "BackFaceFraction" come from 512 rays a patch.
    */
   vtkSetMacro(Hierarchical, bool);
   vtkGetMacro(Hierarchical, bool);
   vtkBooleanMacro(Hierarchical, bool);
   vtkSetClampMacro(LinkTolerance, double, 1e-5, 1.0);
   vtkGetMacro(LinkTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * What tree the clusters of hierarchical links are nodes of. CLUSTER_TREE_SPATIAL divides patches
+   * by where they face, then by place. CLUSTER_TREE_ATLAS is the quadtree of an atlas
+   * (vtkSurfaceAtlas: point array "AtlasCoordinates", 2 components, in [0,1]^2; the blocks of
+   * composite input have one each), whose nodes are the rows of its table "Charts" and go on below
+   * the charts; an error tells of a surface without it. CLUSTER_TREE_AUTO (default): Spatial.
+   * No effect on a matrix.
+   */
+  vtkSetClampMacro(ClusterTree, int, CLUSTER_TREE_AUTO, CLUSTER_TREE_ATLAS);
+  vtkGetMacro(ClusterTree, int);
+  void SetClusterTreeToAuto() { this->SetClusterTree(CLUSTER_TREE_AUTO); }
+  void SetClusterTreeToSpatial() { this->SetClusterTree(CLUSTER_TREE_SPATIAL); }
+  void SetClusterTreeToAtlas() { this->SetClusterTree(CLUSTER_TREE_ATLAS); }
   ///@}
 
   /// Whether updates give links between clusters: Hierarchical, and nothing was loaded.
@@ -147,7 +163,8 @@ public:
    * For filters that work on view factors: bring them up to date for a scene, computing only when
    * the geometry or a property has changed. `progress` is called with fractions and returns false
    * to abort. `senders` (one per patch of the scene; null for all) tells which patches send
-   * anything: pairs of which neither does are left out. Returns false after an error or an abort.
+   * anything: pairs of which neither does are left out. The clusters of hierarchical links are
+   * those of the scene's own tree. Returns false after an error or an abort.
    */
   using ProgressFunction = std::function<bool(double)>;
   bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
@@ -206,6 +223,7 @@ private:
   bool EnforceClosure = false;
   bool Hierarchical = false;
   double LinkTolerance = 1e-2;
+  int ClusterTree = CLUSTER_TREE_AUTO;
 
   std::unique_ptr<vtkViewFactorsResult> Result;
   std::vector<double> Brightness;

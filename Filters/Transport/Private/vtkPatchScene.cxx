@@ -36,6 +36,8 @@ namespace
 // not defined.
 constexpr double PlanarityTolerance = 1e-4;
 constexpr double CoordinateTolerance = 1e-6;
+// Name of the point array with the places of points in an atlas.
+constexpr const char* AtlasName = "AtlasCoordinates";
 // Below this part of the longest edge squared an area is rounding noise.
 constexpr double AreaTolerance = 1e-13;
 
@@ -58,6 +60,39 @@ std::vector<vtkPolyData*> GetLeaves(vtkDataObject* object)
     leaves.push_back(vtkPolyData::SafeDownCast(object));
   }
   return leaves;
+}
+
+//------------------------------------------------------------------------------
+// A number of each leaf that is the same on all ranks.
+std::vector<vtkIdType> GetLeafNumbers(vtkDataObject* object)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(object);
+  if (!composite)
+  {
+    return { 0 };
+  }
+  std::vector<vtkIdType> numbers;
+  vtkSmartPointer<vtkCompositeDataIterator> leaf;
+  leaf.TakeReference(composite->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    numbers.push_back(leaf->GetCurrentFlatIndex());
+  }
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArray* FindAtlas(vtkPolyData* data, std::string& error)
+{
+  vtkDataArray* atlas = data->GetPointData()->GetArray(AtlasName);
+  if (!atlas || atlas->GetNumberOfComponents() != 2)
+  {
+    error = std::string("A surface has no point array \"") + AtlasName +
+      "\" with 2 components, which the cluster tree of the atlas needs: pass it through "
+      "vtkSurfaceAtlas, or set ClusterTree to Spatial.";
+    return nullptr;
+  }
+  return atlas;
 }
 
 //------------------------------------------------------------------------------
@@ -142,12 +177,14 @@ bool vtkPatchScene::Agree(vtkMultiProcessController* controller, bool ok, std::s
 
 //------------------------------------------------------------------------------
 bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* controller,
-  std::string& error)
+  std::string& error, Order order)
 {
   *this = vtkPatchScene();
   this->Controller = controller;
+  this->OrderOfPatches = order;
   Raw raw;
-  const bool ok = this->CollectLocal(input, raw, error);
+  const bool ok = this->CollectLocal(input, raw, error) &&
+    (order != Order::Atlas || this->CollectCodes(input, raw, error));
   if (!vtkPatchScene::Agree(controller, ok, error))
   {
     return false;
@@ -243,6 +280,57 @@ bool vtkPatchScene::CollectBlock(vtkPolyData* data, int block, Raw& raw)
 }
 
 //------------------------------------------------------------------------------
+// The code of the mean of a patch's corners: blocks of a quadtree are convex.
+bool vtkPatchScene::CollectCodes(vtkDataObject* input, Raw& raw, std::string& error) const
+{
+  const std::vector<vtkPolyData*> leaves = GetLeaves(input);
+  const std::vector<vtkIdType> numbers = GetLeafNumbers(input);
+  vtkNew<vtkIdList> corners;
+  int block = -1;
+  vtkDataArray* atlas = nullptr;
+  for (const LocalCell& local : this->LocalCells)
+  {
+    vtkPolyData* data = leaves[local.Block];
+    if (local.Block != block)
+    {
+      block = local.Block;
+      atlas = FindAtlas(data, error);
+    }
+    if (!atlas)
+    {
+      return false;
+    }
+    data->GetPolys()->GetCellAtId(local.Cell - FirstPolygonCell(data), corners);
+    double middle[2] = { 0.0, 0.0 };
+    for (vtkIdType corner = 0; corner < corners->GetNumberOfIds(); ++corner)
+    {
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        middle[axis] += atlas->GetComponent(corners->GetId(corner), axis) /
+          static_cast<double>(corners->GetNumberOfIds());
+      }
+    }
+    if (!(std::min(middle[0], middle[1]) >= 0.0 && std::max(middle[0], middle[1]) <= 1.0))
+    {
+      error = std::string("The point array \"") + AtlasName + "\" places cell " +
+        std::to_string(local.Cell) +
+        " outside of the unit square: make it with vtkSurfaceAtlas, or set ClusterTree to Spatial.";
+      return false;
+    }
+    if (numbers[block] >= MaximumAtlases)
+    {
+      error = "The input has more than " + std::to_string(MaximumAtlases) +
+        " blocks, too many for the cluster tree of their atlases: set ClusterTree to Spatial.";
+      return false;
+    }
+    raw.Codes.push_back(
+      static_cast<std::uint64_t>(numbers[block]) << (2 * vtkPatchTree::AtlasBits) |
+      vtkPatchTree::GetCode(middle[0], middle[1]));
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 vtkIdType vtkPatchScene::GatherRanks(Raw& raw)
 {
   const std::vector<vtkIdType> mine{ static_cast<vtkIdType>(raw.Counts.size()) };
@@ -250,6 +338,7 @@ vtkIdType vtkPatchScene::GatherRanks(Raw& raw)
   const int rank = patches.size() > 1 ? this->Controller->GetLocalProcessId() : 0;
   raw.Counts = AllGather(this->Controller, raw.Counts);
   raw.Coordinates = AllGather(this->Controller, raw.Coordinates);
+  raw.Codes = AllGather(this->Controller, raw.Codes);
   return std::accumulate(patches.begin(), patches.begin() + rank, static_cast<vtkIdType>(0));
 }
 
@@ -300,7 +389,8 @@ void vtkPatchScene::SortPatches(Raw& raw, vtkIdType firstLocal)
     }
     normals[polygon].normalize();
   }
-  this->Polygons = this->Tree.Sort(centers, normals);
+  this->Polygons = this->OrderOfPatches == Order::Atlas ? this->Tree.Sort(raw.Codes)
+                                                        : this->Tree.Sort(centers, normals);
   this->Patches.resize(patches);
   this->Offsets.assign(1, 0);
   std::vector<double> coordinates;
@@ -462,6 +552,14 @@ void vtkPatchScene::ComputeFingerprint(const Raw& raw)
   for (const vtkIdType polygon : this->Polygons)
   {
     add(static_cast<std::uint64_t>(polygon));
+  }
+  // The spatial tree follows from the order of the patches.
+  if (this->OrderOfPatches == Order::Atlas)
+  {
+    for (const vtkPatchTree::Node& node : this->Tree.GetNodes())
+    {
+      add(static_cast<std::uint64_t>(node.Last));
+    }
   }
   this->Fingerprint = hash;
 }

@@ -8,10 +8,12 @@
  * box has diagonal 1: nothing downstream needs an absolute length, and a micrometre and a thousand
  * kilometres give the same numbers. Lengths in the input's unit are scene lengths times GetScale().
  *
- * All ranks hold the whole scene, in the same order: that of a spatial tree (vtkPatchTree), so that
- * patches that are near each other in space are near each other in every array and in the exchange
- * matrix. Where users meet numbers of patches (messages, arguments) they are those of the input's
- * polygons: all blocks and ranks in order, ghosts left out.
+ * All ranks hold the whole scene, in the same order: that of a tree (vtkPatchTree), so that patches
+ * that are near each other in space are near each other in every array and in the exchange matrix.
+ * The tree is the spatial one, or for links between clusters that of the atlas of the surfaces, one
+ * after another: points of an atlas are the point array "AtlasCoordinates". Where users meet
+ * numbers of patches (messages, arguments) they are those of the input's polygons: all blocks and
+ * ranks in order, ghosts left out.
  */
 #ifndef vtkPatchScene_h
 #define vtkPatchScene_h
@@ -39,12 +41,23 @@ public:
   /// Corners that a patch may have (vtkPolygonExchange clips them in arrays of fixed size).
   static constexpr int MaximumCorners = 30;
 
+  enum class Order
+  {
+    Spatial,
+    Atlas
+  };
+
+  /// Surfaces with an atlas that a scene may have: blocks of composite input.
+  static constexpr vtkIdType MaximumAtlases = 4096;
+
   /**
    * Gather the patches of `input`. Returns false, on every rank alike, with `error` naming the
    * problem and the remedy: nothing to work on, coordinates that are not finite, a patch without
-   * area, a patch that is not a planar convex polygon.
+   * area, a patch that is not a planar convex polygon; in the order of an atlas a surface without
+   * "AtlasCoordinates", or more surfaces than MaximumAtlases.
    */
-  bool Build(vtkDataObject* input, vtkMultiProcessController* controller, std::string& error);
+  bool Build(vtkDataObject* input, vtkMultiProcessController* controller, std::string& error,
+    Order order = Order::Spatial);
 
   vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
   /// The patches of this rank, in the order of its polygons.
@@ -55,6 +68,7 @@ public:
   vtkIdType GetPolygon(vtkIdType patch) const { return this->Polygons[patch]; }
   /// The tree that the order of the patches comes from.
   const vtkPatchTree& GetTree() const { return this->Tree; }
+  Order GetOrder() const { return this->OrderOfPatches; }
 
   ///@{ Scene geometry: centred and scaled.
   const std::vector<Vector>& GetPoints() const { return this->Points; }
@@ -147,10 +161,13 @@ private:
   {
     std::vector<double> Coordinates;
     std::vector<vtkIdType> Counts;
+    /// In the order of an atlas: the code of each patch, its surface's flat index on top.
+    std::vector<std::uint64_t> Codes;
   };
   bool CollectLocal(vtkDataObject* input, Raw& raw, std::string& error);
   /// False when a polygon names points that do not exist.
   bool CollectBlock(vtkPolyData* data, int block, Raw& raw);
+  bool CollectCodes(vtkDataObject* input, Raw& raw, std::string& error) const;
   /// Returns the number of polygons on the ranks before this one.
   vtkIdType GatherRanks(Raw& raw);
   void SortPatches(Raw& raw, vtkIdType firstLocal);
@@ -183,6 +200,7 @@ private:
   double Scale = 1.0;
   std::uint64_t Fingerprint = 0;
 
+  Order OrderOfPatches = Order::Spatial;
   std::vector<vtkIdType> Polygons; ///< of each patch
   std::vector<vtkIdType> Patches;  ///< of each polygon
   vtkPatchTree Tree;

@@ -162,6 +162,17 @@ void FillCone(const vtkPatchScene& scene, const Box& normals, vtkPatchTree::Node
 }
 
 //------------------------------------------------------------------------------
+// All bits below the highest one that is set.
+std::uint64_t GetLowerBits(std::uint64_t bits)
+{
+  for (int step = 1; step < 64; step *= 2)
+  {
+    bits |= bits >> step;
+  }
+  return bits >> 1;
+}
+
+//------------------------------------------------------------------------------
 void FillNodes(const vtkPatchScene& scene, std::vector<vtkPatchTree::Node>& nodes)
 {
   std::vector<Box> normals(nodes.size());
@@ -186,6 +197,34 @@ void FillNodes(const vtkPatchScene& scene, std::vector<vtkPatchTree::Node>& node
 } // namespace
 
 //------------------------------------------------------------------------------
+// Breadth first: `divide` tells where a range is cut, `finish` what is left of one in a leaf.
+template <typename Divide, typename Finish>
+void vtkPatchTree::Grow(vtkIdType patches, const Divide& divide, const Finish& finish)
+{
+  this->Nodes.assign(1, Node());
+  this->Nodes[0].Last = patches;
+  for (std::size_t index = 0; index < this->Nodes.size(); ++index)
+  {
+    const vtkIdType first = this->Nodes[index].First;
+    const vtkIdType last = this->Nodes[index].Last;
+    if (last - first <= LeafSize)
+    {
+      finish(first, last);
+      continue;
+    }
+    this->Nodes[index].Left = static_cast<int>(this->Nodes.size());
+    Node child;
+    child.Parent = static_cast<int>(index);
+    child.First = first;
+    child.Last = divide(first, last);
+    this->Nodes.push_back(child);
+    child.First = child.Last;
+    child.Last = last;
+    this->Nodes.push_back(child);
+  }
+}
+
+//------------------------------------------------------------------------------
 std::vector<vtkIdType> vtkPatchTree::Sort(const std::vector<Vector>& centroids,
   const std::vector<Vector>& normals)
 {
@@ -193,34 +232,63 @@ std::vector<vtkIdType> vtkPatchTree::Sort(const std::vector<Vector>& centroids,
   std::vector<vtkIdType> order(patches);
   std::iota(order.begin(), order.end(), 0);
   Sorter sorter(centroids, normals, order);
-  this->Nodes.assign(1, Node());
-  this->Nodes[0].Last = patches;
+  this->Grow(
+    patches, [&](vtkIdType first, vtkIdType last) { return sorter.Divide(first, last); },
+    [&](vtkIdType first, vtkIdType last) { sorter.Finish(first, last); });
   this->Blocks.assign(std::max<vtkIdType>((patches + BlockSize - 1) / BlockSize, 1), 0);
   for (std::size_t index = 0; index < this->Nodes.size(); ++index)
   {
-    const vtkIdType first = this->Nodes[index].First;
-    const vtkIdType last = this->Nodes[index].Last;
-    const int parent = this->Nodes[index].Parent;
-    if (last - first <= BlockSize && (parent < 0 || this->Nodes[parent].GetSize() > BlockSize))
+    const Node& node = this->Nodes[index];
+    if (node.GetSize() <= BlockSize &&
+      (node.Parent < 0 || this->Nodes[node.Parent].GetSize() > BlockSize))
     {
-      this->Blocks[first / BlockSize] = static_cast<int>(index);
+      this->Blocks[node.First / BlockSize] = static_cast<int>(index);
     }
-    if (last - first <= LeafSize)
-    {
-      sorter.Finish(first, last);
-      continue;
-    }
-    this->Nodes[index].Left = static_cast<int>(this->Nodes.size());
-    Node child;
-    child.Parent = static_cast<int>(index);
-    child.First = first;
-    child.Last = sorter.Divide(first, last);
-    this->Nodes.push_back(child);
-    child.First = child.Last;
-    child.Last = last;
-    this->Nodes.push_back(child);
   }
   return order;
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkIdType> vtkPatchTree::Sort(const std::vector<std::uint64_t>& codes)
+{
+  const auto patches = static_cast<vtkIdType>(codes.size());
+  std::vector<vtkIdType> order(patches);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+    [&](vtkIdType a, vtkIdType b) { return std::tie(codes[a], a) < std::tie(codes[b], b); });
+  const auto divide = [&](vtkIdType first, vtkIdType last)
+  {
+    const std::uint64_t different = codes[order[first]] ^ codes[order[last - 1]];
+    if (different == 0)
+    {
+      return first + (last - first) / 2;
+    }
+    const std::uint64_t above = codes[order[last - 1]] & ~GetLowerBits(different);
+    const auto cut = std::partition_point(order.begin() + first, order.begin() + last,
+      [&](vtkIdType patch) { return codes[patch] < above; });
+    return static_cast<vtkIdType>(cut - order.begin());
+  };
+  this->Grow(patches, divide, [](vtkIdType, vtkIdType) {});
+  this->Blocks.clear();
+  return order;
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t vtkPatchTree::GetCode(double x, double y)
+{
+  std::uint64_t code = 0;
+  constexpr double side = static_cast<double>(std::int64_t(1) << AtlasBits);
+  const double places[2] = { x, y };
+  for (const double place : places)
+  {
+    const auto cell = static_cast<std::uint64_t>(std::min(std::max(place * side, 0.0), side - 1.0));
+    code <<= 1;
+    for (int bit = 0; bit < AtlasBits; ++bit)
+    {
+      code |= (cell >> bit & 1) << (2 * bit);
+    }
+  }
+  return code;
 }
 
 //------------------------------------------------------------------------------

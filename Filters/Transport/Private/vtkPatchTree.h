@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A balanced binary tree over the patches of a scene, as plain data: every node is a contiguous
- * range of patches (the scene keeps its patches in the order of this tree), with a box, a cone of
- * normals and an area.
+ * A binary tree over the patches of a scene, as plain data: every node is a contiguous range of
+ * patches (the scene keeps its patches in the order of this tree), with a box, a cone of normals
+ * and an area.
  *
- * Patches that face different ways are divided first, at most a few times on any way down, so that
- * a cluster sends and receives as one surface does; patches that face the same way are cut in half
- * along the longest axis of the box of their centroids. Ranges longer than BlockSize are cut at a
- * multiple of BlockSize, so that every block of BlockSize patches (a row of tiles of an exchange
- * matrix) is a node; shorter ones at a multiple of LeafSize.
+ * The spatial tree is balanced. Patches that face different ways are divided first, at most a few
+ * times on any way down, so that a cluster sends and receives as one surface does; patches that
+ * face the same way are cut in half along the longest axis of the box of their centroids. Ranges
+ * longer than BlockSize are cut at a multiple of BlockSize, so that every block of BlockSize
+ * patches (a row of tiles of an exchange matrix) is a node; shorter ones at a multiple of LeafSize.
+ *
+ * The tree of an atlas follows codes, the patches' places along a space-filling curve: a node is
+ * the range of all codes with one prefix, so that each block of the atlas's quadtree that holds
+ * patches (down to LeafSize of them) is a node, and prefixes that divide nothing are left out. It
+ * is as deep as the codes make it and has no blocks of BlockSize patches: links between clusters
+ * need none, matrices do.
  */
 #ifndef vtkPatchTree_h
 #define vtkPatchTree_h
@@ -19,6 +25,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <vector>
 
 class vtkPatchScene;
@@ -55,10 +62,19 @@ public:
     vtkIdType GetSize() const { return this->Last - this->First; }
   };
 
-  /// Make the shape of the tree. Returns its order: patch k of the sorted scene is patch order[k]
-  /// of the unsorted one.
+  ///@{
+  /// Make the shape of the tree: the spatial one, or that of codes. Returns its order: patch k of
+  /// the sorted scene is patch order[k] of the unsorted one.
   std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids,
     const std::vector<Vector>& normals);
+  std::vector<vtkIdType> Sort(const std::vector<std::uint64_t>& codes);
+  ///@}
+
+  /// Place of a point of the unit square along the curve that visits the nodes of a quadtree one
+  /// after another (Morton 1966): the bits of x and y in turn, AtlasBits of each. x comes first, as
+  /// vtkSurfaceAtlas puts the halves of a piece beside each other and their halves on top.
+  static constexpr int AtlasBits = 26;
+  static std::uint64_t GetCode(double x, double y);
 
   /// Boxes, cones and areas, once the scene is in the order of Sort.
   void FillNodes(const vtkPatchScene& scene);
@@ -66,10 +82,13 @@ public:
   /// Node 0 is the root.
   const std::vector<Node>& GetNodes() const { return this->Nodes; }
   const Node& GetNode(int node) const { return this->Nodes[node]; }
-  /// The node of patches [BlockSize * block, BlockSize * (block + 1)).
+  /// The node of patches [BlockSize * block, BlockSize * (block + 1)); of the spatial tree only.
   int GetBlock(vtkIdType block) const { return this->Blocks[block]; }
 
 private:
+  template <typename Divide, typename Finish>
+  void Grow(vtkIdType patches, const Divide& divide, const Finish& finish);
+
   std::vector<Node> Nodes;
   std::vector<int> Blocks;
 };

@@ -41,6 +41,7 @@ struct vtkViewFactorsResult
   std::vector<double> RowErrors;  ///< estimate of sum_j |error of F_ij|
   std::vector<double> SkyFractions;
   std::vector<double> BackFaceFractions;
+  std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"
   /// Names and values of the field data arrays that summarise the computation.
   std::vector<std::pair<std::string, double>> Summaries;
 };
