@@ -34,7 +34,7 @@ public:
    * - "Area" (vtkDoubleArray, 1): the area of surface, in the square of the surface's unit;
    * - "ChartId" (vtkIntArray, 1): that of its cells, 0 if they have none, -1 without surface;
    * - for each source, under its name, its mean (vtkDoubleArray, components as the source).
-   * Texels without surface, which an atlas of vtkSurfaceAtlas has not, hold 0.
+   * Texels without surface, in blocks that no chart has, hold 0.
    *
    * The surface must have passed vtkTexelPieces::Check.
    */

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays go from a surface to the texels of its atlas and back: integrals stay, constants stay
-// exactly, coarse texels are means of fine ones, nothing comes from another chart.
+// exactly, coarse texels are means of fine ones, nothing comes from another chart. On atlases built
+// by hand and on those of vtkSurfaceAtlas.
 #include "AtlasTestTools.h"
 
 #include "vtkAtlasToSurface.h"
@@ -12,6 +13,7 @@
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
+#include "vtkSurfaceAtlas.h"
 #include "vtkSurfaceToAtlas.h"
 #include "vtkTestErrorObserver.h"
 
@@ -93,11 +95,12 @@ void AddFunction(vtkPolyData* surface, const char* name, Function&& function)
 // More digits than the filters have, since a sum of many equal numbers loses some.
 double IntegrateTexels(vtkImageData* image, const char* name, int component)
 {
+  vtkDataArray* areas = GetTexels(image, "Area");
+  vtkDataArray* values = GetTexels(image, name);
   long double sum = 0.0;
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
-    sum +=
-      GetTexels(image, name)->GetComponent(i, component) * GetTexels(image, "Area")->GetTuple1(i);
+    sum += values->GetComponent(i, component) * areas->GetTuple1(i);
   }
   return static_cast<double>(sum);
 }
@@ -146,6 +149,21 @@ void CheckAll(vtkDataArray* array, double value, const std::string& what, Checke
 }
 
 //------------------------------------------------------------------------------
+// The constant on the surface, 0 where there is none.
+void CheckTexels(vtkImageData* image, const char* name, double value, const std::string& what,
+  Checker& check)
+{
+  vtkIdType wrong = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const bool used = GetTexels(image, "ChartId")->GetTuple1(i) >= 0;
+    wrong += GetTexels(image, name)->GetTuple1(i) != (used ? value : 0.0);
+    wrong += (GetTexels(image, "Area")->GetTuple1(i) > 0.0) != used;
+  }
+  check.Equal(static_cast<double>(wrong), 0, 0, "texels that are not the constant, " + what);
+}
+
+//------------------------------------------------------------------------------
 void TestToAtlas(vtkPolyData* surface, int resolution, const std::string& what, Checker& check)
 {
   const double constant = 0.1;
@@ -154,8 +172,8 @@ void TestToAtlas(vtkPolyData* surface, int resolution, const std::string& what, 
   AddConstant(surface->GetCellData(), "ConstantCells", constant, surface->GetNumberOfCells());
   AddConstant(surface->GetPointData(), "ConstantPoints", constant, surface->GetNumberOfPoints());
   Image image = ToAtlas(surface, resolution);
-  CheckAll(GetTexels(image, "ConstantCells"), constant, "cells to texels, " + what, check);
-  CheckAll(GetTexels(image, "ConstantPoints"), constant, "points to texels, " + what, check);
+  CheckTexels(image, "ConstantCells", constant, "cells, " + what, check);
+  CheckTexels(image, "ConstantPoints", constant, "points, " + what, check);
   const double area = meshTest::GetArea(surface);
   check.Equal(IntegrateTexels(image, "ConstantCells", 0) / constant / area, 1.0, 1e-12,
     "area of all texels, " + what);
@@ -396,6 +414,71 @@ void TestChoiceOfArrays(Checker& check)
 }
 
 //------------------------------------------------------------------------------
+void ExpectError(vtkAlgorithm* filter, const std::string& expected, Checker& check)
+{
+  vtkNew<vtkTest::ErrorObserver> executive;
+  vtkNew<vtkTest::ErrorObserver> observer;
+  filter->AddObserver(vtkCommand::ErrorEvent, observer);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
+  filter->Update();
+  const std::string found = observer->GetError()
+    ? observer->GetErrorMessage()
+    : (executive->GetError() ? executive->GetErrorMessage() : "none");
+  check.True(found.find(expected) != std::string::npos,
+    "the error \"" + found + "\" says \"" + expected + "\"");
+  vtkDataSet* output = vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  check.Equal(output->GetNumberOfPoints(), 0, 0, "points after \"" + expected + "\"");
+}
+
+//------------------------------------------------------------------------------
+// The same on the charts of a real surface, from the finest texels to one per chart.
+void TestBunny(int argc, char* argv[], Checker& check)
+{
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(meshTest::GetDataFile(argc, argv, "bunny.ply").c_str());
+  vtkNew<vtkPatchMesher> mesher;
+  mesher->SetInputConnection(reader->GetOutputPort());
+  vtkNew<vtkSurfaceAtlas> atlas;
+  atlas->SetInputConnection(mesher->GetOutputPort());
+  const int finest = 256;
+  atlas->SetResolution(finest);
+  atlas->Update();
+  Surface surface = atlas->GetOutput();
+  const int coarsest =
+    finest >> static_cast<int>(meshTest::GetSummary(surface, "DeepestLeakFreeLevel"));
+  check.True(coarsest > 1, "the bunny has several charts");
+  for (const int resolution : { finest, coarsest })
+  {
+    const std::string what = "bunny at resolution " + std::to_string(resolution);
+    TestToAtlas(surface, resolution, what, check);
+    TestToSurface(surface, resolution, what, check);
+    TestSeams(surface, resolution, check);
+  }
+  TestLevels(surface, finest, coarsest, check);
+  vtkNew<vtkSurfaceToAtlas> tooCoarse;
+  tooCoarse->SetInputData(surface);
+  tooCoarse->SetResolution(coarsest / 2);
+  const std::string size = std::to_string(coarsest);
+  ExpectError(tooCoarse, "at least " + size + " x " + size, check);
+
+  Image image = ToAtlas(surface, finest);
+  for (const char* name : { "Position", "Normal", "Area", "ChartId" })
+  {
+    vtkDataArray* expected = GetTexels(atlas->GetMaps(), name);
+    vtkIdType different = 0;
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      for (int j = 0; j < expected->GetNumberOfComponents(); ++j)
+      {
+        different += GetTexels(image, name)->GetComponent(i, j) != expected->GetComponent(i, j);
+      }
+    }
+    check.Equal(static_cast<double>(different), 0, 0,
+      std::string("differences to the map that comes with the atlas, ") + name);
+  }
+}
+
+//------------------------------------------------------------------------------
 // What is not a number stays where it is; what has no area still has values.
 void TestOddValues(Checker& check)
 {
@@ -470,23 +553,6 @@ void TestPipeline(Checker& check)
     algorithm->Update();
     check.True(output->GetNumberOfPoints() > 0, "points after the abort is over");
   }
-}
-
-//------------------------------------------------------------------------------
-void ExpectError(vtkAlgorithm* filter, const std::string& expected, Checker& check)
-{
-  vtkNew<vtkTest::ErrorObserver> executive;
-  vtkNew<vtkTest::ErrorObserver> observer;
-  filter->AddObserver(vtkCommand::ErrorEvent, observer);
-  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
-  filter->Update();
-  const std::string found = observer->GetError()
-    ? observer->GetErrorMessage()
-    : (executive->GetError() ? executive->GetErrorMessage() : "none");
-  check.True(found.find(expected) != std::string::npos,
-    "the error \"" + found + "\" says \"" + expected + "\"");
-  vtkDataSet* output = vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
-  check.Equal(output->GetNumberOfPoints(), 0, 0, "points after \"" + expected + "\"");
 }
 
 //------------------------------------------------------------------------------
@@ -593,7 +659,7 @@ void TestResolutionErrors(Checker& check)
 } // namespace
 
 //------------------------------------------------------------------------------
-int TestAtlasTransfer(int, char*[])
+int TestAtlasTransfer(int argc, char* argv[])
 {
   Checker check;
   for (const int resolution : { 4, 32, 256 })
@@ -612,6 +678,7 @@ int TestAtlasTransfer(int, char*[])
   AddRandom(mixture->GetCellData(), "Cells", 1, mixture->GetNumberOfCells());
   AddRandom(mixture->GetPointData(), "Points", 2, mixture->GetNumberOfPoints());
   TestLevels(mixture, 64, 4, check);
+  TestBunny(argc, argv, check);
   TestPlane(check);
   TestConvergence(check);
   TestChoiceOfArrays(check);
