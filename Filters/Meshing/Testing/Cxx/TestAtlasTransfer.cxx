@@ -293,6 +293,30 @@ void TestPlane(Checker& check)
 }
 
 //------------------------------------------------------------------------------
+// Two triangles, of whose four texels the one at the origin holds 1, the others 0. In the unit
+// square the hat function of the origin is 1 - max(x, y): it has 1/6 in the texel of 1/3 in all;
+// that of (1, 0) is max(x - y, 0): 1/48 of 1/6; that of (1, 1) is min(x, y): 1/24 of 1/3.
+void TestHatFunctions(Checker& check)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  AddConstant(image->GetPointData(), "Texel", 0.0, 4);
+  GetTexels(image, "Texel")->SetComponent(0, 0, 1.0);
+  Surface result = ToSurface(atlasTest::MakeSquare(1, 0.0), image);
+  const double expected[4] = { 1.0 / 2.0, 1.0 / 8.0, 1.0 / 8.0, 1.0 / 8.0 };
+  for (int i = 0; i < 4; ++i)
+  {
+    check.Equal(result->GetPointData()->GetArray("Texel")->GetTuple1(i), expected[i], 1e-15,
+      "mean of point " + std::to_string(i));
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    check.Equal(result->GetCellData()->GetArray("Texel")->GetTuple1(i), 0.25, 1e-15,
+      "mean of triangle " + std::to_string(i));
+  }
+}
+
+//------------------------------------------------------------------------------
 // Texels that hold the number of their chart: no cell and no point gets a mixture.
 void TestSeams(vtkPolyData* surface, int resolution, Checker& check)
 {
@@ -680,6 +704,7 @@ int TestAtlasTransfer(int argc, char* argv[])
   TestLevels(mixture, 64, 4, check);
   TestBunny(argc, argv, check);
   TestPlane(check);
+  TestHatFunctions(check);
   TestConvergence(check);
   TestChoiceOfArrays(check);
   TestOddValues(check);
