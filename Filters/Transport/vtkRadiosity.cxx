@@ -196,8 +196,8 @@ bool vtkRadiosity::BuildScene(vtkDataObject* input, vtkPatchScene& scene)
   std::string error;
   bool built = scene.Build(input, this->Controller, error);
   const int tree = this->ViewFactors ? this->ViewFactors->GetClusterTree() : this->ClusterTree;
-  if (built && tree == CLUSTER_TREE_ATLAS && !this->ShootsOnDevice() &&
-    this->IsHierarchical(scene.GetNumberOfPatches()))
+  if (built && !this->ShootsOnDevice() && this->IsHierarchical(scene.GetNumberOfPatches()) &&
+    this->UsesAtlas(input, tree))
   {
     built = scene.Build(input, this->Controller, error, vtkPatchScene::Order::Atlas);
   }

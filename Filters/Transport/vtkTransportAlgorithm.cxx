@@ -92,6 +92,13 @@ int vtkTransportAlgorithm::GetNumberOfRanks() const
 }
 
 //------------------------------------------------------------------------------
+bool vtkTransportAlgorithm::UsesAtlas(vtkDataObject* input, int clusterTree)
+{
+  return clusterTree == CLUSTER_TREE_ATLAS ||
+    (clusterTree == CLUSTER_TREE_AUTO && vtkPatchScene::HasAtlas(input, this->Controller));
+}
+
+//------------------------------------------------------------------------------
 void vtkTransportAlgorithm::SetProgressStage(double begin, double end)
 {
   this->StageBegin = begin;

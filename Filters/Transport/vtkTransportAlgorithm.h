@@ -84,6 +84,10 @@ protected:
   /// Number of processes that share the scene; 1 without a controller.
   int GetNumberOfRanks() const;
 
+  /// Whether a scene with hierarchical links is in the order of its atlases, for a ClusterTree
+  /// (ClusterTreeType): Auto where all surfaces have "AtlasCoordinates". Collective.
+  bool UsesAtlas(vtkDataObject* input, int clusterTree);
+
   ///@{
   /**
    * Progress within the stage set last (fractions of the whole run; the first begins at 0). In long

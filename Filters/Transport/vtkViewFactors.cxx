@@ -677,7 +677,7 @@ int vtkViewFactors::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformation* choice = this->GetInputArrayInformation(0);
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   std::string error;
-  const auto order = this->LinksClusters() && this->ClusterTree == CLUSTER_TREE_ATLAS
+  const auto order = this->LinksClusters() && this->UsesAtlas(input, this->ClusterTree)
     ? vtkPatchScene::Order::Atlas
     : vtkPatchScene::Order::Spatial;
   if (!scene.Build(input, this->Controller, error, order) ||

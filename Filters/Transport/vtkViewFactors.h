@@ -126,8 +126,22 @@ public:
    * by where they face, then by place. CLUSTER_TREE_ATLAS is the quadtree of an atlas
    * (vtkSurfaceAtlas: point array "AtlasCoordinates", 2 components, in [0,1]^2; the blocks of
    * composite input have one each), whose nodes are the rows of its table "Charts" and go on below
-   * the charts; an error tells of a surface without it. CLUSTER_TREE_AUTO (default): Spatial.
-   * No effect on a matrix.
+   * the charts; an error tells of a surface without it. CLUSTER_TREE_AUTO (default): Atlas where
+   * all surfaces have one, else Spatial. No effect on a matrix.
+   *
+   * Measured, thousands of links and error of the radiosity (lamp at the top, reflectance 0.5):
+   *
+   * | LinkTolerance          |  0.1 Spatial | 0.1 Atlas | 0.03 Spatial | 0.03 Atlas |
+   * |------------------------|-------------:|----------:|-------------:|-----------:|
+   * | inside the bunny, 1000 |     65, 4.1% |   4, 4.7% |    100, 2.5% |   37, 1.8% |
+   * | furnished room, 1564   |      refused |   4, 9.5% |     47, 2.7% |   32, 2.7% |
+   * | empty room, 1584       |      4, 7.0% |   3, 7.3% |     27, 1.9% |   21, 2.2% |
+   *
+   * | LinkTolerance          | 0.01 Spatial | 0.01 Atlas |
+   * |------------------------|-------------:|-----------:|
+   * | inside the bunny, 1000 |    165, 0.7% |   84, 0.7% |
+   * | furnished room, 1564   |    138, 1.0% |  111, 0.9% |
+   * | empty room, 1584       |     99, 0.9% |   99, 0.8% |
    */
   vtkSetClampMacro(ClusterTree, int, CLUSTER_TREE_AUTO, CLUSTER_TREE_ATLAS);
   vtkGetMacro(ClusterTree, int);

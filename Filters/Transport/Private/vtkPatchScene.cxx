@@ -25,7 +25,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <unordered_map>
 
@@ -195,6 +197,12 @@ bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* contr
     error = "The input has no polygons: give a surface with at least one polygon.";
     return false;
   }
+  if (std::set<vtkIdType>(raw.Surfaces.begin(), raw.Surfaces.end()).size() > MaximumSurfaces)
+  {
+    error = "The input has more than " + std::to_string(MaximumSurfaces) +
+      " blocks, too many for the cluster tree of their atlases: set ClusterTree to Spatial.";
+    return false;
+  }
   if (!this->Normalize(raw, error))
   {
     return false;
@@ -208,6 +216,16 @@ bool vtkPatchScene::Build(vtkDataObject* input, vtkMultiProcessController* contr
   }
   this->Tree.FillNodes(*this);
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkPatchScene::HasAtlas(vtkDataObject* input, vtkMultiProcessController* controller)
+{
+  vtkPatchScene scene;
+  Raw raw;
+  std::string error;
+  const bool has = scene.CollectLocal(input, raw, error) && scene.CollectCodes(input, raw, error);
+  return vtkPatchScene::Agree(controller, has, error);
 }
 
 //------------------------------------------------------------------------------
@@ -317,15 +335,8 @@ bool vtkPatchScene::CollectCodes(vtkDataObject* input, Raw& raw, std::string& er
         " outside of the unit square: make it with vtkSurfaceAtlas, or set ClusterTree to Spatial.";
       return false;
     }
-    if (numbers[block] >= MaximumAtlases)
-    {
-      error = "The input has more than " + std::to_string(MaximumAtlases) +
-        " blocks, too many for the cluster tree of their atlases: set ClusterTree to Spatial.";
-      return false;
-    }
-    raw.Codes.push_back(
-      static_cast<std::uint64_t>(numbers[block]) << (2 * vtkPatchTree::AtlasBits) |
-      vtkPatchTree::GetCode(middle[0], middle[1]));
+    raw.Codes.push_back(vtkPatchTree::GetCode(middle[0], middle[1]));
+    raw.Surfaces.push_back(numbers[block]);
   }
   return true;
 }
@@ -339,6 +350,7 @@ vtkIdType vtkPatchScene::GatherRanks(Raw& raw)
   raw.Counts = AllGather(this->Controller, raw.Counts);
   raw.Coordinates = AllGather(this->Controller, raw.Coordinates);
   raw.Codes = AllGather(this->Controller, raw.Codes);
+  raw.Surfaces = AllGather(this->Controller, raw.Surfaces);
   return std::accumulate(patches.begin(), patches.begin() + rank, static_cast<vtkIdType>(0));
 }
 
@@ -389,6 +401,7 @@ void vtkPatchScene::SortPatches(Raw& raw, vtkIdType firstLocal)
     }
     normals[polygon].normalize();
   }
+  AddSurfaces(centers, raw);
   this->Polygons = this->OrderOfPatches == Order::Atlas ? this->Tree.Sort(raw.Codes)
                                                         : this->Tree.Sort(centers, normals);
   this->Patches.resize(patches);
@@ -406,6 +419,39 @@ void vtkPatchScene::SortPatches(Raw& raw, vtkIdType firstLocal)
   raw.Coordinates.swap(coordinates);
   const auto local = this->Patches.begin() + firstLocal;
   this->LocalPatches.assign(local, local + static_cast<vtkIdType>(this->LocalCells.size()));
+}
+
+//------------------------------------------------------------------------------
+// On top of the codes: surfaces that are near each other in space are so in the order.
+void vtkPatchScene::AddSurfaces(const std::vector<Vector>& centers, Raw& raw)
+{
+  std::map<vtkIdType, std::pair<Vector, double>> sums;
+  for (std::size_t polygon = 0; polygon < raw.Surfaces.size(); ++polygon)
+  {
+    auto& sum =
+      sums.emplace(raw.Surfaces[polygon], std::make_pair(Vector(0.0, 0.0, 0.0), 0.0)).first->second;
+    sum.first += centers[polygon];
+    sum.second += 1.0;
+  }
+  std::vector<vtkIdType> surfaces;
+  std::vector<Vector> middles;
+  for (const auto& sum : sums)
+  {
+    surfaces.push_back(sum.first);
+    middles.push_back(sum.second.first / sum.second.second);
+  }
+  vtkPatchTree tree;
+  const std::vector<vtkIdType> order =
+    tree.Sort(middles, std::vector<Vector>(middles.size(), Vector::UnitZ()));
+  std::map<vtkIdType, std::uint64_t> places;
+  for (std::size_t place = 0; place < order.size(); ++place)
+  {
+    places[surfaces[order[place]]] = place;
+  }
+  for (std::size_t polygon = 0; polygon < raw.Surfaces.size(); ++polygon)
+  {
+    raw.Codes[polygon] |= places[raw.Surfaces[polygon]] << (2 * vtkPatchTree::AtlasBits);
+  }
 }
 
 //------------------------------------------------------------------------------

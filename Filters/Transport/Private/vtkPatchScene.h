@@ -10,7 +10,7 @@
  *
  * All ranks hold the whole scene, in the same order: that of a tree (vtkPatchTree), so that patches
  * that are near each other in space are near each other in every array and in the exchange matrix.
- * The tree is the spatial one, or for links between clusters that of the atlas of the surfaces, one
+ * The tree is the spatial one, or for links between clusters that of the surfaces' atlases, one
  * after another: points of an atlas are the point array "AtlasCoordinates". Where users meet
  * numbers of patches (messages, arguments) they are those of the input's polygons: all blocks and
  * ranks in order, ghosts left out.
@@ -47,17 +47,21 @@ public:
     Atlas
   };
 
-  /// Surfaces with an atlas that a scene may have: blocks of composite input.
-  static constexpr vtkIdType MaximumAtlases = 4096;
+  /// Surfaces that a scene in the order of their atlases may have: blocks of composite input.
+  static constexpr std::size_t MaximumSurfaces = std::size_t(1)
+    << (64 - 2 * vtkPatchTree::AtlasBits);
 
   /**
    * Gather the patches of `input`. Returns false, on every rank alike, with `error` naming the
    * problem and the remedy: nothing to work on, coordinates that are not finite, a patch without
    * area, a patch that is not a planar convex polygon; in the order of an atlas a surface without
-   * "AtlasCoordinates", or more surfaces than MaximumAtlases.
+   * "AtlasCoordinates", or more surfaces than MaximumSurfaces.
    */
   bool Build(vtkDataObject* input, vtkMultiProcessController* controller, std::string& error,
     Order order = Order::Spatial);
+
+  /// Whether all surfaces have "AtlasCoordinates" that Build takes. Collective.
+  static bool HasAtlas(vtkDataObject* input, vtkMultiProcessController* controller);
 
   vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
   /// The patches of this rank, in the order of its polygons.
@@ -161,8 +165,10 @@ private:
   {
     std::vector<double> Coordinates;
     std::vector<vtkIdType> Counts;
-    /// In the order of an atlas: the code of each patch, its surface's flat index on top.
+    ///@{ In the order of an atlas: the code of each patch, and the number of its surface.
     std::vector<std::uint64_t> Codes;
+    std::vector<vtkIdType> Surfaces;
+    ///@}
   };
   bool CollectLocal(vtkDataObject* input, Raw& raw, std::string& error);
   /// False when a polygon names points that do not exist.
@@ -171,6 +177,7 @@ private:
   /// Returns the number of polygons on the ranks before this one.
   vtkIdType GatherRanks(Raw& raw);
   void SortPatches(Raw& raw, vtkIdType firstLocal);
+  static void AddSurfaces(const std::vector<Vector>& centers, Raw& raw);
   bool Normalize(const Raw& raw, std::string& error);
   void MergePoints(const Raw& raw);
   void ComputeFingerprint(const Raw& raw);
