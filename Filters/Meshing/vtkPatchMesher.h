@@ -16,8 +16,9 @@
  * where they lie on one line. Where such edges are much shorter than that, the patches beside them
  * are small too, and grow away from them (see Grading). The parts of the surface between these
  * edges are remeshed one by one and every new point is put onto the part that it belongs to, so
- * planar faces stay planar and two sides of a thin wall are never mixed up. On smooth surfaces the
- * patches and the input are nowhere farther apart than half of the edge length there.
+ * planar faces stay planar and two sides of a thin wall are never mixed up. Where
+ * the surface is smooth at the scale of the edge length there, patches and input are nowhere
+ * farther apart than half of it; finer details are lost.
  *
  * *Regions*: a cell array, chosen with SetInputArrayToProcess(0, 0, 0,
  * vtkDataObject::FIELD_ASSOCIATION_CELLS, name), "Region" by default. Edges between cells of
@@ -136,8 +137,8 @@ public:
   ///@{
   /**
    * Whether planar regions (connected triangles in one plane, without edges to keep between them,
-   * larger than a few patches) may have patches as large as Grading allows. Their borders are kept
-   * then. Default off.
+   * larger than a few patches) may have patches as large as Grading and the region's width allow;
+   * along them, straight edges to keep are not split. Their borders are kept then. Default off.
    */
   vtkSetMacro(CoarsePlanarRegions, bool);
   vtkGetMacro(CoarsePlanarRegions, bool);
@@ -147,9 +148,10 @@ public:
   ///@{
   /**
    * How many patches should come out: all edge lengths of the size field are multiplied by the same
-   * factor so that the number is met within 5 %, or as nearly as the edges to keep allow (a warning
-   * then). "TargetEdgeLength" in the field data says what was used. Takes two or three times as
-   * long. Default 0: the lengths are taken as they are.
+   * factor, then the longest edges are split or the shortest collapsed, so that the number is met
+   * within 5 %, or as nearly as the edges to keep allow (a warning then). "TargetEdgeLength" in the
+   * field data says what was used. Takes two or three times as long. Default 0, at most 20 million;
+   * 0: the lengths are taken as they are.
    */
   vtkSetClampMacro(TargetNumberOfPatches, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfPatches, vtkIdType);

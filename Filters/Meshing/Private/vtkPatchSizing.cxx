@@ -198,6 +198,44 @@ std::vector<std::size_t> vtkPatchSizing::FindPlanarRegions(const vtkSourceSurfac
 }
 
 //------------------------------------------------------------------------------
+std::vector<double> vtkPatchSizing::GetWidths(const vtkSourceSurface& surface,
+  const std::vector<std::size_t>& regions)
+{
+  const auto isBorder = [&](std::size_t triangle, int side)
+  {
+    const std::size_t neighbour = surface.Neighbours[triangle][side];
+    return neighbour == vtkSourceSurface::NONE || regions[neighbour] != regions[triangle];
+  };
+  std::vector<bool> atBorder(surface.Points.size(), false);
+  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      if (isBorder(i, j))
+      {
+        atBorder[surface.Triangles[i][j]] = true;
+        atBorder[surface.Triangles[i][(j + 1) % 3]] = true;
+      }
+    }
+  }
+  std::vector<double> widths(surface.Triangles.size(), VTK_DOUBLE_MAX);
+  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
+  {
+    const vtkSourceSurface::Triangle& corners = surface.Triangles[i];
+    for (int j = 0; j < 3; ++j)
+    {
+      if (isBorder(i, j) && atBorder[corners[(j + 2) % 3]])
+      {
+        const Eigen::Vector3d side =
+          ToVector(surface.Points[corners[(j + 1) % 3]]) - ToVector(surface.Points[corners[j]]);
+        widths[i] = std::min(widths[i], 2.0 * surface.GetArea(i) / side.norm());
+      }
+    }
+  }
+  return widths;
+}
+
+//------------------------------------------------------------------------------
 void vtkPatchSizing::Grade(const vtkSourceSurface& surface, double grading,
   std::vector<double>& lengths)
 {

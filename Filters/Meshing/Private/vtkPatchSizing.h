@@ -35,6 +35,13 @@ VTKLIGHTTRANSPORTMESHING_EXPORT std::vector<std::size_t> FindPlanarRegions(
   const vtkSourceSurface& surface, const std::vector<double>& lengths);
 
 /**
+ * How wide the region of each triangle is there: the smallest height of the triangle over a side at
+ * the region's border, when its opposite corner is at the border too. VTK_DOUBLE_MAX elsewhere.
+ */
+VTKLIGHTTRANSPORTMESHING_EXPORT std::vector<double> GetWidths(const vtkSourceSurface& surface,
+  const std::vector<std::size_t>& regions);
+
+/**
  * Shorten the lengths so that along every path on the surface they grow by at most `grading` per
  * unit of distance: a sweep from the shortest length on, like Dijkstra's, through triangles
  * instead of along edges (as in fast marching).

@@ -15,9 +15,11 @@ namespace
 using Point = vtkWorkingMesh::Point;
 using Vector = vtkWorkingMesh::Vector;
 
-// Limits of an edge's length over the wanted one: halves of what is split are not collapsed.
-constexpr double LONGEST = 4.0 / 3.0;
-constexpr double SHORTEST = 4.0 / 5.0;
+// Limit of the length over the wanted one that edges may get when others are collapsed. It lets the
+// legs of right triangles, which halving leads to, be collapsed as long as they are short.
+constexpr double LONGEST_COLLAPSED = 1.5;
+// Limit of the distance from the middle of an edge to the surface, over the length.
+constexpr double FARTHEST_SPLIT = 0.4;
 // New triangles may be as bad as this, or as the worst they replace. See GetQuality().
 constexpr double GOOD_ENOUGH = 0.5;
 // Cosine by which the normal of a triangle may turn in one step.
@@ -27,6 +29,12 @@ constexpr double LARGEST_TURN = 0.5;
 vtkSourceSurface::Point ToArray(const Point& point)
 {
   return { point.x(), point.y(), point.z() };
+}
+
+//------------------------------------------------------------------------------
+Point ToPoint(const vtkSourceSurface::Point& point)
+{
+  return Point(point[0], point[1], point[2]);
 }
 
 //------------------------------------------------------------------------------
@@ -106,7 +114,7 @@ vtkSourceSurface::Place vtkRemeshingSteps::Find(Vertex start, std::size_t part,
 void vtkRemeshingSteps::Put(Vertex vertex, const vtkSourceSurface::Place& place)
 {
   this->Work.Places[vertex] = place;
-  this->Mesh.point(vertex) = Point(place.Position[0], place.Position[1], place.Position[2]);
+  this->Mesh.point(vertex) = ToPoint(place.Position);
   const vtkSourceSurface::Triangle& corners = this->Sources.Triangles[place.Triangle];
   double length = 0.0;
   for (int i = 0; i < 3; ++i)
@@ -131,13 +139,13 @@ std::size_t vtkRemeshingSteps::FindSource(Face face) const
 }
 
 //------------------------------------------------------------------------------
-void vtkRemeshingSteps::SplitLongEdges()
+void vtkRemeshingSteps::SplitLongEdges(double longest, std::size_t most)
 {
   std::priority_queue<std::pair<double, Edge>> queue;
   const auto add = [&](Edge edge)
   {
     const double ratio = this->GetRatio(edge);
-    if (ratio > LONGEST && !this->Work.Kept[edge])
+    if (ratio > longest && !this->Work.Kept[edge])
     {
       queue.emplace(ratio, edge);
     }
@@ -146,21 +154,27 @@ void vtkRemeshingSteps::SplitLongEdges()
   {
     add(edge);
   }
-  while (!queue.empty())
+  while (!queue.empty() && this->Mesh.number_of_faces() < most)
   {
-    const std::pair<double, Edge> longest = queue.top();
+    const std::pair<double, Edge> top = queue.top();
     queue.pop();
     this->CountStep();
-    if (longest.first != this->GetRatio(longest.second))
+    if (top.first != this->GetRatio(top.second))
     {
       continue;
     }
-    Halfedge h = this->Mesh.halfedge(longest.second);
+    Halfedge h = this->Mesh.halfedge(top.second);
     h = this->Work.Fixed[this->Mesh.target(h)] ? this->Mesh.opposite(h) : h;
     const Point middle = CGAL::midpoint(this->Mesh.point(this->Mesh.source(h)),
       this->Mesh.point(this->Mesh.target(h)));
     const vtkSourceSurface::Place place =
       this->Find(this->Mesh.target(h), this->Work.Parts[this->Mesh.face(h)], middle);
+    // Over a narrow gap the surface has nothing near the middle: halves would be no shorter.
+    const double offset2 = CGAL::squared_distance(middle, ToPoint(place.Position));
+    if (offset2 > FARTHEST_SPLIT * FARTHEST_SPLIT * this->Work.GetVector(h).squared_length())
+    {
+      continue;
+    }
     const Vertex vertex = this->Work.Split(h, middle);
     this->Put(vertex, place);
     for (const Halfedge around : this->Mesh.halfedges_around_target(this->Mesh.halfedge(vertex)))
@@ -188,7 +202,7 @@ bool vtkRemeshingSteps::CanCollapse(Halfedge h) const
     const Vertex around = this->Mesh.source(in);
     const double wanted = 0.5 * (this->Work.Lengths[q] + this->Work.Lengths[around]);
     const double length2 = CGAL::squared_distance(to, this->Mesh.point(around));
-    if (length2 > LONGEST * LONGEST * wanted * wanted)
+    if (length2 > LONGEST_COLLAPSED * LONGEST_COLLAPSED * wanted * wanted)
     {
       return false;
     }
@@ -250,14 +264,14 @@ vtkRemeshingSteps::Vertex vtkRemeshingSteps::Collapse(Halfedge h)
 }
 
 //------------------------------------------------------------------------------
-void vtkRemeshingSteps::CollapseShortEdges()
+void vtkRemeshingSteps::CollapseShortEdges(double shortest, std::size_t fewest)
 {
   using Entry = std::pair<double, Edge>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   const auto add = [&](Edge edge)
   {
     const double ratio = this->GetRatio(edge);
-    if (ratio < SHORTEST)
+    if (ratio < shortest)
     {
       queue.emplace(ratio, edge);
     }
@@ -266,16 +280,16 @@ void vtkRemeshingSteps::CollapseShortEdges()
   {
     add(edge);
   }
-  while (!queue.empty())
+  while (!queue.empty() && this->Mesh.number_of_faces() > fewest)
   {
-    const Entry shortest = queue.top();
+    const Entry top = queue.top();
     queue.pop();
     this->CountStep();
-    if (this->Mesh.is_removed(shortest.second) || shortest.first != this->GetRatio(shortest.second))
+    if (this->Mesh.is_removed(top.second) || top.first != this->GetRatio(top.second))
     {
       continue;
     }
-    const Halfedge h = this->FindCollapse(shortest.second);
+    const Halfedge h = this->FindCollapse(top.second);
     if (h == vtkWorkingMesh::Surface::null_halfedge())
     {
       continue;
@@ -393,8 +407,7 @@ void vtkRemeshingSteps::Move(Vertex vertex)
   {
     const vtkSourceSurface::Place place =
       this->Find(vertex, vtkSourceSurface::NONE, from + part * along);
-    const Point to(place.Position[0], place.Position[1], place.Position[2]);
-    if (this->CanMove(vertex, to))
+    if (this->CanMove(vertex, ToPoint(place.Position)))
     {
       this->Put(vertex, place);
       return;

@@ -25,8 +25,10 @@ public:
   vtkRemeshingSteps(vtkWorkingMesh& mesh, const vtkSourceSurface& sources,
     const std::vector<double>& lengths, std::function<void()> alive);
 
-  void SplitLongEdges();
-  void CollapseShortEdges();
+  /// Split edges longer than `longest` times the wanted length, up to `most` faces.
+  void SplitLongEdges(double longest, std::size_t most);
+  /// Collapse edges shorter than `shortest` times the wanted length, down to `fewest` faces.
+  void CollapseShortEdges(double shortest, std::size_t fewest);
   /// Flip edges until all are Delaunay, or flat enough no more.
   void FlipEdges();
   void MoveVertices();

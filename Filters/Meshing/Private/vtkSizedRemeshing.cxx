@@ -63,8 +63,8 @@ std::vector<double> GetLengths(const vtkSurfaceRemesher& remesher, const vtkSour
 }
 
 //------------------------------------------------------------------------------
-// Planar regions may have long edges: as long as the surface if they stay coarse; or as long as
-// elsewhere, if the curvature at their borders would shorten those within.
+// Planar regions may have long edges: as long as elsewhere, if the curvature at their borders would
+// shorten those within; or as long as the regions are wide, if they stay coarse.
 void FreePlanarRegions(vtkSurfaceRemesher& remesher, const vtkSourceSurface& surface,
   const Settings& settings, double diagonal, std::vector<double>& lengths)
 {
@@ -74,14 +74,28 @@ void FreePlanarRegions(vtkSurfaceRemesher& remesher, const vtkSourceSurface& sur
     return;
   }
   const std::vector<std::size_t> regions = vtkPatchSizing::FindPlanarRegions(surface, lengths);
-  for (std::size_t i = 0; coarse && i < lengths.size(); ++i)
+  std::vector<double> inside(surface.Triangles.size(), settings.TargetEdgeLength);
+  if (coarse)
   {
-    const vtkSourceSurface::Range around = surface.GetTrianglesAround(i);
-    const bool planar = std::all_of(around.begin(), around.end(),
-      [&](std::size_t triangle) { return regions[triangle] != vtkSourceSurface::NONE; });
-    lengths[i] = planar ? diagonal : lengths[i];
+    // Triangles across a narrow region are not thinner than 1 : 1.5.
+    const double lengthOverWidth = 1.5;
+    inside = vtkPatchSizing::GetWidths(surface, regions);
+    for (double& length : inside)
+    {
+      length = std::min(lengthOverWidth * length, diagonal);
+    }
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+    {
+      double longest = diagonal;
+      for (const std::size_t triangle : surface.GetTrianglesAround(i))
+      {
+        const bool planar = regions[triangle] != vtkSourceSurface::NONE;
+        longest = std::min(longest, planar ? inside[triangle] : lengths[i]);
+      }
+      lengths[i] = std::max(lengths[i], longest);
+    }
   }
-  remesher.SetPlanarRegions(regions, coarse ? diagonal : settings.TargetEdgeLength, coarse);
+  remesher.SetPlanarRegions(regions, inside, coarse);
 }
 
 //------------------------------------------------------------------------------
@@ -101,6 +115,18 @@ void CheckNumberOfTriangles(double number, const Settings& settings)
     }
     text << " would give about " << number << " triangles, more than "
          << MAXIMUM_NUMBER_OF_TRIANGLES << " are refused: give larger lengths.";
+    throw InputError(text.str());
+  }
+}
+
+//------------------------------------------------------------------------------
+void CheckTargetNumber(vtkIdType number)
+{
+  if (number > MAXIMUM_NUMBER_OF_TRIANGLES)
+  {
+    std::ostringstream text;
+    text << "TargetNumberOfPatches is " << number << ", more than " << MAXIMUM_NUMBER_OF_TRIANGLES
+         << " are refused: ask for fewer.";
     throw InputError(text.str());
   }
 }
@@ -153,21 +179,21 @@ double RemeshToNumber(vtkSurfaceRemesher& remesher, const Settings& settings, do
   // How many triangles come out for each that is expected; measured, then corrected.
   double excess = 1.15;
   const int passes = 4;
-  const double tolerance = 0.02;
-  for (int i = 0; i < passes; ++i)
+  const double tolerance = 0.03;
+  double result = 2.0 * number;
+  for (int i = 0; i < passes && result > (1.0 + tolerance) * number; ++i)
   {
     search.Prepare(number / excess);
     // One correction is the rule.
     const double begin = 1.0 - std::pow(0.5, i);
     remesher.Remesh(settings.NumberOfIterations,
       [&](double fraction) { monitor(begin + 0.5 * (1.0 - begin) * fraction); });
-    const double result = static_cast<double>(remesher.GetNumberOfTriangles());
-    if (std::abs(result / number - 1.0) <= tolerance)
-    {
-      break;
-    }
+    result = static_cast<double>(remesher.GetNumberOfTriangles());
     excess = result / search.GetExpected();
   }
+  // Where all edges are alike, the number jumps when they become long enough to be split. From too
+  // few triangles any number can be reached, while it may be impossible to collapse edges.
+  remesher.AdjustNumberOfTriangles(static_cast<std::size_t>(number), monitor);
   return search.GetFactor();
 }
 } // namespace
@@ -199,9 +225,9 @@ double vtkSizedRemeshing::Remesh(vtkSurfaceRemesher& remesher, const vtkTriangle
   remesher.SetLengths(lengths);
   const double number = vtkPatchSizing::EstimateNumberOfTriangles(surface, lengths);
   double factor = 1.0;
-  if (settings.TargetNumberOfPatches > 0)
+  if (settings.TargetNumberOfPatches > 0 && std::isfinite(number))
   {
-    CheckNumberOfTriangles(static_cast<double>(settings.TargetNumberOfPatches), settings);
+    CheckTargetNumber(settings.TargetNumberOfPatches);
     factor = RemeshToNumber(remesher, settings, number, monitor);
   }
   else

@@ -27,8 +27,10 @@ using Vertex = vtkWorkingMesh::Vertex;
 
 constexpr std::size_t NONE = vtkSourceSurface::NONE;
 
-// Edges up to this multiple of the wanted length may stay.
+// Edges between these multiples of the wanted length may stay: halves of longer ones are no
+// shorter.
 constexpr double LONGEST = 4.0 / 3.0;
+constexpr double SHORTEST = 4.0 / 5.0;
 // Beside edges to keep that are shorter than wanted, others may be this much longer than they are:
 // the smallest angle of such a triangle is 39 degrees.
 constexpr double LONGEST_BESIDE_KEPT = 1.5;
@@ -272,13 +274,13 @@ void vtkSurfaceRemesher::SetLengths(const std::vector<double>& lengths)
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions, double length,
-  bool keepBorders)
+void vtkSurfaceRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions,
+  const std::vector<double>& lengths, bool keepBorders)
 {
   vtkWorkingMesh& work = this->Meshes->Original;
   for (const Face face : work.Mesh.faces())
   {
-    work.Ceilings[face] = regions[face] == NONE ? 0.0 : length;
+    work.Ceilings[face] = regions[face] == NONE ? 0.0 : lengths[face];
   }
   for (const Edge edge : work.Mesh.edges())
   {
@@ -341,8 +343,8 @@ void vtkSurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
   vtkRemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, alive);
   for (int i = 0; i < numberOfIterations; ++i)
   {
-    steps.SplitLongEdges();
-    steps.CollapseShortEdges();
+    steps.SplitLongEdges(LONGEST, NONE);
+    steps.CollapseShortEdges(SHORTEST, 0);
     steps.FlipEdges();
     steps.MoveVertices();
     done = (i + 1.0) / (numberOfIterations + 1.0);
@@ -351,6 +353,23 @@ void vtkSurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
   // The last move may have left edges that are better flipped, and better places then.
   steps.FlipEdges();
   steps.MoveVertices();
+  steps.FlipEdges();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceRemesher::AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor)
+{
+  const auto alive = [&]() { monitor(1.0); };
+  vtkRemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, alive);
+  // In rounds, so that edges that were moved apart or together can be next.
+  const int rounds = 3;
+  for (int i = 0; i < rounds; ++i)
+  {
+    steps.SplitLongEdges(SHORTEST, number);
+    steps.CollapseShortEdges(LONGEST, number);
+    steps.FlipEdges();
+    steps.MoveVertices();
+  }
   steps.FlipEdges();
 }
 

@@ -41,10 +41,11 @@ public:
   void SetLengths(const std::vector<double>& lengths);
 
   /**
-   * Let edges be as long as `length` inside the planar `regions` (one per triangle, NONE where
-   * there is none). `keepBorders`: also keep the edges around them.
+   * Let edges inside the planar `regions` be as long as `lengths`, both one per triangle; NONE
+   * where there is no region. `keepBorders`: also keep the edges around them.
    */
-  void SetPlanarRegions(const std::vector<std::size_t>& regions, double length, bool keepBorders);
+  void SetPlanarRegions(const std::vector<std::size_t>& regions, const std::vector<double>& lengths,
+    bool keepBorders);
 
   /**
    * Multiply all lengths by `factor`, split the edges to keep, limit the lengths to what these
@@ -61,6 +62,8 @@ public:
   void Remesh(int numberOfIterations, const Monitor& monitor);
 
   std::size_t GetNumberOfTriangles() const;
+  /// After Remesh(): split the longest edges, or collapse the shortest, up or down to this number.
+  void AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor);
 
   /// The prepared surface, and the length that edges should have at each of its points.
   const vtkSourceSurface& GetSources() const { return this->Sources; }

@@ -3,7 +3,9 @@
 // Each bad input gets one error that names the problem, and no output.
 #include "MeshTestTools.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
+#include "vtkPointData.h"
 #include "vtkTestErrorObserver.h"
 
 #include <limits>
@@ -15,6 +17,19 @@ vtkSmartPointer<vtkPolyData> MakeSquare()
 {
   return meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } },
     { { 0, 1, 2 }, { 0, 2, 3 } });
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeSquareWithLength(int components, double length)
+{
+  vtkSmartPointer<vtkPolyData> square = MakeSquare();
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("EdgeLength");
+  lengths->SetNumberOfComponents(components);
+  lengths->SetNumberOfTuples(4);
+  lengths->Fill(length);
+  square->GetPointData()->AddArray(lengths);
+  return square;
 }
 
 //------------------------------------------------------------------------------
@@ -81,8 +96,55 @@ int TestPatchMesherErrors(int, char*[])
   {
     vtkNew<vtkPatchMesher> mesher;
     mesher->SetTargetEdgeLength(length);
-    ExpectError(mesher, MakeSquare(), length == 1e-4 ? "2.3096e+08" : "give larger lengths",
-      check);
+    ExpectError(mesher, MakeSquare(), length == 1e-4 ? "2.3096e+08" : "give larger lengths", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetTargetNumberOfPatches(30000000);
+    ExpectError(mesher, MakeSquare(), "TargetNumberOfPatches is 30000000", check);
+  }
+  for (const double value : { -1.0, nan, infinity })
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetApproximationError(value);
+    ExpectError(mesher, MakeSquare(), "ApproximationError is", check);
+    vtkNew<vtkPatchMesher> shortest;
+    shortest->SetMinimumEdgeLength(value);
+    ExpectError(shortest, MakeSquare(), "MinimumEdgeLength is", check);
+    vtkNew<vtkPatchMesher> grading;
+    grading->SetGrading(value);
+    ExpectError(grading, MakeSquare(), "Grading is", check);
+  }
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetGrading(0.0);
+    ExpectError(mesher, MakeSquare(), "give a positive number", check);
+    vtkNew<vtkPatchMesher> limits;
+    limits->SetTargetEdgeLength(0.1);
+    limits->SetMinimumEdgeLength(0.2);
+    ExpectError(limits, MakeSquare(), "larger than TargetEdgeLength", check);
+  }
+  for (const char* name : { "", "Size" })
+  {
+    vtkNew<vtkPatchMesher> mesher;
+    mesher->SetSizeFieldToArray();
+    mesher->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+    ExpectError(mesher, MakeSquare(),
+      std::string("no numeric point array \"") + (*name ? name : "EdgeLength") + "\"", check);
+  }
+  {
+    for (const double value : { 0.0, -1.0, nan, infinity })
+    {
+      vtkNew<vtkPatchMesher> other;
+      other->SetSizeFieldToArray();
+      ExpectError(other, MakeSquareWithLength(1, value), "positive, finite lengths", check);
+    }
+    vtkNew<vtkPatchMesher> vectors;
+    vectors->SetSizeFieldToArray();
+    ExpectError(vectors, MakeSquareWithLength(3, 1.0), "3 components", check);
+    vtkNew<vtkPatchMesher> fine;
+    fine->SetSizeFieldToArray();
+    ExpectError(fine, MakeSquareWithLength(1, 1e-4), "The array of edge lengths would give", check);
   }
   for (const int association :
     { vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataObject::FIELD_ASSOCIATION_POINTS })
