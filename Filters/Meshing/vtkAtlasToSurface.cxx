@@ -9,11 +9,9 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -84,7 +82,7 @@ public:
 private:
   vtkDataArray* Texels;
   int Components;
-  vtkNew<vtkDoubleArray> Array;
+  vtkSmartPointer<vtkDoubleArray> Array = vtkSmartPointer<vtkDoubleArray>::New();
 };
 
 //------------------------------------------------------------------------------
@@ -104,17 +102,16 @@ std::vector<vtkDataArray*> GetArrays(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface)
+void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPolyData* output)
 {
   std::vector<Means> ofCells;
   std::vector<Means> ofPoints;
   for (vtkDataArray* array : GetArrays(image))
   {
-    ofCells.emplace_back(array, surface->GetCellData(), surface->GetNumberOfCells());
-    ofPoints.emplace_back(array, surface->GetPointData(), surface->GetNumberOfPoints());
+    ofCells.emplace_back(array, output->GetCellData(), output->GetNumberOfCells());
+    ofPoints.emplace_back(array, output->GetPointData(), output->GetNumberOfPoints());
   }
   std::vector<double> weightOfPoint(surface->GetNumberOfPoints(), 0.0);
-  vtkNew<vtkIdList> ids;
   vtkIdType cell = -1;
   double area = 0.0;
   vtkTexelPieces::Visit(surface, resolution,
@@ -128,7 +125,7 @@ void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface)
       }
       vtkIdType size;
       const vtkIdType* corners;
-      surface->GetPolys()->GetCellAtId(cell, size, corners, ids);
+      surface->GetPolys()->GetCellAtId(cell, size, corners);
       for (int i = 0; i < 3; ++i)
       {
         // Never nothing, so that a point among triangles without area has a value, too.
@@ -189,11 +186,12 @@ int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** input
   try
   {
     vtkImageData* image = vtkImageData::GetData(inputs[1]);
-    output->ShallowCopy(vtkPolyData::GetData(inputs[0]));
+    vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
     const int resolution = GetResolution(image);
-    vtkTexelPieces::Check(output, resolution);
+    vtkTexelPieces::Check(surface, resolution);
     Report(this, 0.1);
-    Transfer(image, resolution, output);
+    output->ShallowCopy(surface);
+    Transfer(image, resolution, surface, output);
     Report(this, 1.0);
     return 1;
   }

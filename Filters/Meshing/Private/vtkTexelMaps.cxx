@@ -4,16 +4,16 @@
 
 #include "vtkTexelPieces.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkTriangle.h"
 
 #include <array>
@@ -79,7 +79,7 @@ private:
   vtkTexelMaps::Source Source;
   int Components;
   std::vector<std::array<double, 3>> Values;
-  vtkNew<vtkDoubleArray> Means;
+  vtkSmartPointer<vtkDoubleArray> Means = vtkSmartPointer<vtkDoubleArray>::New();
 };
 
 //------------------------------------------------------------------------------
@@ -104,11 +104,11 @@ vtkSmartPointer<Array> AddMap(const char* name, double value, vtkImageData* maps
 }
 
 //------------------------------------------------------------------------------
-Triangle GetCorners(vtkPolyData* surface, vtkIdType cell, vtkIdList* ids)
+Triangle GetCorners(vtkPolyData* surface, vtkIdType cell)
 {
   vtkIdType size;
   const vtkIdType* corners;
-  surface->GetPolys()->GetCellAtId(cell, size, corners, ids);
+  surface->GetPolys()->GetCellAtId(cell, size, corners);
   return { corners[0], corners[1], corners[2] };
 }
 
@@ -118,10 +118,9 @@ vtkSmartPointer<vtkDoubleArray> MakeNormals(vtkPolyData* surface)
   auto normals = vtkSmartPointer<vtkDoubleArray>::New();
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(surface->GetNumberOfCells());
-  vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
-    const Triangle corners = GetCorners(surface, cell, ids);
+    const Triangle corners = GetCorners(surface, cell);
     vtkTriangle::ComputeNormal(surface->GetPoints(), 3, corners.data(),
       normals->GetPointer(3 * cell));
   }
@@ -158,7 +157,6 @@ void vtkTexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps
   const auto charts = AddMap<vtkIntArray>(CHART, -1, maps);
 
   vtkDataArray* chartOfCell = surface->GetCellData()->GetArray(CHART);
-  vtkNew<vtkIdList> ids;
   vtkIdType cell = -1;
   int chart = 0;
   vtkTexelPieces::Visit(surface, resolution,
@@ -167,7 +165,7 @@ void vtkTexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps
       if (piece.Cell != cell)
       {
         cell = piece.Cell;
-        const Triangle corners = GetCorners(surface, cell, ids);
+        const Triangle corners = GetCorners(surface, cell);
         for (Mean& mean : means)
         {
           mean.SetCell(cell, corners);

@@ -7,9 +7,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkIdList.h"
 #include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
@@ -39,13 +37,12 @@ vtkDataArray* GetCoordinates(vtkPolyData* surface)
 template <typename Function>
 void ForEachTriangle(vtkPolyData* surface, Function&& function)
 {
-  vtkNew<vtkIdList> ids;
   vtkCellArray* cells = surface->GetPolys();
   for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
   {
     vtkIdType size;
     const vtkIdType* corners;
-    cells->GetCellAtId(cell, size, corners, ids);
+    cells->GetCellAtId(cell, size, corners);
     function(cell, Triangle{ corners[0], corners[1], corners[2] });
   }
 }
