@@ -20,7 +20,8 @@ FOLDERS = {
 FILTERS = {
     "vtkLightTransportFilters": (
         "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering", "vtkViewFactors"),
-    "vtkLightTransportMeshing": ("vtkPatchMesher",),
+    "vtkLightTransportMeshing": (
+        "vtkAtlasToSurface", "vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas"),
     "vtkLightTransportRendering": (),
     "vtkLightTransportIO": ("vtkOpenEXRReader", "vtkOpenEXRWriter"),
 }
