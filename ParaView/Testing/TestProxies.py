@@ -14,8 +14,8 @@ from vtkmodules import vtkRenderingCore
 # What cannot be, or need not be, a property of a proxy.
 WITHOUT_PROPERTY = {
     "Brightness", "Controller", "Environment", "EnvironmentSamples", "ViewFactors"}
-FILTERS = ("vtkPatchMesher", "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity",
-           "vtkSubsurfaceScattering")
+FILTERS = ("vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas", "vtkAtlasToSurface",
+           "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering")
 LIGHTS = ("NoLight", "DirectionalLight", "PointLight", "SpotLight")
 
 
@@ -89,7 +89,8 @@ def check_filter(name):
         problems.append(f"{proxy.GetXMLName()} is made of {proxy.GetVTKClassName()}")
     own = set()
     for kind in type(getattr(lt, name)()).__mro__:
-        if kind.__name__ in ("vtkPassInputTypeAlgorithm", "vtkPolyDataAlgorithm"):
+        if kind.__name__ in (
+                "vtkImageAlgorithm", "vtkPassInputTypeAlgorithm", "vtkPolyDataAlgorithm"):
             break
         own |= {key[3:] for key in vars(kind) if key.startswith("Set") and "To" not in key[3:]}
     for missing in sorted(own - commands - WITHOUT_PROPERTY):
