@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * vtkOpenGLAtlasTexture on random quadtrees of charts of 1 to 256 texels a side: charts of one
- * colour stay so at every level, whole or between two (and do not where samples may leave the
- * block); texels of all levels are the area-weighted means of what is below them; samples against
- * filtering in double precision; shaders of others; windows that go; errors.
+ * vtkOpenGLAtlasTexture on random quadtrees of charts of 1 to 256 texels a side, and on the atlas
+ * of a bunny where the module that makes it is there: charts of one colour stay so at every level,
+ * whole or between two (and do not where samples may leave the block); texels of all levels are the
+ * area-weighted means of what is below them; samples against filtering in double precision; shaders
+ * of others; windows that go; errors.
  */
 #include "LightTransportTesting.h"
 #include "vtkOffScreenOpenGLRenderWindow.h"
@@ -24,6 +25,13 @@
 #include "vtkSmartPointer.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkTextureObject.h"
+
+#ifdef TEST_WITH_MESHING
+#include "vtkFloatingPointExceptions.h"
+#include "vtkPLYReader.h"
+#include "vtkSurfaceAtlas.h"
+#include "vtkTable.h"
+#endif
 
 #include <algorithm>
 #include <array>
@@ -218,18 +226,21 @@ int CountMixtures(const Points& points, const std::vector<std::array<double, 3>>
 }
 
 //------------------------------------------------------------------------------
-void TestBleeding(vtkOpenGLAtlasTexture* texture)
+// A colour for each chart, on texels with these areas (random ones without).
+void TestBleeding(vtkOpenGLAtlasTexture* texture, const std::vector<Block>& blocks,
+  vtkDataArray* areas)
 {
-  const std::vector<Block> blocks = MakeBlocks();
   Maps maps(3);
   maps.SetRandomAreas(10.0);
+  if (areas)
+  {
+    maps.Areas->DeepCopy(areas);
+  }
   std::vector<std::array<double, 3>> colours;
   Points points;
-  std::set<int> sizes;
   for (std::size_t chart = 0; chart < blocks.size(); ++chart)
   {
     const Block& block = blocks[chart];
-    sizes.insert(block.Size);
     // Neighbours differ in the first component by much more than rounding.
     colours.push_back({ ((chart * 7) % 11 + 1) / 11.0, Draw(0.0, 1.0), Draw(0.0, 1.0) });
     for (int y = block.Y; y < block.Y + block.Size; ++y)
@@ -241,7 +252,6 @@ void TestBleeding(vtkOpenGLAtlasTexture* texture)
     }
     AddPointsOfChart(points, static_cast<int>(chart), block);
   }
-  Check(sizes.size() == TopLevel, "there are charts of all sizes");
   Check(texture->Build(maps.Image, "Value"), "the charts' texture");
   vtkNew<vtkDoubleArray> values;
   double largest = 0.0;
@@ -261,6 +271,77 @@ void TestBleeding(vtkOpenGLAtlasTexture* texture)
   Check(mixtures > static_cast<int>(points.Charts.size() / 2) && largest > 0.1,
     "without the blocks most samples are mixtures, not " + std::to_string(mixtures));
 }
+
+//------------------------------------------------------------------------------
+void TestRandomCharts(vtkOpenGLAtlasTexture* texture)
+{
+  const std::vector<Block> blocks = MakeBlocks();
+  std::set<int> sizes;
+  for (const Block& block : blocks)
+  {
+    sizes.insert(block.Size);
+  }
+  Check(sizes.size() == TopLevel, "there are charts of all sizes");
+  TestBleeding(texture, blocks, nullptr);
+}
+
+#ifdef TEST_WITH_MESHING
+//------------------------------------------------------------------------------
+// A texel of a node's level has the area of the node: all of the way up.
+void CheckNodes(vtkOpenGLAtlasTexture* texture, vtkTable* charts, double meanArea)
+{
+  vtkNew<vtkFloatArray> texels;
+  double off = 0.0;
+  for (vtkIdType row = 0; row < charts->GetNumberOfRows(); ++row)
+  {
+    const int level = charts->GetValueByName(row, "Level").ToInt();
+    const int size = charts->GetValueByName(row, "Size").ToInt();
+    Check(size == 1 << level && texture->ReadLevel(level, texels), "the level of a node");
+    const vtkIdType x = charts->GetValueByName(row, "X").ToInt() / size;
+    const vtkIdType y = charts->GetValueByName(row, "Y").ToInt() / size;
+    const double share = texels->GetComponent(y * (Resolution / size) + x, 3);
+    const double area = share * meanArea * size * size;
+    off =
+      std::max(off, std::abs(area / charts->GetValueByName(row, "SurfaceArea").ToDouble() - 1.0));
+  }
+  Check(off < 1e-5, "texels have the area of their node: " + std::to_string(off));
+  std::cout << charts->GetNumberOfRows() << " nodes, largest difference of areas " << off << "\n";
+}
+
+//------------------------------------------------------------------------------
+void TestSurface(vtkOpenGLAtlasTexture* texture)
+{
+  vtkFloatingPointExceptions::Disable(); // CGAL's predicates raise some on purpose
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(LIGHTTRANSPORT_DATA_DIRECTORY "/bunny.ply");
+  vtkNew<vtkSurfaceAtlas> atlas;
+  atlas->SetInputConnection(reader->GetOutputPort());
+  atlas->SetResolution(Resolution);
+  atlas->Update();
+  vtkTable* charts = atlas->GetCharts();
+  vtkDataArray* areas = atlas->GetMaps()->GetPointData()->GetArray("Area");
+  if (!Check(areas && charts->GetNumberOfRows() > 1, "the atlas of a bunny"))
+  {
+    return;
+  }
+  std::vector<Block> blocks;
+  double mean = 0.0;
+  for (vtkIdType row = 0; row < charts->GetNumberOfRows(); ++row)
+  {
+    if (charts->GetValueByName(row, "Chart").ToInt() >= 0)
+    {
+      blocks.push_back({ charts->GetValueByName(row, "X").ToInt(),
+        charts->GetValueByName(row, "Y").ToInt(), charts->GetValueByName(row, "Size").ToInt() });
+    }
+  }
+  for (vtkIdType texel = 0; texel < areas->GetNumberOfTuples(); ++texel)
+  {
+    mean += areas->GetComponent(texel, 0) / static_cast<double>(areas->GetNumberOfTuples());
+  }
+  TestBleeding(texture, blocks, areas);
+  CheckNodes(texture, charts, mean);
+}
+#endif
 
 /// Value x area and area of all levels in double precision, four numbers a texel.
 using Pyramid = std::vector<std::vector<double>>;
@@ -589,7 +670,10 @@ void TestErrors(vtkOpenGLAtlasTexture* texture)
 int TestAtlasMipmaps(int, char*[])
 {
   vtkNew<vtkOpenGLAtlasTexture> texture;
-  TestBleeding(texture);
+  TestRandomCharts(texture);
+#ifdef TEST_WITH_MESHING
+  TestSurface(texture);
+#endif
   TestMeans(texture, 3);
   TestMeans(texture, 1);
   TestManyPoints(texture);

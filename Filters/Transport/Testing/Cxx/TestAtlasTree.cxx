@@ -10,6 +10,12 @@
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
 
+#ifdef TEST_WITH_MESHING
+#include "vtkFloatingPointExceptions.h"
+#include "vtkPLYReader.h"
+#include "vtkSurfaceAtlas.h"
+#endif
+
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -141,8 +147,11 @@ std::vector<std::array<double, 2>> GetPlaces(vtkPolyData* data)
     std::array<double, 2> place{};
     for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
     {
-      place[0] += 512.0 * atlas->GetComponent(corners->GetId(k), 0) / 4.0;
-      place[1] += 512.0 * atlas->GetComponent(corners->GetId(k), 1) / 4.0;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        place[axis] += 512.0 * atlas->GetComponent(corners->GetId(k), axis) /
+          static_cast<double>(corners->GetNumberOfIds());
+      }
     }
     places.push_back(place);
   }
@@ -336,6 +345,33 @@ void TestSurfaces()
   }
 }
 
+#ifdef TEST_WITH_MESHING
+//------------------------------------------------------------------------------
+// The clusters are the rows of the table "Charts".
+void TestSurfaceAtlas()
+{
+  vtkFloatingPointExceptions::Disable(); // CGAL's predicates raise some on purpose
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(LIGHTTRANSPORT_DATA_DIRECTORY "/bunny.ply");
+  vtkNew<vtkSurfaceAtlas> atlas;
+  atlas->SetInputConnection(reader->GetOutputPort());
+  atlas->TexelMapsOff();
+  atlas->Update();
+  vtkTable* charts = atlas->GetCharts();
+  const vtkPatchScene scene = Build(atlas->GetOutputDataObject(0));
+  Check(charts->GetNumberOfRows() > 1 && scene.GetNumberOfPatches() > 1, "the atlas of a bunny");
+  CheckShape(scene);
+  const std::set<Range> nodes = GetRanges(scene);
+  const auto places = GetPlaces(vtkPolyData::SafeDownCast(atlas->GetOutputDataObject(0)));
+  for (vtkIdType row = 0; row < charts->GetNumberOfRows(); ++row)
+  {
+    CheckBlock(scene, nodes, places, 0,
+      { charts->GetValueByName(row, "X").ToDouble(), charts->GetValueByName(row, "Y").ToDouble(),
+        charts->GetValueByName(row, "Size").ToDouble() });
+  }
+}
+#endif
+
 //------------------------------------------------------------------------------
 void TestRanks()
 {
@@ -366,10 +402,12 @@ void TestRanks()
       std::string error;
       equal[rank] = scene.Build(pieces[rank], controller, error, vtkPatchScene::Order::Atlas) &&
         scene.GetFingerprint() == serial.GetFingerprint() && GetRanges(scene) == GetRanges(serial);
+      equal[rank] = vtkPatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
       if (rank == 2)
       {
         pieces[rank]->GetPointData()->RemoveArray("AtlasCoordinates");
       }
+      equal[rank] = !vtkPatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
       scene.Build(pieces[rank], controller, errors[rank], vtkPatchScene::Order::Atlas);
     });
   for (int rank = 0; rank < 3; ++rank)
@@ -621,6 +659,9 @@ int TestAtlasTree(int, char*[])
   TestNodes();
   TestEqualCodes();
   TestSurfaces();
+#ifdef TEST_WITH_MESHING
+  TestSurfaceAtlas();
+#endif
   TestRanks();
   TestLinks();
   TestClosedScene();
