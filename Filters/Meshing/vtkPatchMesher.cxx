@@ -5,6 +5,7 @@
 #include "vtkMeshingRun.h"
 #include "vtkSizedRemeshing.h"
 #include "vtkSurfaceRemesher.h"
+#include "vtkSurfaceRepair.h"
 #include "vtkTriangleSoup.h"
 
 #include "vtkAbstractArray.h"
@@ -92,11 +93,37 @@ std::vector<int> NumberTuples(vtkAbstractArray* array)
 }
 
 //------------------------------------------------------------------------------
-void Repair(vtkTriangleSoup& soup)
+// Lengths with a default that depends on the input.
+void CheckLength(const char* name, double length, const char* remedy)
 {
-  soup.DropDegenerateTriangles();
-  soup.DropDuplicateTriangles();
-  soup.Orient();
+  if (!(length >= 0.0) || !std::isfinite(length))
+  {
+    throw InputError(std::string(name) + " is " + std::to_string(length) +
+      ": give a positive length, or 0 for " + remedy + ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+double ChooseHoleSize(double wanted, const vtkTriangleSoup& soup)
+{
+  const double partsOfDiagonal = 100.0;
+  return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
+}
+
+//------------------------------------------------------------------------------
+std::string Describe(const vtkSurfaceRepair::Intersections& found,
+  const vtkSurfaceRepair::Intersections& left)
+{
+  std::ostringstream text;
+  text << "The surface intersects itself: " << found.NumberWithin
+       << " pairs of triangles of one connected component do";
+  if (left.NumberWithin < found.NumberWithin)
+  {
+    text << ", and " << left.NumberWithin << " of them could not be resolved";
+  }
+  text << ", the first near (" << left.Place[0] << ", " << left.Place[1] << ", " << left.Place[2]
+       << "), of the input's cells " << left.CellIds[0] << " and " << left.CellIds[1] << ". ";
+  return text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -106,17 +133,6 @@ void CheckDefects(const vtkTriangleSoup& soup)
   if (!defects.empty())
   {
     throw InputError("The surface has " + defects + ": switch Repair on or repair it first.");
-  }
-}
-
-//------------------------------------------------------------------------------
-// Lengths with a default that depends on the input.
-void CheckLength(const char* name, double length, const char* remedy)
-{
-  if (!(length >= 0.0) || !std::isfinite(length))
-  {
-    throw InputError(std::string(name) + " is " + std::to_string(length) +
-      ": give a positive length, or 0 for " + remedy + ".");
   }
 }
 
@@ -222,6 +238,10 @@ void WriteSummary(const vtkTriangleSoup& soup, vtkIdType patches, double length,
   AddSummary<vtkIdTypeArray>(to, "NumberOfDroppedTriangles", soup.NumberOfDroppedTriangles);
   AddSummary<vtkIdTypeArray>(to, "NumberOfReversedTriangles", soup.NumberOfReversedTriangles);
   AddSummary<vtkIdTypeArray>(to, "NumberOfSplitPoints", soup.NumberOfSplitPoints);
+  AddSummary<vtkIdTypeArray>(to, "NumberOfFilledHoles", soup.NumberOfFilledHoles);
+  AddSummary<vtkIdTypeArray>(to, "NumberOfSelfIntersections", soup.NumberOfSelfIntersections);
+  AddSummary<vtkIdTypeArray>(to, "NumberOfIntersectionsBetweenComponents",
+    soup.NumberOfIntersectionsBetweenComponents);
   AddSummary<vtkDoubleArray>(to, "TargetEdgeLength", length);
 }
 } // namespace
@@ -252,6 +272,9 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
   os << indent << "NumberOfIterations: " << this->NumberOfIterations << "\n";
   os << indent << "Repair: " << (this->Repair ? "on" : "off") << "\n";
+  os << indent << "FillHoles: " << (this->FillHoles ? "on" : "off") << "\n";
+  os << indent << "HoleSize: " << this->HoleSize << "\n";
+  os << indent << "SelfIntersections: " << this->SelfIntersections << "\n";
   os << indent << "FlipNormals: " << (this->FlipNormals ? "on" : "off") << "\n";
 }
 
@@ -323,6 +346,67 @@ std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
 }
 
 //------------------------------------------------------------------------------
+void vtkPatchMesher::RepairSurface(vtkTriangleSoup& soup)
+{
+  soup.DropDegenerateTriangles();
+  soup.DropDuplicateTriangles();
+  soup.Orient();
+  Report(this, 0.04);
+
+  const double size = ChooseHoleSize(this->HoleSize, soup);
+  vtkSurfaceRepair surface(soup);
+  // Where a crumb is gone, what else met there can be joined.
+  vtkIdType changes = surface.JoinBorders();
+  const vtkIdType crumbs = surface.DropCrumbs(size);
+  changes += crumbs + surface.JoinBorders();
+  Report(this, 0.05);
+  const vtkIdType holes = this->FillHoles ? surface.FillHoles(size) : 0;
+  const vtkIdType dropped = soup.NumberOfDroppedTriangles + crumbs;
+  if (changes + holes > 0)
+  {
+    surface.Write(soup);
+    // A crack without width has been filled with triangles without area.
+    soup.DropDegenerateTriangles();
+  }
+  soup.NumberOfDroppedTriangles = dropped;
+  soup.NumberOfFilledHoles = holes;
+  Report(this, 0.06);
+}
+
+//------------------------------------------------------------------------------
+void vtkPatchMesher::TreatSelfIntersections(vtkTriangleSoup& soup)
+{
+  vtkSurfaceRepair surface(soup);
+  const vtkSurfaceRepair::Intersections found = surface.FindSelfIntersections();
+  soup.NumberOfSelfIntersections = found.NumberWithin;
+  soup.NumberOfIntersectionsBetweenComponents = found.NumberBetween;
+  Report(this, 0.08);
+  if (found.NumberWithin == 0 || this->SelfIntersections == SELF_INTERSECTIONS_KEEP)
+  {
+    return;
+  }
+  if (!this->Repair || this->SelfIntersections == SELF_INTERSECTIONS_REFUSE)
+  {
+    throw InputError(Describe(found, found) +
+      "Set SelfIntersections to Resolve (with Repair on) or Keep, or repair the surface first.");
+  }
+  const auto stop = [this]()
+  {
+    this->UpdateProgress(0.08);
+    return vtkAbortCheck::IsAborted(this);
+  };
+  const vtkSurfaceRepair::Intersections left =
+    surface.ResolveSelfIntersections(ChooseHoleSize(this->HoleSize, soup), stop);
+  Report(this, 0.1);
+  if (left.NumberWithin > 0)
+  {
+    throw InputError(Describe(found, left) +
+      "Set SelfIntersections to Keep, give a larger HoleSize, or repair the surface first.");
+  }
+  surface.Write(soup);
+}
+
+//------------------------------------------------------------------------------
 std::vector<double> vtkPatchMesher::ReadLengths(vtkInformationVector** inputs)
 {
   if (this->SizeField != SIZE_FIELD_ARRAY)
@@ -351,6 +435,7 @@ std::vector<double> vtkPatchMesher::ReadLengths(vtkInformationVector** inputs)
 void vtkPatchMesher::CheckProperties()
 {
   CheckLength("TargetEdgeLength", this->TargetEdgeLength, "the diagonal of the bounding box / 50");
+  CheckLength("HoleSize", this->HoleSize, "the diagonal of the bounding box / 100");
   CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100");
   CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10");
   if (!(this->Grading > 0.0) || !std::isfinite(this->Grading))
@@ -394,15 +479,16 @@ void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCe
 {
   vtkTriangleSoup soup;
   soup.Read(input);
-  Report(this, 0.05);
+  Report(this, 0.02);
   if (this->Repair)
   {
-    ::Repair(soup);
+    this->RepairSurface(soup);
   }
   else
   {
     CheckDefects(soup);
   }
+  this->TreatSelfIntersections(soup);
   Report(this, 0.1);
 
   std::vector<int> regions;

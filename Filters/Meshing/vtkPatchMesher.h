@@ -38,8 +38,11 @@
  *   texture coordinates and ids, which have no meaning on the new points and are left out. Where
  *   points were merged, the values of the first one count;
  * - the input's field data, and one-tuple field data arrays "NumberOfPatches",
- *   "NumberOfDroppedTriangles" (degenerate or duplicate), "NumberOfReversedTriangles",
- *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points; vtkIdTypeArray each)
+ *   "NumberOfDroppedTriangles" (degenerate, duplicate or crumbs), "NumberOfReversedTriangles",
+ *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points),
+ *   "NumberOfFilledHoles", "NumberOfSelfIntersections" (pairs of triangles of one connected
+ *   component that intersect, before they are resolved), "NumberOfIntersectionsBetweenComponents"
+ *   (pairs of triangles of two components, which are no defect; vtkIdTypeArray each)
  *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used; if SizeField is Array, the
  *   one with which as many equal triangles cover the surface).
  *
@@ -49,8 +52,8 @@
  * infinite length, a MinimumEdgeLength above TargetEdgeLength, a Grading that is not positive, a
  * length that would give more than 20 million triangles, a missing region array, a missing array of
  * edge lengths or one with other than positive, finite values, nothing left but degenerate
- * triangles, and, with Repair off, a surface that needs repair. An empty piece of a data set that
- * is distributed over several processes is no error.
+ * triangles, self-intersections (see SelfIntersections), and, with Repair off, a surface that needs
+ * repair. An empty piece of a data set that is distributed over several processes is no error.
  */
 #ifndef vtkPatchMesher_h
 #define vtkPatchMesher_h
@@ -179,14 +182,64 @@ public:
   /**
    * Whether defects of the input are repaired. Default on. Degenerate triangles are dropped without
    * opening the surface; of triangles with the same three points the first is kept; non-manifold
-   * edges and points are split; where neighbours are oriented against each other, each connected
-   * component is turned to the orientation that the larger part of its area has. A surface without
-   * such defects is taken as it is: in particular a room whose normals point inward stays so. When
-   * off, a surface with a defect is an error.
+   * edges and points are split, and crumbs that this leaves are dropped: open pieces that fit into
+   * a sphere of radius HoleSize and had such an edge or a copy, but never the largest piece; where
+   * neighbours are oriented against each other, each connected component is turned to the
+   * orientation that the larger part of its area has; holes and self-intersections are treated as
+   * FillHoles and SelfIntersections say. A surface without such defects is taken as it is: in
+   * particular a room whose normals point inward stays so. When off, a surface with a defect is an
+   * error, borders excepted.
    */
   vtkSetMacro(Repair, bool);
   vtkGetMacro(Repair, bool);
   vtkBooleanMacro(Repair, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether small holes are filled when Repair is on: those whose border fits into a sphere of
+   * radius HoleSize, and into one half as large as the sphere around the connected component (so
+   * the outline of a small plate is no hole). Patches there have the data of cells at the border.
+   * Default on.
+   */
+  vtkSetMacro(FillHoles, bool);
+  vtkGetMacro(FillHoles, bool);
+  vtkBooleanMacro(FillHoles, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The radius of the largest holes that are filled, in the input's unit; also that of the largest
+   * crumbs that are dropped, and how far the surface may move where a self-intersection is
+   * resolved. Default 0: the diagonal of the bounding box divided by 100.
+   */
+  vtkSetMacro(HoleSize, double);
+  vtkGetMacro(HoleSize, double);
+  ///@}
+
+  enum
+  {
+    SELF_INTERSECTIONS_RESOLVE = 0,
+    SELF_INTERSECTIONS_REFUSE = 1,
+    SELF_INTERSECTIONS_KEEP = 2
+  };
+
+  ///@{
+  /**
+   * What happens where triangles of one connected component intersect. Components that stick in
+   * each other, as furniture in a floor does, are no defect and stay as they are.
+   * - Resolve (default): the triangles are moved, or taken away and the gap closed, within one
+   *   component and locally. It is an error if some are left, if the component would be connected
+   *   in another way, or if its surface would move by more than HoleSize. Needs Repair on;
+   * otherwise as Refuse.
+   * - Refuse: an error that says how many pairs of triangles intersect and where the first ones do.
+   * - Keep: they stay as they are.
+   */
+  vtkSetClampMacro(SelfIntersections, int, SELF_INTERSECTIONS_RESOLVE, SELF_INTERSECTIONS_KEEP);
+  vtkGetMacro(SelfIntersections, int);
+  void SetSelfIntersectionsToResolve() { this->SetSelfIntersections(SELF_INTERSECTIONS_RESOLVE); }
+  void SetSelfIntersectionsToRefuse() { this->SetSelfIntersections(SELF_INTERSECTIONS_REFUSE); }
+  void SetSelfIntersectionsToKeep() { this->SetSelfIntersections(SELF_INTERSECTIONS_KEEP); }
   ///@}
 
   ///@{
@@ -213,6 +266,9 @@ protected:
   double FeatureAngle = 60.0;
   int NumberOfIterations = 3;
   bool Repair = true;
+  bool FillHoles = true;
+  double HoleSize = 0.0;
+  int SelfIntersections = SELF_INTERSECTIONS_RESOLVE;
   bool FlipNormals = false;
 
 private:
@@ -223,6 +279,8 @@ private:
   std::vector<int> ReadRegions(vtkInformationVector** inputs);
   /// One length per input point if the size field is an array, else none.
   std::vector<double> ReadLengths(vtkInformationVector** inputs);
+  void RepairSurface(vtkTriangleSoup& soup);
+  void TreatSelfIntersections(vtkTriangleSoup& soup);
   void CheckProperties();
   vtkSizedRemeshing::Settings GetSettings(const vtkTriangleSoup& soup,
     const std::vector<double>& lengthOfPoint);

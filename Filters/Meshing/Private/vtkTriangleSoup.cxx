@@ -23,10 +23,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
-#include <set>
 #include <sstream>
+#include <unordered_map>
 #include <utility>
 
 namespace
@@ -52,6 +53,71 @@ bool HasRepeatedPoint(const vtkTriangleSoup::Triangle& t)
 {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
+
+//------------------------------------------------------------------------------
+// For each triangle, whether none before it has the same points.
+std::vector<bool> FindFirstOfDuplicates(const std::vector<vtkTriangleSoup::Triangle>& triangles)
+{
+  std::vector<std::pair<vtkTriangleSoup::Triangle, std::size_t>> sorted;
+  sorted.reserve(triangles.size());
+  for (const vtkTriangleSoup::Triangle& triangle : triangles)
+  {
+    sorted.emplace_back(triangle, sorted.size());
+    std::sort(sorted.back().first.begin(), sorted.back().first.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> first(triangles.size(), true);
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+  {
+    first[sorted[i].second] = sorted[i].first != sorted[i - 1].first;
+  }
+  return first;
+}
+
+//------------------------------------------------------------------------------
+// Calls function(edge, uses from its lower point to its higher one, uses the other way) for each
+// edge.
+template <typename Function>
+void ForEachEdge(const std::vector<vtkTriangleSoup::Triangle>& triangles, const Function& function)
+{
+  std::vector<std::pair<Edge, bool>> uses;
+  uses.reserve(3 * triangles.size());
+  for (const vtkTriangleSoup::Triangle& triangle : triangles)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::size_t from = triangle[i];
+      const std::size_t to = triangle[(i + 1) % 3];
+      uses.emplace_back(MakeEdge(from, to), from < to);
+    }
+  }
+  std::sort(uses.begin(), uses.end());
+  for (std::size_t i = 0; i < uses.size();)
+  {
+    int numbers[2] = { 0, 0 };
+    const Edge edge = uses[i].first;
+    for (; i < uses.size() && uses[i].first == edge; ++i)
+    {
+      ++numbers[uses[i].second];
+    }
+    function(edge, numbers[1], numbers[0]);
+  }
+}
+
+//------------------------------------------------------------------------------
+struct PointHash
+{
+  std::size_t operator()(const vtkTriangleSoup::Point& point) const
+  {
+    std::size_t hash = 0;
+    for (const double value : point)
+    {
+      // std::hash knows that -0 equals 0.
+      hash = hash * 0x9E3779B97F4A7C15ULL + std::hash<double>()(value);
+    }
+    return hash;
+  }
+};
 
 //------------------------------------------------------------------------------
 // Cuts the faces of a vtkPolyData into triangles and gives equal points one index.
@@ -146,6 +212,7 @@ private:
     {
       this->Soup.Points.push_back(point);
       this->Soup.PointIds.push_back(id);
+      this->Soup.SplitPoints.push_back(false);
     }
     return inserted.first->second;
   }
@@ -153,7 +220,7 @@ private:
   vtkPolyData* Input;
   vtkTriangleSoup& Soup;
   vtkUnsignedCharArray* Ghosts;
-  std::map<vtkTriangleSoup::Point, std::size_t> IndexOfPoint;
+  std::unordered_map<vtkTriangleSoup::Point, std::size_t, PointHash> IndexOfPoint;
   vtkNew<vtkPolygon> Polygon;
   vtkNew<vtkIdList> TriangleIds;
   vtkNew<vtkPoints> TrianglePoints;
@@ -165,6 +232,7 @@ struct OrientationRecord : public PMP::Default_orientation_visitor
 {
   std::vector<bool>* Reversed = nullptr;
   std::vector<vtkIdType>* PointIds = nullptr;
+  std::vector<bool>* SplitPoints = nullptr;
 
   void polygon_orientation_reversed(std::size_t triangle)
   {
@@ -174,6 +242,7 @@ struct OrientationRecord : public PMP::Default_orientation_visitor
   {
     const vtkIdType id = (*this->PointIds)[point];
     this->PointIds->push_back(id);
+    this->SplitPoints->push_back((*this->SplitPoints)[point]);
   }
 };
 
@@ -236,31 +305,18 @@ void vtkTriangleSoup::Read(vtkPolyData* input)
 //------------------------------------------------------------------------------
 std::string vtkTriangleSoup::DescribeDefects() const
 {
-  vtkIdType degenerate = 0;
-  std::set<Triangle> known;
-  std::map<Edge, std::array<int, 2>> uses;
-  for (const Triangle& triangle : this->Triangles)
-  {
-    degenerate += this->IsDegenerate(triangle);
-    Triangle sorted = triangle;
-    std::sort(sorted.begin(), sorted.end());
-    known.insert(sorted);
-    for (int i = 0; i < 3; ++i)
-    {
-      const std::size_t from = triangle[i];
-      const std::size_t to = triangle[(i + 1) % 3];
-      ++uses.emplace(MakeEdge(from, to), std::array<int, 2>{ 0, 0 }).first->second[from < to];
-    }
-  }
+  const auto degenerate = std::count_if(this->Triangles.begin(), this->Triangles.end(),
+    [this](const Triangle& triangle) { return this->IsDegenerate(triangle); });
+  const std::vector<bool> first = FindFirstOfDuplicates(this->Triangles);
+  const auto duplicates = std::count(first.begin(), first.end(), false);
   vtkIdType nonManifold = 0;
   vtkIdType opposed = 0;
-  for (const auto& edge : uses)
-  {
-    const int number = edge.second[0] + edge.second[1];
-    nonManifold += number > 2;
-    opposed += number == 2 && edge.second[0] != edge.second[1];
-  }
-  const std::size_t duplicates = this->Triangles.size() - known.size();
+  ForEachEdge(this->Triangles,
+    [&](const Edge&, int forward, int backward)
+    {
+      nonManifold += forward + backward > 2;
+      opposed += forward + backward == 2 && forward != backward;
+    });
 
   std::ostringstream text;
   const auto describe = [&text](auto number, const char* what)
@@ -365,13 +421,13 @@ bool vtkTriangleSoup::SplitNeighboursOfDegenerateTriangles()
 //------------------------------------------------------------------------------
 void vtkTriangleSoup::DropDuplicateTriangles()
 {
-  std::set<Triangle> known;
-  std::vector<bool> kept;
-  kept.reserve(this->Triangles.size());
-  for (Triangle triangle : this->Triangles)
+  const std::vector<bool> kept = FindFirstOfDuplicates(this->Triangles);
+  for (std::size_t i = 0; i < kept.size(); ++i)
   {
-    std::sort(triangle.begin(), triangle.end());
-    kept.push_back(known.insert(triangle).second);
+    for (const std::size_t corner : this->Triangles[i])
+    {
+      this->SplitPoints[corner] = this->SplitPoints[corner] || !kept[i];
+    }
   }
   this->NumberOfDroppedTriangles += std::count(kept.begin(), kept.end(), false);
   this->Keep(kept);
@@ -388,10 +444,26 @@ void vtkTriangleSoup::Orient()
   OrientationRecord record;
   record.Reversed = &reversed;
   record.PointIds = &this->PointIds;
+  record.SplitPoints = &this->SplitPoints;
+  this->MarkEdgesToSplit();
   const std::size_t size = this->Points.size();
   PMP::orient_polygon_soup(this->Points, this->Triangles, CGAL::parameters::visitor(record));
   this->NumberOfSplitPoints += static_cast<vtkIdType>(this->Points.size() - size);
   this->TurnComponentsToMajority(reversed);
+}
+
+//------------------------------------------------------------------------------
+void vtkTriangleSoup::MarkEdgesToSplit()
+{
+  ForEachEdge(this->Triangles,
+    [this](const Edge& edge, int forward, int backward)
+    {
+      if (forward + backward > 2)
+      {
+        this->SplitPoints[edge.first] = true;
+        this->SplitPoints[edge.second] = true;
+      }
+    });
 }
 
 //------------------------------------------------------------------------------

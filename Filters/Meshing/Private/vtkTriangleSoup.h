@@ -25,6 +25,8 @@ public:
   std::vector<Point> Points;
   /// The input point that each point comes from: the first one of those that were merged.
   std::vector<vtkIdType> PointIds;
+  /// Whether a point was a corner of a duplicate or an end of an edge with more than two triangles.
+  std::vector<bool> SplitPoints;
   std::vector<Triangle> Triangles;
   /// The input cell that each triangle comes from.
   std::vector<vtkIdType> CellIds;
@@ -32,6 +34,9 @@ public:
   vtkIdType NumberOfDroppedTriangles = 0;
   vtkIdType NumberOfReversedTriangles = 0;
   vtkIdType NumberOfSplitPoints = 0;
+  vtkIdType NumberOfFilledHoles = 0;
+  vtkIdType NumberOfSelfIntersections = 0;
+  vtkIdType NumberOfIntersectionsBetweenComponents = 0;
 
   /**
    * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
@@ -43,7 +48,7 @@ public:
   /// What keeps the soup from being an oriented manifold, in words; empty when nothing does.
   std::string DescribeDefects() const;
 
-  ///@{ The steps of the repair, in this order.
+  ///@{ The first steps of the repair, in this order; see vtkSurfaceRepair for the others.
   void DropDegenerateTriangles();
   void DropDuplicateTriangles();
   /// Split non-manifold edges and points and orient neighbours alike, unless this is not needed.
@@ -58,6 +63,7 @@ public:
 private:
   bool IsDegenerate(const Triangle& triangle) const;
   bool SplitNeighboursOfDegenerateTriangles();
+  void MarkEdgesToSplit();
   void TurnComponentsToMajority(const std::vector<bool>& reversed);
   void Keep(const std::vector<bool>& kept);
 };
