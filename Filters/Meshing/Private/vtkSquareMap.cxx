@@ -28,6 +28,9 @@ using Corners = std::array<std::size_t, 4>;
 constexpr int BEGINNINGS = 8;
 constexpr std::size_t FINALISTS = 3;
 
+// Newton's method ends by itself, mostly after ten iterations; long branches take up to this many.
+constexpr int LAST_ITERATIONS = 200;
+
 constexpr double PI = 3.14159265358979323846;
 
 //------------------------------------------------------------------------------
@@ -375,7 +378,7 @@ bool vtkSquareMap::Map(Disc& disc, std::string& problem)
       });
     for (auto& trial : trials)
     {
-      trial->Layout.Minimize(30);
+      trial->Layout.Minimize(LAST_ITERATIONS);
       if (IsBijective(trial->Halved, border, trial->SquareCorners, trial->Layout.GetCoordinates()))
       {
         this->UV = trial->Layout.GetCoordinates();
