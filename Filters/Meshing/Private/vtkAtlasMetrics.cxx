@@ -43,7 +43,7 @@ Triangle Measure(vtkPolyData* surface, vtkDataArray* coordinates, const vtkIdTyp
   const double a = growth.col(0).squaredNorm();
   const double b = growth.col(0).dot(growth.col(1));
   const double c = growth.col(1).squaredNorm();
-  return { 0.5 * sides.col(0).cross(sides.col(1)).norm(), 0.5 * texelSides.determinant(),
+  return { 0.5 * sides.col(0).cross(sides.col(1)).norm(), 0.5 * std::abs(texelSides.determinant()),
     0.5 * (a + c), 0.5 * (a + c + std::hypot(a - c, 2.0 * b)) };
 }
 } // namespace

@@ -18,7 +18,7 @@ struct VTKLIGHTTRANSPORTMESHING_EXPORT vtkAtlasMetrics
   double TexelUse = 0.0;
 
   /// `surface` has triangles only; texture coordinates lie in [0,1]^2, and no triangle is without
-  /// area there.
+  /// area there. A chart may be turned over, as others than vtkSurfaceAtlas do it.
   vtkAtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates);
 };
 
