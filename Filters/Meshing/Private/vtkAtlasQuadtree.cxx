@@ -25,6 +25,10 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 constexpr int SMALLEST_BLOCK = 8;
 constexpr std::size_t FEWEST_FACES = 16;
 
+// Maps cost more than in proportion to their faces, so that a piece of more of them is divided
+// before any map is tried.
+constexpr std::size_t MOST_FACES = 50000;
+
 // The texels per area of a node may differ by this factor from those of the whole surface.
 constexpr double LARGEST_DENSITY = 1.5;
 
@@ -146,7 +150,7 @@ bool vtkAtlasQuadtree::MakeChart(const Node& node, Chart& chart, std::string& pr
   }
   const bool last = node.Size <= SMALLEST_BLOCK || node.Faces.size() < FEWEST_FACES;
   if (!last &&
-    (!this->IsFlatEnough(node.Faces) ||
+    (node.Faces.size() > MOST_FACES || !this->IsFlatEnough(node.Faces) ||
       piece.GetEulerCharacteristic() < LEAST_EULER_CHARACTERISTIC))
   {
     return false;
@@ -154,6 +158,10 @@ bool vtkAtlasQuadtree::MakeChart(const Node& node, Chart& chart, std::string& pr
   if (piece.GetEulerCharacteristic() < 1)
   {
     piece.Slit();
+  }
+  if (piece.GetNumberOfBorderEdges() < 4)
+  {
+    piece.SlitOneEdge();
   }
   chart.Disc = piece.GetDisc();
   chart.Points = piece.GetPoints();

@@ -12,7 +12,7 @@ namespace
 {
 // An edge is halved when it is longer than this part of the square root of the area of the
 // surface, or of its component; but never into more pieces than the last number says.
-constexpr double EDGES_ACROSS_SURFACE = 40.0;
+constexpr double EDGES_ACROSS_SURFACE = 24.0;
 constexpr double EDGES_ACROSS_COMPONENT = 4.0;
 constexpr double MAXIMUM_PIECES_OF_EDGE = 256.0;
 

@@ -103,6 +103,45 @@ void vtkChartDisc::Slit()
 }
 
 //------------------------------------------------------------------------------
+std::vector<bool> vtkChartDisc::FindBorderPoints(
+  const std::vector<std::array<int, 3>>& neighbors) const
+{
+  std::vector<bool> onBorder(this->Points.size(), false);
+  for (std::size_t face = 0; face < this->Faces.size(); ++face)
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      if (neighbors[face][edge] < 0)
+      {
+        onBorder[this->Corners[face][edge]] = true;
+        onBorder[this->Corners[face][(edge + 1) % 3]] = true;
+      }
+    }
+  }
+  return onBorder;
+}
+
+//------------------------------------------------------------------------------
+void vtkChartDisc::SlitOneEdge()
+{
+  const std::vector<bool> onBorder = this->FindBorderPoints(this->Neighbors);
+  for (std::size_t face = 0; face < this->Faces.size(); ++face)
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      if (onBorder[this->Corners[face][edge]] && !onBorder[this->Corners[face][(edge + 1) % 3]])
+      {
+        const int opposite = this->GetOppositeEdge(static_cast<int>(face), edge);
+        this->Neighbors[this->Neighbors[face][edge]][opposite] = -1;
+        this->Neighbors[face][edge] = -1;
+        this->NumberPoints();
+        return;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // All faces, those with most edges between them and the border first.
 std::vector<int> vtkChartDisc::FindFacesFromInside() const
 {
@@ -172,8 +211,8 @@ void vtkChartDisc::JoinDanglingCuts()
     int Face;
     int Edge;
   };
+  const std::vector<bool> onBorder = this->FindBorderPoints(this->UncutNeighbors);
   std::vector<std::vector<Side>> cuts(this->Points.size());
-  std::vector<bool> onBorder(this->Points.size(), false);
   for (int face = 0; face < static_cast<int>(this->Faces.size()); ++face)
   {
     for (int edge = 0; edge < 3; ++edge)
@@ -183,11 +222,7 @@ void vtkChartDisc::JoinDanglingCuts()
       const int neighbor = this->UncutNeighbors[face][edge];
       for (const std::size_t end : ends)
       {
-        if (neighbor < 0)
-        {
-          onBorder[end] = true;
-        }
-        else if (neighbor > face && this->Neighbors[face][edge] < 0)
+        if (neighbor > face && this->Neighbors[face][edge] < 0)
         {
           cuts[end].push_back({ face, edge });
         }

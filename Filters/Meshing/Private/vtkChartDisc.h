@@ -30,8 +30,13 @@ public:
   /// Euler characteristic: 1 for a disc, less by one for every hole and by two for every handle.
   int GetEulerCharacteristic() const { return this->EulerCharacteristic; }
 
+  int GetNumberOfBorderEdges() const { return this->NumberOfBorderEdges; }
+
   /// Cut a connected piece with a border into a disc.
   void Slit();
+  /// Cut a disc along one edge from its border inwards, if it has points inside: that lengthens the
+  /// border by two edges. A square needs four.
+  void SlitOneEdge();
 
   /// The piece; a disc when it is connected and its Euler characteristic is 1.
   vtkSquareMap::Disc GetDisc() const;
@@ -40,6 +45,7 @@ public:
 
 private:
   void NumberPoints();
+  std::vector<bool> FindBorderPoints(const std::vector<std::array<int, 3>>& neighbors) const;
   std::vector<int> FindFacesFromInside() const;
   void CutAllButTree();
   void JoinDanglingCuts();
