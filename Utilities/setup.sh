@@ -8,13 +8,15 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build_dir=$source_dir/build
 
 # ParaView's own VTK, Mesa's EGL and OSMesa, and the libraries that the modules use. paraview-dev does not name all that its CMake
-# package asks for: libopenmpi-dev, libdouble-conversion-dev, libfreetype-dev, libglew-dev and libopengl-dev are for that.
+# package asks for: libopenmpi-dev, libdouble-conversion-dev, libfreetype-dev, libglew-dev and libopengl-dev are for that. Tests
+# take meshes from libcgal-demo.
 packages=(
   g++ cmake ninja-build python3-dev
   paraview-dev python3-paraview libopenmpi-dev openmpi-bin
   libdouble-conversion-dev libfreetype-dev libglew-dev libegl-dev libopengl-dev libosmesa6-dev
   libcgal-dev libeigen3-dev libembree-dev libopenexr-dev
-  python3-numpy)
+  python3-numpy
+  libcgal-demo)
 
 say()
 {

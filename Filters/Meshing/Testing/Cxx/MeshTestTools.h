@@ -18,10 +18,14 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace meshTest
 {
@@ -31,11 +35,13 @@ using Vector = std::array<double, 3>;
 class Checker
 {
 public:
+  /// What comes before all messages from now on.
+  void SetSubject(const std::string& subject) { this->Subject = subject + ": "; }
   void True(bool condition, const std::string& what)
   {
     if (!condition)
     {
-      std::cerr << "Failed: " << what << "\n";
+      std::cerr << "Failed: " << this->Subject << what << "\n";
       ++this->Failures;
     }
   }
@@ -44,14 +50,15 @@ public:
     if (!(std::abs(value - expected) <= tolerance))
     {
       std::cerr.precision(17);
-      std::cerr << "Failed: " << what << " is " << value << ", expected " << expected << " +- "
-                << tolerance << "\n";
+      std::cerr << "Failed: " << this->Subject << what << " is " << value << ", expected "
+                << expected << " +- " << tolerance << "\n";
       ++this->Failures;
     }
   }
   int GetExitCode() const { return this->Failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE; }
 
 private:
+  std::string Subject;
   int Failures = 0;
 };
 
@@ -191,6 +198,49 @@ inline std::string GetDataFile(int argc, char* argv[], const char* name)
   const std::string file = path;
   delete[] path;
   return file;
+}
+
+//------------------------------------------------------------------------------
+/// The mesh of a file in Geomview's Object File Format: points and polygons, without colours. No
+/// points when there is no such file.
+inline vtkSmartPointer<vtkPolyData> ReadOff(const std::string& path)
+{
+  std::ifstream file(path);
+  std::stringstream text;
+  for (std::string line; std::getline(file, line);)
+  {
+    text << line.substr(0, line.find('#')) << '\n';
+  }
+  std::string header;
+  vtkIdType numberOfPoints = 0;
+  vtkIdType numberOfCells = 0;
+  vtkIdType numberOfEdges;
+  text >> header >> numberOfPoints >> numberOfCells >> numberOfEdges;
+  const auto skipColor = [&text]()
+  { text.ignore(std::numeric_limits<std::streamsize>::max(), '\n'); };
+
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  Vector point;
+  while (points->GetNumberOfPoints() < numberOfPoints && text >> point[0] >> point[1] >> point[2])
+  {
+    points->InsertNextPoint(point.data());
+    skipColor();
+  }
+  vtkNew<vtkCellArray> cells;
+  for (int size; cells->GetNumberOfCells() < numberOfCells && text >> size; skipColor())
+  {
+    std::vector<vtkIdType> ids(size);
+    for (vtkIdType& id : ids)
+    {
+      text >> id;
+    }
+    cells->InsertNextCell(size, ids.data());
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(cells);
+  return mesh;
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Atlases of meshes from files: arguments are their paths.
+#include "SurfaceAtlasChecks.h"
+
+namespace
+{
+struct Mesh
+{
+  const char* Name;
+  int Resolution;
+  atlasTest::Limits Limits;
+};
+
+const Mesh MESHES[] = {
+  { "bunny", 512, { 1.1, 0.995, 1.0 } },
+  { "anchor_dense", 512, { 1.15, 0.99, 1.0 } },
+  { "blobby_3cc", 512, { 1.15, 0.995, 1.0 } },
+  { "dragon_vrip_res3", 512, { 1.25, 0.95, 1.0 } },
+  { "elephant", 512, { 1.17, 0.99, 1.0 } },
+  { "fandisk", 512, { 1.15, 0.995, 1.0 } },
+  { "femur", 512, { 1.17, 0.99, 1.0 } },
+  { "homer", 512, { 1.15, 0.99, 1.0 } },
+  { "knot1", 512, { 1.15, 0.99, 1.0 } },
+  { "knot2", 512, { 1.15, 0.99, 1.0 } },
+  { "lion-head", 512, { 1.15, 0.995, 1.0 } },
+  { "mannequin-devil", 512, { 1.15, 0.995, 1.0 } },
+  { "turbine", 512, { 1.25, 0.95, 1.0 } },
+};
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> Read(const std::string& path)
+{
+  if (path.substr(path.rfind('.')) == ".off")
+  {
+    return meshTest::ReadOff(path);
+  }
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestSurfaceAtlas(int argc, char* argv[])
+{
+  meshTest::Checker check;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string path = argv[i];
+    const std::size_t start = path.find_last_of("/\\") + 1;
+    const std::string name = path.substr(start, path.rfind('.') - start);
+    const Mesh* mesh = std::find_if(std::begin(MESHES), std::end(MESHES),
+      [&name](const Mesh& candidate) { return candidate.Name == name; });
+    check.SetSubject(path);
+    vtkSmartPointer<vtkPolyData> surface = Read(path);
+    check.True(mesh != std::end(MESHES) && surface->GetNumberOfCells() > 0, "a known mesh");
+    if (mesh != std::end(MESHES))
+    {
+      atlasTest::CheckAtlas(name, surface, mesh->Resolution, mesh->Limits, check);
+    }
+  }
+  return check.GetExitCode();
+}
