@@ -41,6 +41,22 @@ using vtkMeshingRun::Report;
 constexpr int LARGEST_RESOLUTION = 16384;
 
 //------------------------------------------------------------------------------
+// Points with equal coordinates are one, unless only their being apart makes the surface a
+// manifold, as where vtkPatchMesher split it.
+vtkTriangleSoup ReadSurface(vtkPolyData* input)
+{
+  vtkTriangleSoup merged;
+  merged.Read(input);
+  if (merged.DescribeDefects().empty())
+  {
+    return merged;
+  }
+  vtkTriangleSoup apart;
+  apart.Read(input, false);
+  return apart.DescribeDefects().empty() ? apart : merged;
+}
+
+//------------------------------------------------------------------------------
 void CheckSurface(const vtkTriangleSoup& soup)
 {
   if (soup.Triangles.empty())
@@ -205,8 +221,7 @@ void vtkSurfaceAtlas::Unfold(vtkPolyData* input, vtkPolyData* output, vtkTable* 
   vtkImageData* maps)
 {
   const double start = vtkTimerLog::GetUniversalTime();
-  vtkTriangleSoup soup;
-  soup.Read(input);
+  const vtkTriangleSoup soup = ReadSurface(input);
   CheckSurface(soup);
   Report(this, 0.05);
   const vtkAtlasSurface surface(soup);

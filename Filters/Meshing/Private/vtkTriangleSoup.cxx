@@ -105,12 +105,14 @@ void ForEachEdge(const std::vector<vtkTriangleSoup::Triangle>& triangles, const 
 }
 
 //------------------------------------------------------------------------------
-struct PointHash
+// What points have in common that become one: coordinates, and ids where equal points stay apart.
+using Key = std::pair<vtkTriangleSoup::Point, vtkIdType>;
+struct KeyHash
 {
-  std::size_t operator()(const vtkTriangleSoup::Point& point) const
+  std::size_t operator()(const Key& key) const
   {
-    std::size_t hash = 0;
-    for (const double value : point)
+    std::size_t hash = std::hash<vtkIdType>()(key.second);
+    for (const double value : key.first)
     {
       // std::hash knows that -0 equals 0.
       hash = hash * 0x9E3779B97F4A7C15ULL + std::hash<double>()(value);
@@ -120,11 +122,12 @@ struct PointHash
 };
 
 //------------------------------------------------------------------------------
-// Cuts the faces of a vtkPolyData into triangles and gives equal points one index.
+// Cuts the faces of a vtkPolyData into triangles and gives points that are one an index.
 class SoupReader
 {
 public:
-  SoupReader(vtkPolyData* input, vtkTriangleSoup& soup) : Input(input), Soup(soup)
+  SoupReader(vtkPolyData* input, vtkTriangleSoup& soup, bool mergePoints)
+    : Input(input), Soup(soup), MergesPoints(mergePoints)
   {
     this->Ghosts = vtkUnsignedCharArray::SafeDownCast(
       input->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
@@ -207,7 +210,8 @@ private:
   {
     vtkTriangleSoup::Point point;
     this->Input->GetPoint(id, point.data());
-    const auto inserted = this->IndexOfPoint.emplace(point, this->Soup.Points.size());
+    const Key key{ point, this->MergesPoints ? 0 : id };
+    const auto inserted = this->IndexOfPoint.emplace(key, this->Soup.Points.size());
     if (inserted.second)
     {
       this->Soup.Points.push_back(point);
@@ -220,7 +224,8 @@ private:
   vtkPolyData* Input;
   vtkTriangleSoup& Soup;
   vtkUnsignedCharArray* Ghosts;
-  std::unordered_map<vtkTriangleSoup::Point, std::size_t, PointHash> IndexOfPoint;
+  bool MergesPoints;
+  std::unordered_map<Key, std::size_t, KeyHash> IndexOfPoint;
   vtkNew<vtkPolygon> Polygon;
   vtkNew<vtkIdList> TriangleIds;
   vtkNew<vtkPoints> TrianglePoints;
@@ -293,10 +298,10 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-void vtkTriangleSoup::Read(vtkPolyData* input)
+void vtkTriangleSoup::Read(vtkPolyData* input, bool mergePoints)
 {
   CheckInput(input);
-  SoupReader reader(input, *this);
+  SoupReader reader(input, *this, mergePoints);
   const vtkIdType firstPolygon = input->GetNumberOfVerts() + input->GetNumberOfLines();
   reader.ReadPolygons(firstPolygon);
   reader.ReadStrips(firstPolygon + input->GetNumberOfPolys());

@@ -40,10 +40,10 @@ public:
 
   /**
    * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
-   * equal coordinates. Throws vtkMeshingRun::InputError when there are no polygons or coordinates
-   * are not finite.
+   * equal coordinates if asked to. Throws vtkMeshingRun::InputError when there are no polygons or
+   * coordinates are not finite.
    */
-  void Read(vtkPolyData* input);
+  void Read(vtkPolyData* input, bool mergePoints = true);
 
   /// What keeps the soup from being an oriented manifold, in words; empty when nothing does.
   std::string DescribeDefects() const;
