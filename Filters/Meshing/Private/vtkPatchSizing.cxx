@@ -245,8 +245,8 @@ void vtkPatchSizing::Grade(const vtkSourceSurface& surface, double grading,
   {
     queue.emplace(lengths[i], i);
   }
-  // Smaller changes are rounding.
-  const double significant = 1.0 - 1e-12;
+  // Corners of obtuse triangles shorten each other by turns; smaller changes end it.
+  const double significant = 1.0 - 1e-4;
   while (!queue.empty())
   {
     const Entry entry = queue.top();
@@ -268,8 +268,12 @@ void vtkPatchSizing::Grade(const vtkSourceSurface& surface, double grading,
         {
           continue;
         }
-        const double limit = LimitLength(ToVector(surface.Points[a]), ToVector(surface.Points[b]),
-          ToVector(surface.Points[to]), lengths[a], lengths[b], grading);
+        // From the other corner of the side only when its own length is settled.
+        const std::size_t other = a == from ? b : a;
+        const std::size_t last = lengths[other] <= lengths[from] ? other : from;
+        const double limit =
+          LimitLength(ToVector(surface.Points[from]), ToVector(surface.Points[last]),
+            ToVector(surface.Points[to]), lengths[from], lengths[last], grading);
         if (limit < significant * lengths[to])
         {
           lengths[to] = limit;

@@ -18,8 +18,12 @@ using Vector = vtkWorkingMesh::Vector;
 // Limit of the length over the wanted one that edges may get when others are collapsed. It lets the
 // legs of right triangles, which halving leads to, be collapsed as long as they are short.
 constexpr double LONGEST_COLLAPSED = 1.5;
-// Limit of the distance from the middle of an edge to the surface, over the length.
-constexpr double FARTHEST_SPLIT = 0.4;
+// Limit of the length of the halves of an edge over its own.
+constexpr double LONGEST_HALF = 0.65;
+// Limits of the quality of the triangles that splitting makes: at all, and over that of the old
+// one.
+constexpr double WORST_SPLIT = 1e-4;
+constexpr double LARGEST_LOSS = 0.2;
 // New triangles may be as bad as this, or as the worst they replace. See GetQuality().
 constexpr double GOOD_ENOUGH = 0.5;
 // Cosine by which the normal of a triangle may turn in one step.
@@ -139,6 +143,29 @@ std::size_t vtkRemeshingSteps::FindSource(Face face) const
 }
 
 //------------------------------------------------------------------------------
+bool vtkRemeshingSteps::CanSplit(Halfedge h, const Point& to) const
+{
+  // Over a gap the surface may have nothing near the middle, and in a degenerate triangle there is
+  // a point already: the new edges would be no shorter, and splitting would never end.
+  const Point& p = this->Mesh.point(this->Mesh.source(h));
+  const Point& q = this->Mesh.point(this->Mesh.target(h));
+  const double length2 = CGAL::squared_distance(p, q);
+  const double longestHalf2 =
+    std::max(CGAL::squared_distance(p, to), CGAL::squared_distance(q, to));
+  bool good = longestHalf2 < LONGEST_HALF * LONGEST_HALF * length2;
+  for (const Halfedge side : { h, this->Mesh.opposite(h) })
+  {
+    const Point& apex = this->Mesh.point(this->Mesh.target(this->Mesh.next(side)));
+    const double longest2 =
+      std::max(length2, std::max(CGAL::squared_distance(p, apex), CGAL::squared_distance(q, apex)));
+    const double quality = std::min(GetQuality(p, to, apex), GetQuality(q, to, apex));
+    good = good && CGAL::squared_distance(to, apex) <= longest2 &&
+      quality >= std::max(WORST_SPLIT, LARGEST_LOSS * GetQuality(p, q, apex));
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
 void vtkRemeshingSteps::SplitLongEdges(double longest, std::size_t most)
 {
   std::priority_queue<std::pair<double, Edge>> queue;
@@ -169,9 +196,7 @@ void vtkRemeshingSteps::SplitLongEdges(double longest, std::size_t most)
       this->Mesh.point(this->Mesh.target(h)));
     const vtkSourceSurface::Place place =
       this->Find(this->Mesh.target(h), this->Work.Parts[this->Mesh.face(h)], middle);
-    // Over a narrow gap the surface has nothing near the middle: halves would be no shorter.
-    const double offset2 = CGAL::squared_distance(middle, ToPoint(place.Position));
-    if (offset2 > FARTHEST_SPLIT * FARTHEST_SPLIT * this->Work.GetVector(h).squared_length())
+    if (!this->CanSplit(h, ToPoint(place.Position)))
     {
       continue;
     }

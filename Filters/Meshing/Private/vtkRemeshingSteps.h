@@ -47,6 +47,7 @@ private:
   double GetRatio(Edge edge) const;
   vtkSourceSurface::Place Find(Vertex start, std::size_t part, const Point& position) const;
   void Put(Vertex vertex, const vtkSourceSurface::Place& place);
+  bool CanSplit(Halfedge h, const Point& to) const;
   /// The halfedge whose start may be moved into its end; none if the edge must stay.
   Halfedge FindCollapse(Edge edge) const;
   bool CanCollapse(Halfedge h) const;

@@ -341,9 +341,14 @@ void vtkSurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
   double done = 0.0;
   const auto alive = [&]() { monitor(done); };
   vtkRemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, alive);
+  // Never reached, unless the surface is so crumpled that places on it are of no use.
+  const double largestExcess = 4.0;
+  const double expected = vtkPatchSizing::EstimateNumberOfTriangles(this->Sources, this->Lengths);
+  const std::size_t most =
+    this->GetNumberOfTriangles() + static_cast<std::size_t>(largestExcess * expected);
   for (int i = 0; i < numberOfIterations; ++i)
   {
-    steps.SplitLongEdges(LONGEST, NONE);
+    steps.SplitLongEdges(LONGEST, most);
     steps.CollapseShortEdges(SHORTEST, 0);
     steps.FlipEdges();
     steps.MoveVertices();
