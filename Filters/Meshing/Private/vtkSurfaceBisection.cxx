@@ -28,6 +28,8 @@ constexpr double COST_OF_CREASE = 0.2;
 // How much a half that is e times too large or too small weighs against a longer cut: that much of
 // the square root of the area of the piece.
 constexpr double WEIGHT_OF_BALANCE = 12.0;
+// The same where shares no longer matter and there are components to be told apart.
+constexpr double WEIGHT_AMONG_COMPONENTS = 0.005;
 
 // A half has at least so many faces of each component that it has a part of: a single triangle
 // has too few corners for a square.
@@ -214,8 +216,7 @@ std::vector<double> vtkSurfaceBisection::FindDistances(int start) const
         reach(neighbor,
           entry.first + (this->Surface.Centers[global] - middle).norm() +
             (this->Surface.Centers[other] - middle).norm() +
-            crease *
-              GetSharpness(this->Surface.Normals[global], this->Surface.Normals[other]));
+            crease * GetSharpness(this->Surface.Normals[global], this->Surface.Normals[other]));
       }
     }
   };
@@ -312,6 +313,8 @@ vtkSurfaceBisection::Cut vtkSurfaceBisection::FindBestCut(const std::vector<doub
   }
   const std::vector<double> costs = this->FindCosts(ranks);
 
+  const double weight =
+    share > 0.0 || this->NumberOfComponents == 1 ? WEIGHT_OF_BALANCE : WEIGHT_AMONG_COMPONENTS;
   Cut best;
   std::size_t rank = 0;
   double area = 0.0;
@@ -321,8 +324,7 @@ vtkSurfaceBisection::Cut vtkSurfaceBisection::FindBestCut(const std::vector<doub
     const double part = area / this->Area;
     const double low = std::log(2.0 * density * part);
     const double high = std::log(2.0 * density * (1.0 - part));
-    double score =
-      costs[i] / std::sqrt(this->Area) + WEIGHT_OF_BALANCE * 0.5 * (low * low + high * high);
+    double score = costs[i] / std::sqrt(this->Area) + weight * 0.5 * (low * low + high * high);
     const double miss = share - std::min(part, 1.0 - part);
     if (miss > 0.0)
     {

@@ -31,7 +31,8 @@ public:
 
   /**
    * Halves of a piece of at least two faces. `share` is the smallest share of the area that a half
-   * may have, below one half; it is missed where nothing else is possible. `density` is the area
+   * may have, below one half; it is missed where nothing else is possible. If it is 0, the
+   * components of a piece are told apart before any of them is cut. `density` is the area
    * of the piece divided by the area that it should have: halves draw nearer to what they should
    * have themselves.
    */
@@ -44,6 +45,8 @@ private:
   void Gather(const std::vector<int>& faces);
   void FindComponents();
   void TieComponents();
+  std::vector<char> DivideComponents() const;
+  std::vector<char> CutBetweenCorners(double share, double density) const;
   std::vector<double> FindDistances(int start) const;
   std::array<std::vector<double>, 4> FindDistancesFromCorners() const;
   Cut FindBestCut(const std::vector<double>& values, double share, double density) const;
