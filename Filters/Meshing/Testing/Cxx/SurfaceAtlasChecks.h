@@ -563,7 +563,9 @@ inline void CheckSurface(const Atlas& atlas, vtkPolyData* merged, Checker& check
   const double border = GetBorderLength(input);
   check.Equal(GetBorderLength(merged) / size, border / size, rounding * (1.0 + border / size),
     "length of the border");
-  check.Equal(meshTest::GetEdges(merged).Bad, 0, 0, "edges that are not manifold");
+  // Edges of repaired surfaces may coincide without being connected.
+  check.True(meshTest::GetEdges(merged).Bad == 0 || meshTest::GetEdges(input).Bad > 0,
+    "no edges that are not manifold");
 
   vtkDataArray* cells = atlas.Output->GetCellData()->GetArray("OriginalCellIds");
   vtkDataArray* points = atlas.Output->GetPointData()->GetArray("OriginalPointIds");
