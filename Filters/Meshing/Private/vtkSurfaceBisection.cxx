@@ -28,8 +28,6 @@ constexpr double COST_OF_CREASE = 0.2;
 // How much a half that is e times too large or too small weighs against a longer cut: that much of
 // the square root of the area of the piece.
 constexpr double WEIGHT_OF_BALANCE = 12.0;
-// The same where shares no longer matter and there are components to be told apart.
-constexpr double WEIGHT_AMONG_COMPONENTS = 0.005;
 
 // A half has at least so many faces of each component that it has a part of: a single triangle
 // has too few corners for a square.
@@ -65,14 +63,45 @@ std::array<std::vector<int>, 2> vtkSurfaceBisection::Divide(const std::vector<in
   this->FindComponents();
   this->TieComponents();
 
+  const bool apart = share <= 0.0 && this->NumberOfComponents > 1;
+  const std::vector<char> sides =
+    apart ? this->DivideComponents() : this->CutBetweenCorners(share, density);
+  std::array<std::vector<int>, 2> halves;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    halves[sides[i]].push_back(faces[i]);
+  }
+  return halves;
+}
+
+//------------------------------------------------------------------------------
+// Half of the components, in their order, on each side: whole ones, whatever their areas.
+std::vector<char> vtkSurfaceBisection::DivideComponents() const
+{
+  std::vector<char> sideOfComponent(this->NumberOfComponents, 0);
+  for (std::size_t i = this->TiedFaces.size() / 2; i < this->TiedFaces.size(); ++i)
+  {
+    sideOfComponent[this->Components[this->TiedFaces[i]]] = 1;
+  }
+  std::vector<char> sides(this->Faces.size());
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    sides[i] = sideOfComponent[this->Components[i]];
+  }
+  return sides;
+}
+
+//------------------------------------------------------------------------------
+std::vector<char> vtkSurfaceBisection::CutBetweenCorners(double share, double density) const
+{
   const std::array<std::vector<double>, 4> d = this->FindDistancesFromCorners();
   const std::array<std::array<double, 4>, 4> candidates = { { { 1, -1, 0, 0 }, { 0, 0, 1, -1 },
     { 1, -1, 1, -1 }, { 1, -1, -1, 1 } } };
   Cut best;
-  std::vector<double> values(faces.size());
+  std::vector<double> values(this->Faces.size());
   for (const std::array<double, 4>& signs : candidates)
   {
-    for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); ++i)
     {
       values[i] = signs[0] * d[0][i] + signs[1] * d[1][i] + signs[2] * d[2][i] + signs[3] * d[3][i];
     }
@@ -88,12 +117,7 @@ std::array<std::vector<int>, 2> vtkSurfaceBisection::Divide(const std::vector<in
   {
     this->JoinCrumbs(best.Sides, side);
   }
-  std::array<std::vector<int>, 2> halves;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-  {
-    halves[best.Sides[i]].push_back(faces[i]);
-  }
-  return halves;
+  return best.Sides;
 }
 
 //------------------------------------------------------------------------------
@@ -313,8 +337,6 @@ vtkSurfaceBisection::Cut vtkSurfaceBisection::FindBestCut(const std::vector<doub
   }
   const std::vector<double> costs = this->FindCosts(ranks);
 
-  const double weight =
-    share > 0.0 || this->NumberOfComponents == 1 ? WEIGHT_OF_BALANCE : WEIGHT_AMONG_COMPONENTS;
   Cut best;
   std::size_t rank = 0;
   double area = 0.0;
@@ -324,7 +346,8 @@ vtkSurfaceBisection::Cut vtkSurfaceBisection::FindBestCut(const std::vector<doub
     const double part = area / this->Area;
     const double low = std::log(2.0 * density * part);
     const double high = std::log(2.0 * density * (1.0 - part));
-    double score = costs[i] / std::sqrt(this->Area) + weight * 0.5 * (low * low + high * high);
+    double score =
+      costs[i] / std::sqrt(this->Area) + WEIGHT_OF_BALANCE * 0.5 * (low * low + high * high);
     const double miss = share - std::min(part, 1.0 - part);
     if (miss > 0.0)
     {
