@@ -185,7 +185,7 @@ int TestCornellBox(int argc, char* argv[])
 
   vtkNew<vtkPatchMesher> mesher;
   mesher->SetInputConnection(reader->GetOutputPort());
-  mesher->SetTargetEdgeLength(52.0);
+  mesher->SetTargetEdgeLength(46.0);
   mesher->SetRepair(false);
   mesher->Update();
   vtkPolyData* patches = mesher->GetOutput();
