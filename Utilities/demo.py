@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The demonstration: a Cornell box and two bunnies, from mesh to arrays, pictures and tables.
+"""The demonstration: a Cornell box, two bunnies and a dragon, from mesh to arrays, pictures and tables.
 
     demo.py FOLDER
 
@@ -27,6 +27,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkLight
 
+import demo_atlas
 import demo_pictures
 import demo_plots
 
@@ -511,6 +512,7 @@ def main(arguments):
         scattering = lt.vtkSubsurfaceScattering
         show_bunny(folder, summary, "marble", scattering.MATERIAL_MARBLE)
         show_bunny(folder, summary, "skim milk", scattering.MATERIAL_SKIMMILK)
+        demo_atlas.show_atlas(folder, summary, DATA, sys.modules[__name__])
     except DemoError as error:
         print(f"demo.py: {error}", file=sys.stderr)
         return 1

@@ -14,7 +14,7 @@ namespace
 // surface, or of its component; but never into more pieces than the last number says.
 constexpr double EDGES_ACROSS_SURFACE = 24.0;
 constexpr double EDGES_ACROSS_COMPONENT = 4.0;
-constexpr double MAXIMUM_PIECES_OF_EDGE = 256.0;
+constexpr double MAXIMUM_PIECES_OF_EDGE = 64.0;
 
 //------------------------------------------------------------------------------
 std::uint64_t MakeKey(std::size_t a, std::size_t b)
