@@ -22,7 +22,6 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING, reference
 from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkPolyData, vtkStaticCellLocator
-from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkLight
@@ -133,8 +132,7 @@ class RadiosityScene:
         reader.SetFileName(os.path.join(DATA, "cornell_box.vtp"))
         mesher = lt.vtkPatchMesher()
         mesher.SetInputConnection(reader.GetOutputPort())
-        update(reader)
-        mesher.SetTargetEdgeLength(edge_length(reader.GetOutput(), patches))
+        mesher.SetTargetNumberOfPatches(patches)
         self.meshing_seconds = update(mesher)
         self.surface = snapshot(mesher)
         self.factors = lt.vtkViewFactors()
@@ -163,19 +161,6 @@ class RadiosityScene:
             for i in range(table.GetNumberOfColumns())
         }
         return surface, history
-
-
-# The mesher keeps creases and materials, so edges end up shorter than asked for: measured on the Cornell box.
-SHORTENING = 1.13
-
-
-def edge_length(surface, patches):
-    """The target edge length for about `patches` patches: that of equilateral triangles, and a little more."""
-    triangulation = vtkTriangleFilter()
-    triangulation.SetInputData(surface)
-    update(triangulation)
-    area = cell_areas(triangulation.GetOutput()).sum()
-    return SHORTENING * math.sqrt(4.0 / math.sqrt(3.0) * area / patches)
 
 
 # Label, solver, device.
