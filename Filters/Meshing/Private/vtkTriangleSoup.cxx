@@ -8,6 +8,7 @@
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
+#include "vtkIndexSets.h"
 #include "vtkMath.h"
 #include "vtkMeshingRun.h"
 #include "vtkNew.h"
@@ -271,30 +272,6 @@ void CheckInput(vtkPolyData* input)
     }
   }
 }
-
-//------------------------------------------------------------------------------
-// Disjoint sets of indices.
-class Components
-{
-public:
-  explicit Components(std::size_t size) : Parents(size)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), 0);
-  }
-  std::size_t Find(std::size_t index)
-  {
-    while (this->Parents[index] != index)
-    {
-      this->Parents[index] = this->Parents[this->Parents[index]];
-      index = this->Parents[index];
-    }
-    return index;
-  }
-  void Join(std::size_t a, std::size_t b) { this->Parents[this->Find(a)] = this->Find(b); }
-
-private:
-  std::vector<std::size_t> Parents;
-};
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -475,7 +452,7 @@ void vtkTriangleSoup::MarkEdgesToSplit()
 // Orienting starts at an arbitrary triangle, which may be the only wrong one.
 void vtkTriangleSoup::TurnComponentsToMajority(const std::vector<bool>& reversed)
 {
-  Components components(this->Points.size());
+  vtkIndexSets components(this->Points.size());
   for (const Triangle& triangle : this->Triangles)
   {
     components.Join(triangle[0], triangle[1]);
