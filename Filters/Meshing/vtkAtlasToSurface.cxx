@@ -21,9 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <exception>
 #include <limits>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -31,9 +29,11 @@ vtkStandardNewMacro(vtkAtlasToSurface);
 
 namespace
 {
-using vtkMeshingRun::Aborted;
+using vtkMeshingRun::Advice;
 using vtkMeshingRun::InputError;
+using vtkMeshingRun::Outcome;
 using vtkMeshingRun::Report;
+using vtkMeshingRun::Try;
 
 //------------------------------------------------------------------------------
 int GetResolution(vtkImageData* image)
@@ -182,37 +182,28 @@ int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** input
   vtkInformationVector* outputs)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  std::string error;
-  try
-  {
-    vtkImageData* image = vtkImageData::GetData(inputs[1]);
-    vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
-    const int resolution = GetResolution(image);
-    vtkTexelPieces::Check(surface, resolution);
-    Report(this, 0.1);
-    output->ShallowCopy(surface);
-    Transfer(image, resolution, surface, output);
-    Report(this, 1.0);
-    return 1;
-  }
-  catch (const Aborted&)
+  const Advice advice = { "give an image with fewer arrays",
+    "The texels could not be brought to the surface", "make the atlas again with vtkSurfaceAtlas" };
+  const Outcome outcome = Try(advice,
+    [&]()
+    {
+      vtkImageData* image = vtkImageData::GetData(inputs[1]);
+      vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
+      const int resolution = GetResolution(image);
+      vtkTexelPieces::Check(surface, resolution);
+      Report(this, 0.1);
+      output->ShallowCopy(surface);
+      Transfer(image, resolution, surface, output);
+      Report(this, 1.0);
+    });
+  if (!outcome.Done)
   {
     output->Initialize();
+  }
+  if (outcome.Error.empty())
+  {
     return 1;
   }
-  catch (const InputError& problem)
-  {
-    error = problem.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "Not enough memory: give an image with fewer arrays.";
-  }
-  catch (const std::exception& problem)
-  {
-    error = "The texels could not be brought to the surface: " + std::string(problem.what());
-  }
-  output->Initialize();
-  vtkErrorMacro(<< error);
+  vtkErrorMacro(<< outcome.Error);
   return 0;
 }

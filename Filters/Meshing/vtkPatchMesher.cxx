@@ -30,9 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
-#include <new>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -42,19 +40,14 @@ vtkStandardNewMacro(vtkPatchMesher);
 
 namespace
 {
-using vtkMeshingRun::Aborted;
+using vtkMeshingRun::Advice;
 using vtkMeshingRun::InputError;
+using vtkMeshingRun::Outcome;
 using vtkMeshingRun::Report;
+using vtkMeshingRun::Try;
 
 const char* const DEFAULT_REGION_ARRAY = "Region";
 const char* const DEFAULT_LENGTH_ARRAY = "EdgeLength";
-
-//------------------------------------------------------------------------------
-bool IsOneOfSeveralPieces(vtkInformation* output)
-{
-  vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return output->Has(pieces) && output->Get(pieces) > 1;
-}
 
 //------------------------------------------------------------------------------
 // Number the different tuples of an array: one number per input cell.
@@ -284,37 +277,27 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  if (input->GetNumberOfCells() == 0 && IsOneOfSeveralPieces(outputs->GetInformationObject(0)))
+  if (vtkMeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
-  std::string error;
-  try
-  {
-    this->CheckProperties();
-    this->Mesh(input, this->ReadRegions(inputs), this->ReadLengths(inputs), output);
-    return 1;
-  }
-  catch (const Aborted&)
+  const Advice advice = { "give larger edge lengths", "CGAL could not remesh the surface",
+    "try another TargetEdgeLength, or repair the surface first" };
+  const Outcome outcome = Try(advice,
+    [&]()
+    {
+      this->CheckProperties();
+      this->Mesh(input, this->ReadRegions(inputs), this->ReadLengths(inputs), output);
+    });
+  if (!outcome.Done)
   {
     output->Initialize();
+  }
+  if (outcome.Error.empty())
+  {
     return 1;
   }
-  catch (const InputError& problem)
-  {
-    error = problem.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "Not enough memory: give larger edge lengths.";
-  }
-  catch (const std::exception& problem)
-  {
-    error = "CGAL could not remesh the surface (" + std::string(problem.what()) +
-      "): try another TargetEdgeLength, or repair the surface first.";
-  }
-  output->Initialize();
-  vtkErrorMacro(<< error);
+  vtkErrorMacro(<< outcome.Error);
   return 0;
 }
 

@@ -26,17 +26,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <string>
 
 vtkStandardNewMacro(vtkSurfaceAtlas);
 
 namespace
 {
-using vtkMeshingRun::Aborted;
+using vtkMeshingRun::Advice;
 using vtkMeshingRun::InputError;
+using vtkMeshingRun::Outcome;
 using vtkMeshingRun::Report;
+using vtkMeshingRun::Try;
 
 constexpr int LARGEST_RESOLUTION = 16384;
 
@@ -97,12 +97,6 @@ void WriteMetrics(const vtkAtlasQuadtree& quadtree, vtkPolyData* output)
   AddValue<vtkIntArray>(output, "NumberOfCharts", static_cast<int>(quadtree.GetCharts().size()));
 }
 
-//------------------------------------------------------------------------------
-bool IsOneOfSeveralPieces(vtkInformation* output)
-{
-  vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return output->Has(pieces) && output->Get(pieces) > 1;
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -162,41 +156,29 @@ int vtkSurfaceAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkPolyData* surface = vtkPolyData::GetData(outputs, 0);
   vtkTable* charts = vtkTable::GetData(outputs, 1);
   vtkImageData* maps = vtkImageData::GetData(outputs, 2);
-  if (input->GetNumberOfCells() == 0 && IsOneOfSeveralPieces(outputs->GetInformationObject(0)))
+  if (vtkMeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
-  std::string error;
-  try
+  const Advice advice = { "give a smaller Resolution, or a surface of fewer triangles",
+    "The surface could not be unfolded", "pass it through vtkPatchMesher first" };
+  const Outcome outcome = Try(advice,
+    [&]()
+    {
+      this->CheckProperties();
+      this->Unfold(input, surface, charts, maps);
+    });
+  if (!outcome.Done)
   {
-    this->CheckProperties();
-    this->Unfold(input, surface, charts, maps);
-    return 1;
+    surface->Initialize();
+    charts->Initialize();
+    maps->Initialize();
   }
-  catch (const Aborted&)
-  {
-  }
-  catch (const InputError& problem)
-  {
-    error = problem.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "Not enough memory: give a smaller Resolution, or a surface of fewer triangles.";
-  }
-  catch (const std::exception& problem)
-  {
-    error = "The surface could not be unfolded (" + std::string(problem.what()) +
-      "): pass it through vtkPatchMesher first.";
-  }
-  surface->Initialize();
-  charts->Initialize();
-  maps->Initialize();
-  if (error.empty())
+  if (outcome.Error.empty())
   {
     return 1;
   }
-  vtkErrorMacro(<< error);
+  vtkErrorMacro(<< outcome.Error);
   return 0;
 }
 

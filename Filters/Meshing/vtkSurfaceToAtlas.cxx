@@ -17,8 +17,6 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <exception>
-#include <new>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,9 +25,11 @@ vtkStandardNewMacro(vtkSurfaceToAtlas);
 
 namespace
 {
-using vtkMeshingRun::Aborted;
+using vtkMeshingRun::Advice;
 using vtkMeshingRun::InputError;
+using vtkMeshingRun::Outcome;
 using vtkMeshingRun::Report;
+using vtkMeshingRun::Try;
 
 //------------------------------------------------------------------------------
 // 0 when neither the property nor the surface says it.
@@ -130,39 +130,31 @@ int vtkSurfaceToAtlas::RequestData(vtkInformation*, vtkInformationVector** input
 {
   vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
   vtkImageData* maps = vtkImageData::GetData(outputs);
-  std::string error;
-  try
-  {
-    const int resolution = ChooseResolution(this->Resolution, surface);
-    if (resolution == 0)
+  const Advice advice = { "set a smaller Resolution", "The texel maps could not be made",
+    "make the atlas again with vtkSurfaceAtlas" };
+  const Outcome outcome = Try(advice,
+    [&]()
     {
-      throw InputError("The surface has no field data array \"AtlasResolution\" that says how many "
-                       "texels a side its atlas is made for: set Resolution.");
-    }
-    vtkTexelPieces::Check(surface, resolution);
-    Report(this, 0.1);
-    vtkTexelMaps::Make(surface, resolution, maps, GetSources(surface));
-    Report(this, 1.0);
-    return 1;
-  }
-  catch (const Aborted&)
+      const int resolution = ChooseResolution(this->Resolution, surface);
+      if (resolution == 0)
+      {
+        throw InputError(
+          "The surface has no field data array \"AtlasResolution\" that says how many "
+          "texels a side its atlas is made for: set Resolution.");
+      }
+      vtkTexelPieces::Check(surface, resolution);
+      Report(this, 0.1);
+      vtkTexelMaps::Make(surface, resolution, maps, GetSources(surface));
+      Report(this, 1.0);
+    });
+  if (!outcome.Done)
   {
     maps->Initialize();
+  }
+  if (outcome.Error.empty())
+  {
     return 1;
   }
-  catch (const InputError& problem)
-  {
-    error = problem.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "Not enough memory: set a smaller Resolution.";
-  }
-  catch (const std::exception& problem)
-  {
-    error = "The texel maps could not be made: " + std::string(problem.what());
-  }
-  maps->Initialize();
-  vtkErrorMacro(<< error);
+  vtkErrorMacro(<< outcome.Error);
   return 0;
 }

@@ -7,8 +7,15 @@
 
 #include "vtkAbortCheck.h"
 #include "vtkAlgorithm.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <exception>
+#include <new>
 #include <stdexcept>
+#include <string>
 
 namespace vtkMeshingRun
 {
@@ -33,6 +40,61 @@ inline void Report(vtkAlgorithm* algorithm, double progress)
   {
     throw Aborted();
   }
+}
+
+//------------------------------------------------------------------------------
+/// How the work of a filter ended: done; or not, with an error to report; or not, and without one,
+/// because somebody aborted it.
+struct Outcome
+{
+  bool Done = false;
+  std::string Error;
+};
+
+/// What to say when memory runs out, and when a library gives up.
+struct Advice
+{
+  const char* WithoutMemory;
+  const char* Failure;
+  const char* Remedy;
+};
+
+//------------------------------------------------------------------------------
+/// Do the work of a filter, which may throw.
+template <typename Work>
+Outcome Try(const Advice& advice, const Work& work)
+{
+  Outcome outcome;
+  try
+  {
+    work();
+    outcome.Done = true;
+  }
+  catch (const Aborted&)
+  {
+  }
+  catch (const InputError& problem)
+  {
+    outcome.Error = problem.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    outcome.Error = std::string("Not enough memory: ") + advice.WithoutMemory + ".";
+  }
+  catch (const std::exception& problem)
+  {
+    outcome.Error =
+      std::string(advice.Failure) + " (" + problem.what() + "): " + advice.Remedy + ".";
+  }
+  return outcome;
+}
+
+//------------------------------------------------------------------------------
+/// Of data distributed over several processes a piece may be empty, which is no error.
+inline bool IsEmptyPiece(vtkDataSet* input, vtkInformation* output)
+{
+  vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
+  return input->GetNumberOfCells() == 0 && output->Has(pieces) && output->Get(pieces) > 1;
 }
 } // namespace vtkMeshingRun
 
