@@ -57,6 +57,27 @@ vtkAtlasSurface::Vector vtkAtlasSurface::GetEdgeMiddle(int face, int edge) const
 }
 
 //------------------------------------------------------------------------------
+std::vector<std::array<int, 3>> vtkAtlasSurface::GetNeighborsWithin(const std::vector<int>& faces,
+  const std::vector<int>& owners, std::vector<int>& local) const
+{
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    local[faces[i]] = static_cast<int>(i);
+  }
+  std::vector<std::array<int, 3>> neighbors(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const int neighbor = this->Neighbors[faces[i]][edge];
+      const bool inside = neighbor >= 0 && owners[neighbor] == owners[faces[i]];
+      neighbors[i][edge] = inside ? local[neighbor] : -1;
+    }
+  }
+  return neighbors;
+}
+
+//------------------------------------------------------------------------------
 void vtkAtlasSurface::FindNeighbors()
 {
   struct Side

@@ -49,6 +49,15 @@ public:
   double GetEdgeLength(int face, int edge) const;
   Vector GetEdgeMiddle(int face, int edge) const;
 
+  /**
+   * The neighbours of the faces of one piece, numbered as `faces` is; -1 across the border of the
+   * piece. `owners` tells the piece that each face of the surface belongs to. `local` is room for
+   * one number per face; only those of the piece are used, so different pieces may be asked for at
+   * the same time.
+   */
+  std::vector<std::array<int, 3>> GetNeighborsWithin(const std::vector<int>& faces,
+    const std::vector<int>& owners, std::vector<int>& local) const;
+
 private:
   void FindNeighbors();
   void FindGeometry();

@@ -11,21 +11,8 @@
 //------------------------------------------------------------------------------
 vtkChartDisc::vtkChartDisc(const vtkAtlasSurface& surface, const std::vector<int>& faces,
   const std::vector<int>& owners, std::vector<int>& local)
-  : Surface(surface), Faces(faces), Neighbors(faces.size())
+  : Surface(surface), Faces(faces), Neighbors(surface.GetNeighborsWithin(faces, owners, local))
 {
-  for (std::size_t i = 0; i < faces.size(); ++i)
-  {
-    local[faces[i]] = static_cast<int>(i);
-  }
-  for (std::size_t i = 0; i < faces.size(); ++i)
-  {
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      const int neighbor = surface.Neighbors[faces[i]][edge];
-      const bool inside = neighbor >= 0 && owners[neighbor] == owners[faces[i]];
-      this->Neighbors[i][edge] = inside ? local[neighbor] : -1;
-    }
-  }
   this->UncutNeighbors = this->Neighbors;
   this->NumberPoints();
 }

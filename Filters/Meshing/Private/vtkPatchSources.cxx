@@ -6,7 +6,6 @@
 #include "vtkMath.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStaticCellLocator.h"
 
 #include <cmath>
 
@@ -45,42 +44,29 @@ vtkTriangleSoup::Point GetWeights(const vtkTriangleSoup& soup,
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkPatchSources::vtkPatchSources(const vtkTriangleSoup& soup, const std::vector<std::size_t>& parts,
-  std::size_t numberOfParts)
-  : Soup(soup), TrianglesOfParts(numberOfParts)
+vtkPatchSources::vtkPatchSources(const vtkTriangleSoup& soup) : Soup(soup)
 {
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> cells;
+  for (const vtkTriangleSoup::Triangle& triangle : soup.Triangles)
   {
-    this->TrianglesOfParts[parts[i]].push_back(i);
-  }
-  for (const std::vector<std::size_t>& triangles : this->TrianglesOfParts)
-  {
-    // Points of its own for each part: the locator's bins cover all points that its data set has.
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> cells;
-    for (const std::size_t triangle : triangles)
+    vtkIdType ids[3];
+    for (int i = 0; i < 3; ++i)
     {
-      vtkIdType ids[3];
-      for (int i = 0; i < 3; ++i)
-      {
-        ids[i] = points->InsertNextPoint(soup.Points[soup.Triangles[triangle][i]].data());
-      }
-      cells->InsertNextCell(3, ids);
+      ids[i] = points->InsertNextPoint(soup.Points[triangle[i]].data());
     }
-    vtkNew<vtkPolyData> surface;
-    surface->SetPoints(points);
-    surface->SetPolys(cells);
-    auto locator = vtkSmartPointer<vtkStaticCellLocator>::New();
-    locator->SetDataSet(surface);
-    locator->BuildLocator();
-    this->Locators.push_back(locator);
+    cells->InsertNextCell(3, ids);
   }
+  vtkNew<vtkPolyData> surface;
+  surface->SetPoints(points);
+  surface->SetPolys(cells);
+  this->Locator->SetDataSet(surface);
+  this->Locator->BuildLocator();
 }
 
 //------------------------------------------------------------------------------
-vtkPatchSources::Place vtkPatchSources::Find(std::size_t part,
-  const vtkTriangleSoup::Point& position, double reach)
+vtkPatchSources::Place vtkPatchSources::Find(const vtkTriangleSoup::Point& position, double reach)
 {
   vtkTriangleSoup::Point from = position;
   vtkTriangleSoup::Point closest = position;
@@ -89,12 +75,12 @@ vtkPatchSources::Place vtkPatchSources::Find(std::size_t part,
   double distance2;
   // The locator's own search without a radius looks at the bins of the whole surface.
   const double growth = 4.0;
-  while (!this->Locators[part]->FindClosestPointWithinRadius(from.data(), reach, closest.data(),
+  while (!this->Locator->FindClosestPointWithinRadius(from.data(), reach, closest.data(),
            this->Cell, cell, subId, distance2) &&
     std::isfinite(reach))
   {
     reach *= growth;
   }
-  const std::size_t triangle = this->TrianglesOfParts[part][cell];
+  const std::size_t triangle = static_cast<std::size_t>(cell);
   return { triangle, GetWeights(this->Soup, this->Soup.Triangles[triangle], closest) };
 }

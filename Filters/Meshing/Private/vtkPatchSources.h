@@ -1,24 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Finds the triangle of the original surface that a place on the remeshed one comes from.
+/// Finds the triangle of the original surface that a place on the repaired one comes from.
 #ifndef vtkPatchSources_h
 #define vtkPatchSources_h
 
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
-#include "vtkSmartPointer.h"
+#include "vtkStaticCellLocator.h"
 #include "vtkTriangleSoup.h"
-
-#include <vector>
-
-class vtkAbstractCellLocator;
 
 class vtkPatchSources
 {
 public:
-  /// `parts` holds the part of the surface that each triangle belongs to. The soup must stay alive.
-  vtkPatchSources(const vtkTriangleSoup& soup, const std::vector<std::size_t>& parts,
-    std::size_t numberOfParts);
+  /// The soup must stay alive.
+  explicit vtkPatchSources(const vtkTriangleSoup& soup);
 
   struct Place
   {
@@ -27,13 +22,12 @@ public:
     /// Barycentric coordinates of the closest point in it.
     vtkTriangleSoup::Point Weights;
   };
-  /// The closest place on one part of the original surface, fastest when it is about `reach` away.
-  Place Find(std::size_t part, const vtkTriangleSoup::Point& position, double reach);
+  /// The closest place on the original surface, fastest when it is about `reach` away.
+  Place Find(const vtkTriangleSoup::Point& position, double reach);
 
 private:
   const vtkTriangleSoup& Soup;
-  std::vector<std::vector<std::size_t>> TrianglesOfParts;
-  std::vector<vtkSmartPointer<vtkAbstractCellLocator>> Locators;
+  vtkNew<vtkStaticCellLocator> Locator;
   vtkNew<vtkGenericCell> Cell;
 };
 

@@ -124,21 +124,11 @@ std::vector<char> vtkSurfaceBisection::CutBetweenCorners(double share, double de
 void vtkSurfaceBisection::Gather(const std::vector<int>& faces)
 {
   this->Faces = faces;
+  this->Neighbors = this->Surface.GetNeighborsWithin(faces, this->Owners, this->Local);
   this->Area = 0.0;
-  for (std::size_t i = 0; i < faces.size(); ++i)
+  for (const int face : faces)
   {
-    this->Local[faces[i]] = static_cast<int>(i);
-    this->Area += this->Surface.Areas[faces[i]];
-  }
-  this->Neighbors.resize(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i)
-  {
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      const int neighbor = this->Surface.Neighbors[faces[i]][edge];
-      const bool inside = neighbor >= 0 && this->Owners[neighbor] == this->Owners[faces[i]];
-      this->Neighbors[i][edge] = inside ? this->Local[neighbor] : -1;
-    }
+    this->Area += this->Surface.Areas[face];
   }
 }
 

@@ -237,7 +237,7 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
 {
   vtkTriangleSoup soup;
   Append(old, GetFaces(old.Triangles), soup);
-  vtkPatchSources sources(soup, std::vector<std::size_t>(soup.Triangles.size(), 0), 1);
+  vtkPatchSources sources(soup);
   const double reach = soup.GetDiagonal() / 1000.0;
   const Mesh& mesh = surface.Triangles;
   for (const Face face : mesh.faces())
@@ -245,14 +245,14 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
     if (surface.CellIds[face] == NEW)
     {
       const Point center = CGAL::centroid(GetTriangle(mesh, face));
-      surface.CellIds[face] = soup.CellIds[sources.Find(0, FromKernel(center), reach).Triangle];
+      surface.CellIds[face] = soup.CellIds[sources.Find(FromKernel(center), reach).Triangle];
     }
   }
   for (const Vertex vertex : mesh.vertices())
   {
     if (surface.PointIds[vertex] == NEW)
     {
-      const auto place = sources.Find(0, FromKernel(mesh.point(vertex)), reach);
+      const auto place = sources.Find(FromKernel(mesh.point(vertex)), reach);
       const auto corner = std::max_element(place.Weights.begin(), place.Weights.end());
       surface.PointIds[vertex] =
         soup.PointIds[soup.Triangles[place.Triangle][corner - place.Weights.begin()]];

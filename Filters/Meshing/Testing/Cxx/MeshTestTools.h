@@ -16,10 +16,12 @@
 #include "vtkSmartPointer.h"
 #include "vtkTestUtilities.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -241,6 +243,33 @@ inline vtkSmartPointer<vtkPolyData> ReadOff(const std::string& path)
   mesh->SetPoints(points);
   mesh->SetPolys(cells);
   return mesh;
+}
+
+//------------------------------------------------------------------------------
+/// The mesh of an .off or a .ply file.
+inline vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& path)
+{
+  if (path.substr(path.rfind('.')) == ".off")
+  {
+    return ReadOff(path);
+  }
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+//------------------------------------------------------------------------------
+/// What is known of the mesh in a file, by its name without folder and extension; nullptr if
+/// nothing.
+template <typename Known, std::size_t Size>
+const Known* FindByFile(const Known (&known)[Size], const std::string& path)
+{
+  const std::size_t start = path.find_last_of("/\\") + 1;
+  const std::string name = path.substr(start, path.rfind('.') - start);
+  const Known* found = std::find_if(std::begin(known), std::end(known),
+    [&name](const Known& candidate) { return candidate.Name == name; });
+  return found == std::end(known) ? nullptr : found;
 }
 
 //------------------------------------------------------------------------------

@@ -37,19 +37,6 @@ const Mesh MESHES[] = {
 };
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> Read(const std::string& path)
-{
-  if (path.substr(path.rfind('.')) == ".off")
-  {
-    return meshTest::ReadOff(path);
-  }
-  vtkNew<vtkPLYReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-//------------------------------------------------------------------------------
 void TestMesh(const Mesh& mesh, vtkPolyData* surface, meshTest::Checker& check)
 {
   const std::string name = mesh.Name;
@@ -91,15 +78,12 @@ int TestPatchMesherMeshes(int argc, char* argv[])
   for (int i = 1; i < argc; ++i)
   {
     const std::string path = argv[i];
-    const std::size_t start = path.find_last_of("/\\") + 1;
-    const std::string name = path.substr(start, path.rfind('.') - start);
-    const Mesh* mesh = std::find_if(std::begin(MESHES), std::end(MESHES),
-      [&name](const Mesh& candidate) { return candidate.Name == name; });
+    const Mesh* mesh = meshTest::FindByFile(MESHES, path);
     check.SetSubject(path);
-    check.True(mesh != std::end(MESHES), "a known mesh");
-    if (mesh != std::end(MESHES))
+    check.True(mesh != nullptr, "a known mesh");
+    if (mesh)
     {
-      TestMesh(*mesh, Read(path), check);
+      TestMesh(*mesh, meshTest::ReadMesh(path), check);
     }
   }
   return check.GetExitCode();

@@ -31,20 +31,14 @@ const Mesh MESHES[] = {
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> Read(const std::string& path)
 {
-  if (path.substr(path.rfind('.')) == ".off")
-  {
-    return meshTest::ReadOff(path);
-  }
-  vtkNew<vtkPLYReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
+  vtkSmartPointer<vtkPolyData> surface = meshTest::ReadMesh(path);
   if (path.find("dragon") == std::string::npos)
   {
-    return reader->GetOutput();
+    return surface;
   }
   // As scanned it is no manifold.
   vtkNew<vtkPatchMesher> mesher;
-  mesher->SetInputConnection(reader->GetOutputPort());
+  mesher->SetInputData(surface);
   mesher->Update();
   return mesher->GetOutput();
 }
@@ -57,16 +51,13 @@ int TestSurfaceAtlas(int argc, char* argv[])
   for (int i = 1; i < argc; ++i)
   {
     const std::string path = argv[i];
-    const std::size_t start = path.find_last_of("/\\") + 1;
-    const std::string name = path.substr(start, path.rfind('.') - start);
-    const Mesh* mesh = std::find_if(std::begin(MESHES), std::end(MESHES),
-      [&name](const Mesh& candidate) { return candidate.Name == name; });
+    const Mesh* mesh = meshTest::FindByFile(MESHES, path);
     check.SetSubject(path);
     vtkSmartPointer<vtkPolyData> surface = Read(path);
-    check.True(mesh != std::end(MESHES) && surface->GetNumberOfCells() > 0, "a known mesh");
-    if (mesh != std::end(MESHES))
+    check.True(mesh != nullptr && surface->GetNumberOfCells() > 0, "a known mesh");
+    if (mesh)
     {
-      atlasTest::CheckAtlas(name, surface, mesh->Resolution, mesh->Limits, check);
+      atlasTest::CheckAtlas(mesh->Name, surface, mesh->Resolution, mesh->Limits, check);
     }
   }
   return check.GetExitCode();
