@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenEXRReader.h"
 
-#include "vtkOpenEXRFileCheck.h"
+#include "Files/OpenEXRFileCheck.h"
 
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
@@ -35,6 +35,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkOpenEXRReader);
 
@@ -335,7 +337,7 @@ vtkOpenEXRReader::~vtkOpenEXRReader() = default;
 //------------------------------------------------------------------------------
 int vtkOpenEXRReader::CanReadFile(const char* fileName)
 {
-  return fileName && vtkOpenEXRFileCheck::HasMagicNumber(fileName) ? 3 : 0;
+  return fileName && OpenEXRFileCheck::HasMagicNumber(fileName) ? 3 : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -356,8 +358,8 @@ bool vtkOpenEXRReader::CheckFile()
     return this->Fail(vtkErrorCode::NoFileNameError, "no file name is set; call SetFileName first");
   }
   std::string problem;
-  using vtkOpenEXRFileCheck::Fault;
-  switch (vtkOpenEXRFileCheck::Find(this->FileName, problem))
+  using OpenEXRFileCheck::Fault;
+  switch (OpenEXRFileCheck::Find(this->FileName, problem))
   {
     case Fault::None:
       return true;

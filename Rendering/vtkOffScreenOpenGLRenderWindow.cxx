@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOffScreenOpenGLRenderWindow.h"
 
-#include "vtkLightTransportOpenGL.h"
-#include "vtkOffScreenContext.h"
-#include "vtkOpenGLPlatform.h"
+#include "Context/LightTransportOpenGL.h"
+#include "Context/OffScreenContext.h"
+#include "Context/OpenGLPlatform.h"
 
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkObjectFactory.h"
@@ -14,6 +14,8 @@
 #include "vtkVersion.h"
 
 #include <vector>
+
+using namespace LightTransport;
 
 #ifndef VTK_FUTURE_CONST
 #define VTK_FUTURE_CONST
@@ -63,8 +65,8 @@ void DisableOtherOverrides(const char* className)
 
 struct vtkOffScreenOpenGLRenderWindow::Internals
 {
-  std::unique_ptr<vtkOffScreenContext> Context;
-  std::vector<vtkCurrentOpenGLContext> PushedContexts;
+  std::unique_ptr<OffScreenContext> Context;
+  std::vector<CurrentOpenGLContext> PushedContexts;
   std::string Device;
   bool Complained = false;
 };
@@ -104,7 +106,7 @@ void vtkOffScreenOpenGLRenderWindow::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 bool vtkOffScreenOpenGLRenderWindow::IsAvailable(std::string& reason)
 {
-  return vtkOffScreenContext::Create(reason) != nullptr;
+  return OffScreenContext::Create(reason) != nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -141,7 +143,7 @@ bool vtkOffScreenOpenGLRenderWindow::Open(std::string& reason)
 {
   if (!this->Self->Context)
   {
-    this->Self->Context = vtkOffScreenContext::Create(reason);
+    this->Self->Context = OffScreenContext::Create(reason);
   }
   if (!this->Self->Context || !this->Self->Context->MakeCurrent())
   {
@@ -179,7 +181,7 @@ void vtkOffScreenOpenGLRenderWindow::OpenGLInitContext()
   this->ContextCreationTime.Modified();
 #else
   this->SetOpenGLSymbolLoader([](void* context, const char* name) -> VTKOpenGLAPIProc
-    { return static_cast<vtkOffScreenContext*>(context)->GetProcAddress(name); },
+    { return static_cast<OffScreenContext*>(context)->GetProcAddress(name); },
     this->Self->Context.get());
   this->Superclass::OpenGLInitContext();
 #endif
@@ -210,7 +212,7 @@ void vtkOffScreenOpenGLRenderWindow::Finalize()
     return;
   }
   const bool wasCurrent = this->IsCurrent();
-  const vtkCurrentOpenGLContext before = vtkCurrentOpenGLContext::Get();
+  const CurrentOpenGLContext before = CurrentOpenGLContext::Get();
   this->MakeCurrent();
   this->ReleaseGraphicsResources(this);
   this->Self->Context.reset();
@@ -253,7 +255,7 @@ void vtkOffScreenOpenGLRenderWindow::ReleaseCurrent()
 {
   if (this->IsCurrent())
   {
-    vtkCurrentOpenGLContext::Release();
+    CurrentOpenGLContext::Release();
   }
 }
 
@@ -266,7 +268,7 @@ bool vtkOffScreenOpenGLRenderWindow::IsCurrent()
 //------------------------------------------------------------------------------
 void vtkOffScreenOpenGLRenderWindow::PushContext()
 {
-  this->Self->PushedContexts.push_back(vtkCurrentOpenGLContext::Get());
+  this->Self->PushedContexts.push_back(CurrentOpenGLContext::Get());
   this->MakeCurrent();
 }
 

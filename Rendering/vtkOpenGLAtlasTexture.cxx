@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenGLAtlasTexture.h"
 
-#include "vtkFloatTextures.h"
-#include "vtkLightTransportOpenGL.h"
+#include "Context/LightTransportOpenGL.h"
+#include "Textures/FloatTextures.h"
 #include "vtkOpenGLAtlasTexturePointsFS.h"
 #include "vtkOpenGLAtlasTextureSampleFS.h"
 
@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkOpenGLAtlasTexture);
 
@@ -102,8 +104,8 @@ bool IsBlock(const double block[3], int resolution)
 struct vtkOpenGLAtlasTexture::Internals
 {
   vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> OffScreenWindow;
-  std::unique_ptr<vtkFloatTextures> Engine;
-  vtkFloatTextures::Group Atlas;
+  std::unique_ptr<FloatTextures> Engine;
+  FloatTextures::Group Atlas;
   int Resolution = 0;
   int Components = 0;
 
@@ -118,7 +120,7 @@ struct vtkOpenGLAtlasTexture::Internals
   {
     if (this->Engine && this->Engine->IsAlive())
     {
-      const vtkOpenGLContextGuard guard(this->Engine->GetWindow());
+      const OpenGLContextGuard guard(this->Engine->GetWindow());
       this->Atlas.clear();
     }
     this->Atlas.clear();
@@ -130,8 +132,8 @@ struct vtkOpenGLAtlasTexture::Internals
   bool Upload(const std::vector<float>& texels, int levels);
   bool Sample(vtkDataArray* coordinates, vtkDataArray* blocks, vtkDataArray* levels,
     vtkDoubleArray* values);
-  bool DrawPoints(const vtkFloatTextures::Group& target, const vtkFloatTextures::Group& points,
-    const vtkFloatTextures::Group& blocks, int height);
+  bool DrawPoints(const FloatTextures::Group& target, const FloatTextures::Group& points,
+    const FloatTextures::Group& blocks, int height);
 };
 
 //------------------------------------------------------------------------------
@@ -148,7 +150,7 @@ bool vtkOpenGLAtlasTexture::Internals::Open(vtkRenderWindow* window, std::string
     reason = window ? "the render window has none yet: render once." : reason;
     return false;
   }
-  this->Engine = std::make_unique<vtkFloatTextures>(openGL);
+  this->Engine = std::make_unique<FloatTextures>(openGL);
   reason = "this OpenGL cannot make floating-point textures.";
   return this->Engine->IsAlive();
 }
@@ -176,12 +178,12 @@ bool vtkOpenGLAtlasTexture::Internals::Upload(const std::vector<float>& texels, 
   this->Atlas[0]->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);
   this->Atlas[0]->Deactivate();
-  return vtkFloatTextures::CheckErrors(ignored);
+  return FloatTextures::CheckErrors(ignored);
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenGLAtlasTexture::Internals::DrawPoints(const vtkFloatTextures::Group& target,
-  const vtkFloatTextures::Group& points, const vtkFloatTextures::Group& blocks, int height)
+bool vtkOpenGLAtlasTexture::Internals::DrawPoints(const FloatTextures::Group& target,
+  const FloatTextures::Group& points, const FloatTextures::Group& blocks, int height)
 {
   const std::string defines =
     "#define GROUPS 1\n#define OUTPUTS 1\n#define WIDTH_BITS " + std::to_string(WidthBits) + "\n";
@@ -209,8 +211,8 @@ bool vtkOpenGLAtlasTexture::Internals::Sample(vtkDataArray* coordinates, vtkData
     return true;
   }
   const int width = 1 << WidthBits;
-  const int height = vtkFloatTextures::DivideUp(std::min(count, MostPoints), width);
-  const vtkFloatTextures::Group textures = this->Engine->Allocate(3, width, height);
+  const int height = FloatTextures::DivideUp(std::min(count, MostPoints), width);
+  const FloatTextures::Group textures = this->Engine->Allocate(3, width, height);
   bool good = !textures.empty();
   std::vector<float> texels(static_cast<std::size_t>(4 * width) * height);
   for (vtkIdType first = 0; first < count && good; first += MostPoints)
@@ -342,7 +344,7 @@ bool vtkOpenGLAtlasTexture::Build(vtkImageData* maps, const char* valueName, con
     vtkErrorMacro("No OpenGL context to sample the atlas in: " << reason);
     return false;
   }
-  const vtkFloatTextures::Session session(self.Engine->GetWindow());
+  const FloatTextures::Session session(self.Engine->GetWindow());
   self.Resolution = maps->GetDimensions()[0];
   self.Components = values->GetNumberOfComponents();
   if (!self.Upload(texels, this->GetNumberOfLevels()))
@@ -383,7 +385,7 @@ bool vtkOpenGLAtlasTexture::ReadLevel(int level, vtkFloatArray* texels)
     return false;
   }
   const Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.Engine->GetWindow());
+  const FloatTextures::Session session(self.Engine->GetWindow());
   const vtkIdType side = self.Resolution >> level;
   texels->SetNumberOfComponents(4);
   texels->SetNumberOfTuples(side * side);
@@ -394,7 +396,7 @@ bool vtkOpenGLAtlasTexture::ReadLevel(int level, vtkFloatArray* texels)
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, 1);
   self.Atlas[0]->Deactivate();
   std::string text;
-  if (!vtkFloatTextures::CheckErrors(text))
+  if (!FloatTextures::CheckErrors(text))
   {
     vtkErrorMacro("OpenGL failed in reading a level with " << text << ".");
     return false;
@@ -438,12 +440,12 @@ bool vtkOpenGLAtlasTexture::Sample(vtkDataArray* coordinates, vtkDataArray* bloc
     return false;
   }
   Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.Engine->GetWindow());
+  const FloatTextures::Session session(self.Engine->GetWindow());
   values->SetNumberOfComponents(self.Components);
   values->SetNumberOfTuples(coordinates->GetNumberOfTuples());
   std::string text = "too little memory";
   const bool good = self.Sample(coordinates, blocks, levels, values);
-  if (!good || !vtkFloatTextures::CheckErrors(text))
+  if (!good || !FloatTextures::CheckErrors(text))
   {
     vtkErrorMacro("OpenGL failed in sampling an atlas with "
       << text << " on " << self.Engine->GetDeviceName() << ".");

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenGLLinkOperator.h"
 
-#include "vtkFloatTextures.h"
-#include "vtkFloatVectors.h"
-#include "vtkProductGL.h"
+#include "Products/ProductGL.h"
+#include "Textures/FloatTextures.h"
+#include "Textures/FloatVectors.h"
 
 #include "vtkExchange.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
+
+using namespace LightTransport;
 
 // Registers this class with VTK's object factory whenever the library is loaded, also where nobody
 // calls the module's own initialisation, as in a ParaView plugin.
@@ -25,9 +27,9 @@ struct vtkOpenGLLinkOperator::Internals
   bool Hardware = false;
 
   ///@{ All or none of them are there.
-  std::unique_ptr<vtkFloatTextures> Engine;
-  std::unique_ptr<vtkFloatVectors> Vectors;
-  std::unique_ptr<vtkProductGL> Product;
+  std::unique_ptr<FloatTextures> Engine;
+  std::unique_ptr<FloatVectors> Vectors;
+  std::unique_ptr<ProductGL> Product;
   ///@}
 
   vtkOpenGLRenderWindow* GetWindow()
@@ -101,7 +103,7 @@ bool vtkOpenGLLinkOperator::Open(std::string& reason)
   auto* offScreen = vtkOffScreenOpenGLRenderWindow::SafeDownCast(window);
   if (offScreen && self.UsesUserWindow)
   {
-    const vtkCurrentOpenGLContext before = vtkCurrentOpenGLContext::Get();
+    const CurrentOpenGLContext before = CurrentOpenGLContext::Get();
     const bool open = offScreen->Open(reason);
     before.Restore();
     if (!open)
@@ -210,21 +212,21 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
 bool vtkOpenGLLinkOperator::InitializeOnDevice(vtkExchange* exchange, std::string& reason)
 {
   Internals& self = *this->Self;
-  self.Engine = std::make_unique<vtkFloatTextures>(self.GetWindow());
+  self.Engine = std::make_unique<FloatTextures>(self.GetWindow());
   if (!self.Engine->IsAlive())
   {
     reason = "This OpenGL cannot make floating-point textures";
     return false;
   }
-  const vtkFloatTextures::Session session(self.GetWindow());
-  self.Vectors = std::make_unique<vtkFloatVectors>(*self.Engine);
+  const FloatTextures::Session session(self.GetWindow());
+  self.Vectors = std::make_unique<FloatVectors>(*self.Engine);
   if (!self.Vectors->Initialize(this->NumberOfPatches, this->NumberOfBands,
         this->MaximumTextureSize, reason))
   {
     return false;
   }
-  self.Product = vtkProductGL::New(exchange, *self.Engine, self.Vectors->GetLayout(), reason);
-  if (self.Product && !vtkFloatTextures::CheckErrors(reason))
+  self.Product = ProductGL::New(exchange, *self.Engine, self.Vectors->GetLayout(), reason);
+  if (self.Product && !FloatTextures::CheckErrors(reason))
   {
     reason = "OpenGL failed in taking the links with " + reason + " on " + self.DeviceName;
     return false;
@@ -268,7 +270,7 @@ bool vtkOpenGLLinkOperator::Finish(bool drawn, const char* what)
                                       << this->Self->DeviceName << ". Set Device to CPU.");
     return false;
   }
-  if (!vtkFloatTextures::CheckErrors(text))
+  if (!FloatTextures::CheckErrors(text))
   {
     vtkErrorMacro("OpenGL failed in " << what << " with " << text << " on "
                                       << this->Self->DeviceName << ". Set Device to CPU.");
@@ -284,7 +286,7 @@ bool vtkOpenGLLinkOperator::SetVector(int slot, const double* values)
   {
     return false;
   }
-  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  const FloatTextures::Session session(this->Self->GetWindow());
   return this->Finish(this->Self->Vectors->Set(slot, values), "SetVector");
 }
 
@@ -295,7 +297,7 @@ bool vtkOpenGLLinkOperator::GetVector(int slot, double* values)
   {
     return false;
   }
-  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  const FloatTextures::Session session(this->Self->GetWindow());
   this->Self->Vectors->Read(slot, values);
   return this->Finish(true, "GetVector");
 }
@@ -313,8 +315,8 @@ bool vtkOpenGLLinkOperator::Multiply(int y, int x)
     return false;
   }
   Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.GetWindow());
-  vtkFloatVectors::Group& target = self.Vectors->Get(y);
+  const FloatTextures::Session session(self.GetWindow());
+  FloatVectors::Group& target = self.Vectors->Get(y);
   const bool drawn = !target.empty() && self.Product->Draw(target, self.Vectors->Get(x));
   return this->Finish(drawn, "Multiply");
 }
@@ -326,7 +328,7 @@ bool vtkOpenGLLinkOperator::Combine(int z, const double* a, int x, const double*
   {
     return false;
   }
-  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  const FloatTextures::Session session(this->Self->GetWindow());
   return this->Finish(this->Self->Vectors->Combine(z, a, x, b, y), "Combine");
 }
 
@@ -337,7 +339,7 @@ bool vtkOpenGLLinkOperator::Scale(int z, int x, int y)
   {
     return false;
   }
-  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  const FloatTextures::Session session(this->Self->GetWindow());
   return this->Finish(this->Self->Vectors->Scale(z, x, y), "Scale");
 }
 
@@ -348,7 +350,7 @@ bool vtkOpenGLLinkOperator::Dot(int x, int y, double* result)
   {
     return false;
   }
-  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  const FloatTextures::Session session(this->Self->GetWindow());
   return this->Finish(this->Self->Vectors->Dot(x, y, result), "Dot");
 }
 
@@ -359,6 +361,6 @@ bool vtkOpenGLLinkOperator::MaxNorm(int x, double* result)
   {
     return false;
   }
-  const vtkFloatTextures::Session session(this->Self->GetWindow());
+  const FloatTextures::Session session(this->Self->GetWindow());
   return this->Finish(this->Self->Vectors->MaxNorm(x, result), "MaxNorm");
 }

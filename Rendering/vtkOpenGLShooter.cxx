@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenGLShooter.h"
 
-#include "vtkFloatVectors.h"
-#include "vtkHemisphereItems.h"
-#include "vtkLightTransportOpenGL.h"
+#include "Context/LightTransportOpenGL.h"
+#include "Shooting/HemisphereItems.h"
+#include "Textures/FloatVectors.h"
 #include "vtkOpenGLShooterSelectFS.h"
 
 #include "vtkMath.h"
@@ -16,11 +16,13 @@
 #include <cmath>
 #include <numeric>
 
+using namespace LightTransport;
+
 vtkStandardNewMacro(vtkOpenGLShooter);
 
 namespace
 {
-using Group = vtkFloatTextures::Group;
+using Group = FloatTextures::Group;
 using Vector = std::array<double, 3>;
 
 enum Slot
@@ -94,9 +96,9 @@ struct vtkOpenGLShooter::Internals
   vtkTypeInt64 EyesSoFar = 0;
   vtkTypeInt64 BytesOfCandidates = 0;
 
-  std::unique_ptr<vtkFloatTextures> Engine;
-  std::unique_ptr<vtkFloatVectors> Vectors;
-  std::unique_ptr<vtkHemisphereItems> Items;
+  std::unique_ptr<FloatTextures> Engine;
+  std::unique_ptr<FloatVectors> Vectors;
+  std::unique_ptr<HemisphereItems> Items;
   std::vector<Group> Selections;
 
   void Clear()
@@ -116,7 +118,7 @@ struct vtkOpenGLShooter::Internals
   bool CheckOvershooting();
   bool ComputeShots();
   bool FindCandidates(std::vector<Candidate>& candidates);
-  void AddEyes(int patch, int divisions, std::vector<vtkHemisphereItems::Eye>& eyes);
+  void AddEyes(int patch, int divisions, std::vector<HemisphereItems::Eye>& eyes);
   bool ShootFrom(const std::vector<Candidate>& shooters, double density);
   bool Collect();
   void TakeAway(int patch);
@@ -177,7 +179,7 @@ bool vtkOpenGLShooter::Internals::AllocateScene(int resolution)
       patches.push_back(patch);
     }
   }
-  this->Items = std::make_unique<vtkHemisphereItems>(this->Engine.get());
+  this->Items = std::make_unique<HemisphereItems>(this->Engine.get());
   return this->Items->Allocate(points, triangles, patches, chosen / 2 * 2);
 }
 
@@ -191,7 +193,7 @@ bool vtkOpenGLShooter::Internals::AllocateSelections()
   {
     for (int* size : { &width, &height })
     {
-      const int reduced = vtkFloatTextures::DivideUp(*size, ReductionBlock);
+      const int reduced = FloatTextures::DivideUp(*size, ReductionBlock);
       *size = std::min(*size, std::max(reduced, CandidatesAcross));
     }
     this->Selections.push_back(this->Engine->Allocate(1, width, height));
@@ -344,7 +346,7 @@ bool vtkOpenGLShooter::Internals::FindCandidates(std::vector<Candidate>& candida
 //------------------------------------------------------------------------------
 // The centroids of the equal parts that dividing the edges of the polygon's triangles gives.
 void vtkOpenGLShooter::Internals::AddEyes(int patch, int divisions,
-  std::vector<vtkHemisphereItems::Eye>& eyes)
+  std::vector<HemisphereItems::Eye>& eyes)
 {
   const vtkIdType first = this->Offsets[patch];
   const vtkIdType end = this->Offsets[patch + 1];
@@ -375,7 +377,7 @@ void vtkOpenGLShooter::Internals::AddEyes(int patch, int divisions,
         const double third = j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
         const double s = (i + third) / divisions;
         const double t = (j / 2 + third) / divisions;
-        vtkHemisphereItems::Eye eye;
+        HemisphereItems::Eye eye;
         for (int k = 0; k < 3; ++k)
         {
           eye.Position[k] = static_cast<float>((1.0 - s - t) * a[k] + s * b[k] + t * c[k]);
@@ -418,7 +420,7 @@ void vtkOpenGLShooter::Internals::TakeAway(int patch)
 //------------------------------------------------------------------------------
 bool vtkOpenGLShooter::Internals::ShootFrom(const std::vector<Candidate>& shooters, double density)
 {
-  std::vector<vtkHemisphereItems::Eye> eyes;
+  std::vector<HemisphereItems::Eye> eyes;
   for (const Candidate& shooter : shooters)
   {
     const double wanted = density * shooter.Power / this->FirstPower;
@@ -430,9 +432,9 @@ bool vtkOpenGLShooter::Internals::ShootFrom(const std::vector<Candidate>& shoote
   this->ShotsOfSweep += static_cast<vtkIdType>(shooters.size());
   this->Engine->Clear(this->Vectors->Get(RECEIVED));
   bool good = true;
-  for (std::size_t first = 0; first < eyes.size() && good; first += vtkHemisphereItems::MostEyes)
+  for (std::size_t first = 0; first < eyes.size() && good; first += HemisphereItems::MostEyes)
   {
-    const std::size_t end = std::min(first + vtkHemisphereItems::MostEyes, eyes.size());
+    const std::size_t end = std::min(first + HemisphereItems::MostEyes, eyes.size());
     good = this->Items->Shoot({ eyes.data() + first, eyes.data() + end },
       this->Vectors->GetLayout(), this->Vectors->Get(SHOT), this->Vectors->Get(RECEIVED));
   }
@@ -550,18 +552,18 @@ bool vtkOpenGLShooter::Initialize(const Patches& patches, int numberOfBands, con
     vtkErrorMacro("No OpenGL context: " << reason);
     return false;
   }
-  self.Engine = std::make_unique<vtkFloatTextures>(self.Window);
+  self.Engine = std::make_unique<FloatTextures>(self.Window);
   if (!self.Engine->IsAlive())
   {
     vtkErrorMacro("This OpenGL cannot make floating-point textures: set Device to CPU.");
     return false;
   }
-  const vtkFloatTextures::Session session(self.Window);
+  const FloatTextures::Session session(self.Window);
   self.Patches = static_cast<int>(count);
   self.Bands = numberOfBands;
   self.SetScene(patches);
   self.Overshoots = this->Overshooting;
-  self.Vectors = std::make_unique<vtkFloatVectors>(*self.Engine);
+  self.Vectors = std::make_unique<FloatVectors>(*self.Engine);
   if (!self.Vectors->Initialize(count, numberOfBands, 0, reason))
   {
     vtkErrorMacro(<< reason << ": set Device to CPU.");
@@ -592,7 +594,7 @@ bool vtkOpenGLShooter::IsReady()
 bool vtkOpenGLShooter::Finish(bool drawn, const char* what)
 {
   std::string text = "a shader that does not compile";
-  if (!drawn || !vtkFloatTextures::CheckErrors(text))
+  if (!drawn || !FloatTextures::CheckErrors(text))
   {
     vtkErrorMacro("OpenGL failed in " << what << " with " << text << " on "
                                       << this->Self->DeviceName << ". Set Device to CPU.");
@@ -609,7 +611,7 @@ vtkIdType vtkOpenGLShooter::Shoot(vtkIdType numberOfShots)
     return -1;
   }
   Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.Window);
+  const FloatTextures::Session session(self.Window);
   vtkIdType shots = 0;
   while (shots < numberOfShots)
   {
@@ -644,7 +646,7 @@ bool vtkOpenGLShooter::GetLargestUnshot(double* perBand)
     return false;
   }
   Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.Window);
+  const FloatTextures::Session session(self.Window);
   const bool drawn = self.Vectors->MaxNorm(UNSHOT, perBand);
   self.Unscale(perBand, self.Bands);
   return this->Finish(drawn, "looking for the largest unshot radiosity");
@@ -658,7 +660,7 @@ bool vtkOpenGLShooter::GetIrradiance(double* values)
     return false;
   }
   Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.Window);
+  const FloatTextures::Session session(self.Window);
   const vtkIdType size = static_cast<vtkIdType>(self.Patches) * self.Bands;
   self.Vectors->Read(POWER, values);
   self.Unscale(values, size);
@@ -677,7 +679,7 @@ bool vtkOpenGLShooter::GetUnshot(double* values)
     return false;
   }
   Internals& self = *this->Self;
-  const vtkFloatTextures::Session session(self.Window);
+  const FloatTextures::Session session(self.Window);
   self.Vectors->Read(UNSHOT, values);
   self.Unscale(values, static_cast<vtkIdType>(self.Patches) * self.Bands);
   return this->Finish(true, "reading the unshot radiosity");

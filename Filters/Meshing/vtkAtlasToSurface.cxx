@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkAtlasToSurface.h"
 
-#include "vtkMeshingRun.h"
-#include "vtkTexelMaps.h"
-#include "vtkTexelPieces.h"
+#include "Atlas/TexelMaps.h"
+#include "Atlas/TexelPieces.h"
+#include "Common/MeshingRun.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -25,15 +25,17 @@
 #include <string>
 #include <vector>
 
+using namespace LightTransport;
+
 vtkStandardNewMacro(vtkAtlasToSurface);
 
 namespace
 {
-using vtkMeshingRun::Advice;
-using vtkMeshingRun::InputError;
-using vtkMeshingRun::Outcome;
-using vtkMeshingRun::Report;
-using vtkMeshingRun::Try;
+using MeshingRun::Advice;
+using MeshingRun::InputError;
+using MeshingRun::Outcome;
+using MeshingRun::Report;
+using MeshingRun::Try;
 
 //------------------------------------------------------------------------------
 int GetResolution(vtkImageData* image)
@@ -92,7 +94,7 @@ std::vector<vtkDataArray*> GetArrays(vtkImageData* image)
   for (int i = 0; i < image->GetPointData()->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = image->GetPointData()->GetArray(i);
-    if (array && array->GetName() && !vtkTexelMaps::IsTexelMap(array->GetName()) &&
+    if (array && array->GetName() && !TexelMaps::IsTexelMap(array->GetName()) &&
       std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) != 0)
     {
       arrays.push_back(array);
@@ -114,8 +116,8 @@ void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPoly
   std::vector<double> weightOfPoint(surface->GetNumberOfPoints(), 0.0);
   vtkIdType cell = -1;
   double area = 0.0;
-  vtkTexelPieces::Visit(surface, resolution,
-    [&](const vtkTexelPieces::Piece& piece)
+  TexelPieces::Visit(surface, resolution,
+    [&](const TexelPieces::Piece& piece)
     {
       area = piece.Cell == cell ? area + piece.Area : piece.Area;
       cell = piece.Cell;
@@ -190,7 +192,7 @@ int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** input
       vtkImageData* image = vtkImageData::GetData(inputs[1]);
       vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
       const int resolution = GetResolution(image);
-      vtkTexelPieces::Check(surface, resolution);
+      TexelPieces::Check(surface, resolution);
       Report(this, 0.1);
       output->ShallowCopy(surface);
       Transfer(image, resolution, surface, output);

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPatchMesher.h"
 
-#include "vtkMeshingRun.h"
-#include "vtkSizedRemeshing.h"
-#include "vtkSurfaceRemesher.h"
-#include "vtkSurfaceRepair.h"
-#include "vtkTriangleSoup.h"
+#include "Common/MeshingRun.h"
+#include "Mesher/SizedRemeshing.h"
+#include "Mesher/SurfaceRemesher.h"
+#include "Mesher/SurfaceRepair.h"
+#include "Mesher/TriangleSoup.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
@@ -36,15 +36,17 @@
 #include <utility>
 #include <vector>
 
+using namespace LightTransport;
+
 vtkStandardNewMacro(vtkPatchMesher);
 
 namespace
 {
-using vtkMeshingRun::Advice;
-using vtkMeshingRun::InputError;
-using vtkMeshingRun::Outcome;
-using vtkMeshingRun::Report;
-using vtkMeshingRun::Try;
+using MeshingRun::Advice;
+using MeshingRun::InputError;
+using MeshingRun::Outcome;
+using MeshingRun::Report;
+using MeshingRun::Try;
 
 const char* const DEFAULT_REGION_ARRAY = "Region";
 const char* const DEFAULT_LENGTH_ARRAY = "EdgeLength";
@@ -97,15 +99,15 @@ void CheckLength(const char* name, double length, const char* remedy)
 }
 
 //------------------------------------------------------------------------------
-double ChooseHoleSize(double wanted, const vtkTriangleSoup& soup)
+double ChooseHoleSize(double wanted, const TriangleSoup& soup)
 {
   const double partsOfDiagonal = 100.0;
   return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
 }
 
 //------------------------------------------------------------------------------
-std::string Describe(const vtkSurfaceRepair::Intersections& found,
-  const vtkSurfaceRepair::Intersections& left)
+std::string Describe(const SurfaceRepair::Intersections& found,
+  const SurfaceRepair::Intersections& left)
 {
   std::ostringstream text;
   text << "The surface intersects itself: " << found.NumberWithin
@@ -120,7 +122,7 @@ std::string Describe(const vtkSurfaceRepair::Intersections& found,
 }
 
 //------------------------------------------------------------------------------
-void CheckDefects(const vtkTriangleSoup& soup)
+void CheckDefects(const TriangleSoup& soup)
 {
   const std::string defects = soup.DescribeDefects();
   if (!defects.empty())
@@ -130,7 +132,7 @@ void CheckDefects(const vtkTriangleSoup& soup)
 }
 
 //------------------------------------------------------------------------------
-double ChooseEdgeLength(double wanted, const vtkTriangleSoup& soup)
+double ChooseEdgeLength(double wanted, const TriangleSoup& soup)
 {
   if (soup.Triangles.empty())
   {
@@ -141,7 +143,7 @@ double ChooseEdgeLength(double wanted, const vtkTriangleSoup& soup)
 }
 
 //------------------------------------------------------------------------------
-void WriteGeometry(const vtkSurfaceRemesher::Result& patches, bool flip, vtkPolyData* output)
+void WriteGeometry(const SurfaceRemesher::Result& patches, bool flip, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -153,7 +155,7 @@ void WriteGeometry(const vtkSurfaceRemesher::Result& patches, bool flip, vtkPoly
   vtkNew<vtkCellArray> cells;
   cells->AllocateExact(static_cast<vtkIdType>(patches.Triangles.size()),
     static_cast<vtkIdType>(3 * patches.Triangles.size()));
-  for (const vtkTriangleSoup::Triangle& triangle : patches.Triangles)
+  for (const TriangleSoup::Triangle& triangle : patches.Triangles)
   {
     const vtkIdType ids[3] = { static_cast<vtkIdType>(triangle[0]),
       static_cast<vtkIdType>(triangle[flip ? 2 : 1]),
@@ -165,7 +167,7 @@ void WriteGeometry(const vtkSurfaceRemesher::Result& patches, bool flip, vtkPoly
 }
 
 //------------------------------------------------------------------------------
-void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleSoup& soup,
+void WriteCellData(const SurfaceRemesher::Result& patches, const TriangleSoup& soup,
   vtkCellData* from, vtkCellData* to)
 {
   const vtkIdType size = static_cast<vtkIdType>(patches.Triangles.size());
@@ -187,7 +189,7 @@ void WriteCellData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleS
 }
 
 //------------------------------------------------------------------------------
-void WritePointData(const vtkSurfaceRemesher::Result& patches, const vtkTriangleSoup& soup,
+void WritePointData(const SurfaceRemesher::Result& patches, const TriangleSoup& soup,
   vtkPointData* from, vtkPointData* to)
 {
   if (from->GetNumberOfArrays() == 0)
@@ -202,8 +204,8 @@ void WritePointData(const vtkSurfaceRemesher::Result& patches, const vtkTriangle
   ids->SetNumberOfIds(3);
   for (std::size_t i = 0; i < patches.Points.size(); ++i)
   {
-    const vtkTriangleSoup::Triangle& source = soup.Triangles[patches.SourcesOfPoints[i]];
-    vtkSourceSurface::Place place = vtkSourceSurface::GetClosest(soup.Points[source[0]],
+    const TriangleSoup::Triangle& source = soup.Triangles[patches.SourcesOfPoints[i]];
+    SourceSurface::Place place = SourceSurface::GetClosest(soup.Points[source[0]],
       soup.Points[source[1]], soup.Points[source[2]], patches.Points[i]);
     for (int j = 0; j < 3; ++j)
     {
@@ -225,7 +227,7 @@ void AddSummary(vtkFieldData* fields, const char* name, Value value)
 }
 
 //------------------------------------------------------------------------------
-void WriteSummary(const vtkTriangleSoup& soup, vtkIdType patches, double length, vtkFieldData* to)
+void WriteSummary(const TriangleSoup& soup, vtkIdType patches, double length, vtkFieldData* to)
 {
   AddSummary<vtkIdTypeArray>(to, "NumberOfPatches", patches);
   AddSummary<vtkIdTypeArray>(to, "NumberOfDroppedTriangles", soup.NumberOfDroppedTriangles);
@@ -277,7 +279,7 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  if (vtkMeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
+  if (MeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
@@ -329,7 +331,7 @@ std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchMesher::RepairSurface(vtkTriangleSoup& soup)
+void vtkPatchMesher::RepairSurface(TriangleSoup& soup)
 {
   soup.DropDegenerateTriangles();
   soup.DropDuplicateTriangles();
@@ -337,7 +339,7 @@ void vtkPatchMesher::RepairSurface(vtkTriangleSoup& soup)
   Report(this, 0.04);
 
   const double size = ChooseHoleSize(this->HoleSize, soup);
-  vtkSurfaceRepair surface(soup);
+  SurfaceRepair surface(soup);
   // Where a crumb is gone, what else met there can be joined.
   vtkIdType changes = surface.JoinBorders();
   const vtkIdType crumbs = surface.DropCrumbs(size);
@@ -357,10 +359,10 @@ void vtkPatchMesher::RepairSurface(vtkTriangleSoup& soup)
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchMesher::TreatSelfIntersections(vtkTriangleSoup& soup)
+void vtkPatchMesher::TreatSelfIntersections(TriangleSoup& soup)
 {
-  vtkSurfaceRepair surface(soup);
-  const vtkSurfaceRepair::Intersections found = surface.FindSelfIntersections();
+  SurfaceRepair surface(soup);
+  const SurfaceRepair::Intersections found = surface.FindSelfIntersections();
   soup.NumberOfSelfIntersections = found.NumberWithin;
   soup.NumberOfIntersectionsBetweenComponents = found.NumberBetween;
   Report(this, 0.08);
@@ -376,9 +378,9 @@ void vtkPatchMesher::TreatSelfIntersections(vtkTriangleSoup& soup)
   const auto stop = [this]()
   {
     this->UpdateProgress(0.08);
-    return vtkAbortCheck::IsAborted(this);
+    return AbortCheck::IsAborted(this);
   };
-  const vtkSurfaceRepair::Intersections left =
+  const SurfaceRepair::Intersections left =
     surface.ResolveSelfIntersections(ChooseHoleSize(this->HoleSize, soup), stop);
   Report(this, 0.1);
   if (left.NumberWithin > 0)
@@ -411,7 +413,7 @@ std::vector<double> vtkPatchMesher::ReadLengths(vtkInformationVector** inputs)
     throw InputError("There is no numeric point array \"" + name +
       "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature.");
   }
-  return vtkSizedRemeshing::ReadLengths(array);
+  return SizedRemeshing::ReadLengths(array);
 }
 
 //------------------------------------------------------------------------------
@@ -429,7 +431,7 @@ void vtkPatchMesher::CheckProperties()
 }
 
 //------------------------------------------------------------------------------
-vtkSizedRemeshing::Settings vtkPatchMesher::GetSettings(const vtkTriangleSoup& soup,
+SizedRemeshing::Settings vtkPatchMesher::GetSettings(const TriangleSoup& soup,
   const std::vector<double>& lengthOfPoint)
 {
   const double length = ChooseEdgeLength(this->TargetEdgeLength, soup);
@@ -460,7 +462,7 @@ void vtkPatchMesher::CheckNumberOfPatches(vtkIdType number)
 void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
   const std::vector<double>& lengthOfPoint, vtkPolyData* output)
 {
-  vtkTriangleSoup soup;
+  TriangleSoup soup;
   soup.Read(input);
   Report(this, 0.02);
   if (this->Repair)
@@ -479,17 +481,17 @@ void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCe
   {
     regions.push_back(regionOfCell[cell]);
   }
-  const vtkSizedRemeshing::Settings settings = this->GetSettings(soup, lengthOfPoint);
-  vtkSurfaceRemesher remesher;
+  const SizedRemeshing::Settings settings = this->GetSettings(soup, lengthOfPoint);
+  SurfaceRemesher remesher;
   if (!remesher.Build(soup, regions, this->FeatureAngle))
   {
     throw InputError("The surface is not a manifold, even after the repair: split it first.");
   }
-  const double length = vtkSizedRemeshing::Remesh(remesher, soup, settings,
+  const double length = SizedRemeshing::Remesh(remesher, soup, settings,
     [this](double fraction) { Report(this, 0.1 + 0.75 * fraction); });
   Report(this, 0.85);
 
-  const vtkSurfaceRemesher::Result patches = remesher.GetResult();
+  const SurfaceRemesher::Result patches = remesher.GetResult();
   WriteGeometry(patches, this->FlipNormals, output);
   WriteCellData(patches, soup, input->GetCellData(), output->GetCellData());
   Report(this, 0.95);

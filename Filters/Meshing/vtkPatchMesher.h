@@ -64,11 +64,14 @@
 
 #include <vector> // for std::vector
 
-class vtkTriangleSoup;
-namespace vtkSizedRemeshing
+namespace LightTransport
+{
+class TriangleSoup;
+namespace SizedRemeshing
 {
 struct Settings;
 }
+} // namespace LightTransport
 
 class VTKLIGHTTRANSPORTMESHING_EXPORT vtkPatchMesher : public vtkPolyDataAlgorithm
 {
@@ -280,10 +283,10 @@ private:
   std::vector<int> ReadRegions(vtkInformationVector** inputs);
   /// One length per input point if the size field is an array, else none.
   std::vector<double> ReadLengths(vtkInformationVector** inputs);
-  void RepairSurface(vtkTriangleSoup& soup);
-  void TreatSelfIntersections(vtkTriangleSoup& soup);
+  void RepairSurface(LightTransport::TriangleSoup& soup);
+  void TreatSelfIntersections(LightTransport::TriangleSoup& soup);
   void CheckProperties();
-  vtkSizedRemeshing::Settings GetSettings(const vtkTriangleSoup& soup,
+  LightTransport::SizedRemeshing::Settings GetSettings(const LightTransport::TriangleSoup& soup,
     const std::vector<double>& lengthOfPoint);
   void CheckNumberOfPatches(vtkIdType number);
   void Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,

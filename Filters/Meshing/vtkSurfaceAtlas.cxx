@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceAtlas.h"
 
-#include "vtkAtlasMetrics.h"
-#include "vtkAtlasOutput.h"
-#include "vtkAtlasQuadtree.h"
-#include "vtkAtlasSurface.h"
-#include "vtkMeshingRun.h"
-#include "vtkTexelMaps.h"
+#include "Atlas/AtlasMetrics.h"
+#include "Atlas/AtlasOutput.h"
+#include "Atlas/AtlasQuadtree.h"
+#include "Atlas/AtlasSurface.h"
+#include "Atlas/TexelMaps.h"
+#include "Common/MeshingRun.h"
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -28,36 +28,38 @@
 #include <cmath>
 #include <string>
 
+using namespace LightTransport;
+
 vtkStandardNewMacro(vtkSurfaceAtlas);
 
 namespace
 {
-using vtkMeshingRun::Advice;
-using vtkMeshingRun::InputError;
-using vtkMeshingRun::Outcome;
-using vtkMeshingRun::Report;
-using vtkMeshingRun::Try;
+using MeshingRun::Advice;
+using MeshingRun::InputError;
+using MeshingRun::Outcome;
+using MeshingRun::Report;
+using MeshingRun::Try;
 
 constexpr int LARGEST_RESOLUTION = 16384;
 
 //------------------------------------------------------------------------------
 // Points with equal coordinates are one, unless only their being apart makes the surface a
 // manifold, as where vtkPatchMesher split it.
-vtkTriangleSoup ReadSurface(vtkPolyData* input)
+TriangleSoup ReadSurface(vtkPolyData* input)
 {
-  vtkTriangleSoup merged;
+  TriangleSoup merged;
   merged.Read(input);
   if (merged.DescribeDefects().empty())
   {
     return merged;
   }
-  vtkTriangleSoup apart;
+  TriangleSoup apart;
   apart.Read(input, false);
   return apart.DescribeDefects().empty() ? apart : merged;
 }
 
 //------------------------------------------------------------------------------
-void CheckSurface(const vtkTriangleSoup& soup)
+void CheckSurface(const TriangleSoup& soup)
 {
   if (soup.Triangles.empty())
   {
@@ -81,15 +83,15 @@ void AddValue(vtkPolyData* output, const char* name, Value value)
 }
 
 //------------------------------------------------------------------------------
-void WriteMetrics(const vtkAtlasQuadtree& quadtree, vtkPolyData* output)
+void WriteMetrics(const AtlasQuadtree& quadtree, vtkPolyData* output)
 {
-  const vtkAtlasMetrics metrics(output, output->GetPointData()->GetTCoords());
+  const AtlasMetrics metrics(output, output->GetPointData()->GetTCoords());
   AddValue<vtkDoubleArray>(output, "L2Stretch", metrics.L2Stretch);
   AddValue<vtkDoubleArray>(output, "LInfinityStretch", metrics.LInfinityStretch);
   AddValue<vtkDoubleArray>(output, "AreaDistortion", metrics.AreaDistortion);
   AddValue<vtkDoubleArray>(output, "TexelUse", metrics.TexelUse);
   int smallestBlock = quadtree.GetNodes().front().Size;
-  for (const vtkAtlasQuadtree::Chart& chart : quadtree.GetCharts())
+  for (const AtlasQuadtree::Chart& chart : quadtree.GetCharts())
   {
     smallestBlock = std::min(smallestBlock, quadtree.GetNodes()[chart.Node].Size);
   }
@@ -156,7 +158,7 @@ int vtkSurfaceAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkPolyData* surface = vtkPolyData::GetData(outputs, 0);
   vtkTable* charts = vtkTable::GetData(outputs, 1);
   vtkImageData* maps = vtkImageData::GetData(outputs, 2);
-  if (vtkMeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
+  if (MeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
@@ -203,14 +205,14 @@ void vtkSurfaceAtlas::Unfold(vtkPolyData* input, vtkPolyData* output, vtkTable* 
   vtkImageData* maps)
 {
   const double start = vtkTimerLog::GetUniversalTime();
-  const vtkTriangleSoup soup = ReadSurface(input);
+  const TriangleSoup soup = ReadSurface(input);
   CheckSurface(soup);
   Report(this, 0.05);
-  const vtkAtlasSurface surface(soup);
-  const vtkAtlasQuadtree quadtree(surface, this->Resolution, this->MaximumStretch,
+  const AtlasSurface surface(soup);
+  const AtlasQuadtree quadtree(surface, this->Resolution, this->MaximumStretch,
     [this](double done) { Report(this, 0.05 + 0.8 * done); });
 
-  const vtkAtlasOutput writer(input, soup, surface, quadtree);
+  const AtlasOutput writer(input, soup, surface, quadtree);
   writer.WriteSurface(output);
   writer.WriteTable(charts);
   Report(this, 0.9);
@@ -219,7 +221,7 @@ void vtkSurfaceAtlas::Unfold(vtkPolyData* input, vtkPolyData* output, vtkTable* 
   const double unfolded = vtkTimerLog::GetUniversalTime();
   if (this->TexelMaps)
   {
-    vtkTexelMaps::Make(output, this->Resolution, maps);
+    TexelMaps::Make(output, this->Resolution, maps);
   }
   AddValue<vtkDoubleArray>(output, "AtlasSeconds", unfolded - start);
   AddValue<vtkDoubleArray>(output, "TexelMapSeconds", vtkTimerLog::GetUniversalTime() - unfolded);

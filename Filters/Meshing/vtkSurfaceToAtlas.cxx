@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceToAtlas.h"
 
-#include "vtkMeshingRun.h"
-#include "vtkTexelMaps.h"
-#include "vtkTexelPieces.h"
+#include "Atlas/TexelMaps.h"
+#include "Atlas/TexelPieces.h"
+#include "Common/MeshingRun.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -21,15 +21,17 @@
 #include <string>
 #include <vector>
 
+using namespace LightTransport;
+
 vtkStandardNewMacro(vtkSurfaceToAtlas);
 
 namespace
 {
-using vtkMeshingRun::Advice;
-using vtkMeshingRun::InputError;
-using vtkMeshingRun::Outcome;
-using vtkMeshingRun::Report;
-using vtkMeshingRun::Try;
+using MeshingRun::Advice;
+using MeshingRun::InputError;
+using MeshingRun::Outcome;
+using MeshingRun::Report;
+using MeshingRun::Try;
 
 //------------------------------------------------------------------------------
 // 0 when neither the property nor the surface says it.
@@ -59,13 +61,13 @@ bool HasMeans(vtkDataSetAttributes* data, int index)
   return (attribute < 0 || attribute == vtkDataSetAttributes::SCALARS ||
            attribute == vtkDataSetAttributes::VECTORS ||
            attribute == vtkDataSetAttributes::TENSORS) &&
-    !vtkTexelMaps::IsTexelMap(array->GetName()) && skipped.count(array->GetName()) == 0;
+    !TexelMaps::IsTexelMap(array->GetName()) && skipped.count(array->GetName()) == 0;
 }
 
 //------------------------------------------------------------------------------
-std::vector<vtkTexelMaps::Source> GetSources(vtkPolyData* surface)
+std::vector<TexelMaps::Source> GetSources(vtkPolyData* surface)
 {
-  std::vector<vtkTexelMaps::Source> sources;
+  std::vector<TexelMaps::Source> sources;
   std::set<std::string> names;
   const auto add = [&](vtkDataSetAttributes* data, bool ofPoints)
   {
@@ -142,9 +144,9 @@ int vtkSurfaceToAtlas::RequestData(vtkInformation*, vtkInformationVector** input
           "The surface has no field data array \"AtlasResolution\" that says how many "
           "texels a side its atlas is made for: set Resolution.");
       }
-      vtkTexelPieces::Check(surface, resolution);
+      TexelPieces::Check(surface, resolution);
       Report(this, 0.1);
-      vtkTexelMaps::Make(surface, resolution, maps, GetSources(surface));
+      TexelMaps::Make(surface, resolution, maps, GetSources(surface));
       Report(this, 1.0);
     });
   if (!outcome.Done)

@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCPULinkOperator.h"
 
+#include "Shared/Threads.h"
 #include "vtkCommunicator.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkHierarchicalLinkOperator.h"
 #include "vtkMultiProcessController.h"
-#include "vtkTransportThreads.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
+
+using namespace LightTransport;
 
 namespace
 {
@@ -239,7 +241,7 @@ bool vtkCPULinkOperator::GetRow(vtkIdType i, int band, double* row)
 int vtkCPULinkOperator::GetNumberOfThreads()
 {
   int threads = 1;
-  vtkTransportThreads::Run([&]() { threads = vtkSMPTools::GetEstimatedNumberOfThreads(); });
+  Threads::Run([&]() { threads = vtkSMPTools::GetEstimatedNumberOfThreads(); });
   return threads;
 }
 

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDenseLinkOperator.h"
 
+#include "Links/LinkKernels.h"
+#include "Shared/Threads.h"
 #include "vtkExchangeMatrix.h"
-#include "vtkLinkKernels.h"
 #include "vtkObjectFactory.h"
 #include "vtkSMPThreadLocal.h"
-#include "vtkTransportThreads.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkDenseLinkOperator);
 
@@ -98,11 +100,11 @@ struct TileProducts
     const vtkIdType column = tile.Column * N;
     if (row == column)
     {
-      vtkLinkKernels::MultiplyTileRows(values, bands, this->Stride, x + row, y + row);
+      LinkKernels::MultiplyTileRows(values, bands, this->Stride, x + row, y + row);
     }
     else
     {
-      vtkLinkKernels::MultiplyTile(values, bands, this->Stride, x + row, x + column, y + row,
+      LinkKernels::MultiplyTile(values, bands, this->Stride, x + row, x + column, y + row,
         y + column);
     }
   }
@@ -158,7 +160,7 @@ struct RowOfTiles
     for (int kernel = 0; kernel < kernels; ++kernel)
     {
       const auto multiply =
-        transposed ? vtkLinkKernels::MultiplyTileColumns : vtkLinkKernels::MultiplyTileRows;
+        transposed ? LinkKernels::MultiplyTileColumns : LinkKernels::MultiplyTileRows;
       multiply(values + kernel * N * N, bands, N, x + kernel * N, y + kernel * N);
     }
   }
@@ -204,7 +206,7 @@ void vtkDenseLinkOperator::MultiplyPart(const Vector& x, Vector& y)
   }
   TileProducts products{ tiles, this->Exchange->GetRemainders(), this->NumberOfKernels,
     this->NumberOfBands, this->Stride, x.data(), y.data(), {} };
-  vtkTransportThreads::For(0, static_cast<vtkIdType>(tiles.size()), TilesPerTask, products);
+  Threads::For(0, static_cast<vtkIdType>(tiles.size()), TilesPerTask, products);
 }
 
 //------------------------------------------------------------------------------
@@ -213,7 +215,7 @@ void vtkDenseLinkOperator::GatherOffDiagonal(vtkIdType tileRow, const Vector& x,
   sums.resize(this->NumberOfBands * N);
   RowOfTiles gather{ *this->Exchange, tileRow, this->NumberOfBands, this->Stride, x.data(),
     sums.data(), {} };
-  vtkTransportThreads::For(0, this->Exchange->GetNumberOfTileRows(), 0, gather);
+  Threads::For(0, this->Exchange->GetNumberOfTileRows(), 0, gather);
 }
 
 //------------------------------------------------------------------------------
@@ -277,7 +279,7 @@ void vtkDenseLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 //------------------------------------------------------------------------------
 const char* vtkDenseLinkOperator::GetInstructionSet()
 {
-  return vtkLinkKernels::GetInstructionSet();
+  return LinkKernels::GetInstructionSet();
 }
 
 //------------------------------------------------------------------------------

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDirectIrradiance.h"
 
+#include "Geometry/PatchSampler.h"
+#include "Geometry/SceneRayCaster.h"
+#include "Scattering/DiffusionProfile.h"
+#include "Scene/PatchScene.h"
+#include "Shared/Threads.h"
 #include "vtkCommunicator.h"
 #include "vtkDataArray.h"
-#include "vtkDiffusionProfile.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -15,12 +19,8 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPatchSampler.h"
-#include "vtkPatchScene.h"
 #include "vtkPointData.h"
-#include "vtkSceneRayCaster.h"
 #include "vtkTimerLog.h"
-#include "vtkTransportThreads.h"
 
 #include <Eigen/Geometry>
 
@@ -30,11 +30,13 @@
 #include <string>
 #include <vector>
 
+using namespace LightTransport;
+
 vtkStandardNewMacro(vtkDirectIrradiance);
 
 namespace
 {
-using Vector = vtkPatchScene::Vector;
+using Vector = PatchScene::Vector;
 
 constexpr int Bands = 3;
 /// Points on a patch where the first ones disagree, over their number.
@@ -62,7 +64,7 @@ struct Light
 
 //------------------------------------------------------------------------------
 /// Returns nullptr, or what is wrong with the light and the remedy.
-const char* ConvertLight(vtkLight* object, const vtkPatchScene& scene, Light& light)
+const char* ConvertLight(vtkLight* object, const PatchScene& scene, Light& light)
 {
   double position[3];
   double focus[3];
@@ -136,13 +138,12 @@ struct RadianceMap
 /// Evenly spread points of a patch.
 struct PatchPoints
 {
-  vtkPolygonExchange::Polygon Polygon;
-  vtkPatchSampler Sampler;
+  PolygonExchange::Polygon Polygon;
+  PatchSampler Sampler;
 
-  PatchPoints(const vtkPatchScene& scene, vtkIdType patch)
-    : Sampler(static_cast<std::uint64_t>(patch))
+  PatchPoints(const PatchScene& scene, vtkIdType patch) : Sampler(static_cast<std::uint64_t>(patch))
   {
-    vtkPolygonExchange::MakePolygon(scene, patch, this->Polygon);
+    PolygonExchange::MakePolygon(scene, patch, this->Polygon);
   }
 
   Vector Get(int k) const { return this->Sampler.GetPoint(this->Polygon, k, 0); }
@@ -171,8 +172,8 @@ struct vtkDirectIrradiance::Internals
 {
   std::vector<vtkSmartPointer<vtkLight>> LightObjects;
 
-  vtkPatchScene Scene;
-  vtkSceneRayCaster Caster;
+  PatchScene Scene;
+  SceneRayCaster Caster;
   std::vector<Light> Lights;
   RadianceMap Surroundings;
 
@@ -245,7 +246,7 @@ bool vtkDirectIrradiance::Internals::LightPatch(const Light& light, const PatchP
     smallest = std::min(smallest, strength);
     largest = std::max(largest, strength);
     sum.Add(light.Color, strength / count,
-      vtkDiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
+      DiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
   }
   // A narrow shadow or light along an edge misses all points, but hardly all corners.
   const int corners = refined ? 0 : this->Scene.GetNumberOfCorners(patch);
@@ -300,8 +301,7 @@ void vtkDirectIrradiance::Internals::AddEnvironment(const PatchPoints& points, v
     {
       double radiance[Bands];
       this->Surroundings.Evaluate(direction, radiance);
-      sum.Add(radiance, weight,
-        vtkDiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
+      sum.Add(radiance, weight, DiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
     }
   }
   this->Rays[patch] += this->EnvironmentSamples;
@@ -507,7 +507,7 @@ bool vtkDirectIrradiance::ComputeIrradiance()
   Internals& self = *this->Self;
   std::string error;
   const bool built = !this->Shadows || self.Caster.Build(self.Scene, error);
-  if (!vtkPatchScene::Agree(this->Controller, built, error))
+  if (!PatchScene::Agree(this->Controller, built, error))
   {
     vtkErrorMacro(<< error);
     return false;
@@ -532,8 +532,8 @@ bool vtkDirectIrradiance::ComputeIrradiance()
   };
   for (int batch = 0; batch < NumberOfBatches; ++batch)
   {
-    vtkTransportThreads::For(count * batch / NumberOfBatches, count * (batch + 1) / NumberOfBatches,
-      16, compute);
+    Threads::For(count * batch / NumberOfBatches, count * (batch + 1) / NumberOfBatches, 16,
+      compute);
     if (!this->ReportProgress(static_cast<double>(batch + 1) / NumberOfBatches))
     {
       return false;

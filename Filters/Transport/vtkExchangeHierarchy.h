@@ -19,7 +19,7 @@
  * independently, on any device. Uniform links, adaptive links and hierarchical radiosity (Hanrahan,
  * Salzman and Aupperle 1991) differ in which links there are.
  *
- * A tree may come from anywhere (vtkPatchTree, or the quadtree of an atlas).
+ * A tree may come from anywhere (PatchTree, or the quadtree of an atlas).
  */
 #ifndef vtkExchangeHierarchy_h
 #define vtkExchangeHierarchy_h

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkHierarchicalLinkOperator.h"
 
+#include "Shared/Threads.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkObjectFactory.h"
-#include "vtkTransportThreads.h"
 
 #include <algorithm>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkHierarchicalLinkOperator);
 
@@ -78,7 +80,7 @@ void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, co
   double* received)
 {
   Gather<Count> gather{ hierarchy, bands, sent + first, received + first };
-  vtkTransportThreads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiosity.h"
 
+#include "Radiosity/ProgressiveRadiosity.h"
+#include "Radiosity/RadiosityMaterials.h"
+#include "Radiosity/RadiositySolvers.h"
+#include "Scene/PatchScene.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDataObject.h"
 #include "vtkDeviceShooter.h"
@@ -13,10 +17,6 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPatchScene.h"
-#include "vtkProgressiveRadiosity.h"
-#include "vtkRadiosityMaterials.h"
-#include "vtkRadiositySolvers.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 #include "vtkViewFactors.h"
@@ -24,6 +24,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkRadiosity);
 vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
@@ -82,10 +84,10 @@ void PrintValues(ostream& os, const std::vector<double>& values)
 //------------------------------------------------------------------------------
 struct vtkRadiosity::Problem
 {
-  vtkRadiosityMaterials Materials;
+  RadiosityMaterials Materials;
   const std::vector<double>* Areas = nullptr; // in the exchange matrix's unit
   std::vector<double> Irradiance;             // patches x bands
-  vtkRadiositySolution Solution;
+  RadiositySolution Solution;
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
@@ -97,10 +99,10 @@ struct vtkRadiosity::Problem
 vtkRadiosity::vtkRadiosity()
 {
   this->SetNumberOfOutputPorts(2);
-  for (int array = 0; array < vtkRadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
   {
     this->SetInputArrayToProcess(array, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS,
-      vtkRadiosityMaterials::GetDefaultName(array));
+      RadiosityMaterials::GetDefaultName(array));
   }
   this->InternalViewFactors = vtkSmartPointer<vtkViewFactors>::New();
 }
@@ -129,7 +131,7 @@ int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  vtkPatchScene scene;
+  PatchScene scene;
   Problem problem;
   if (!this->CheckSolver() || !this->BuildScene(input, scene) ||
     !this->ReadMaterials(input, scene, problem))
@@ -175,13 +177,13 @@ bool vtkRadiosity::CheckSolver()
                   "use ConjugateGradient, Chebyshev, Jacobi or Southwell.");
     return false;
   }
-  if (!vtkRadiositySolvers::IsSequential(this->Solver) || this->ShootsOnDevice())
+  if (!RadiositySolvers::IsSequential(this->Solver) || this->ShootsOnDevice())
   {
     return this->CheckDevice(this->Device);
   }
   if (this->Device == DEVICE_OPENGL || this->GetNumberOfRanks() > 1)
   {
-    vtkErrorMacro(<< vtkRadiositySolvers::GetName(this->Solver)
+    vtkErrorMacro(<< RadiositySolvers::GetName(this->Solver)
                   << " goes from patch to patch and runs on the CPU of one process: set Device to "
                      "Auto or CPU on one process, or use Jacobi, Chebyshev or ConjugateGradient.");
     return false;
@@ -191,7 +193,7 @@ bool vtkRadiosity::CheckSolver()
 
 //------------------------------------------------------------------------------
 // The number of patches decides how they are linked, which decides on their order.
-bool vtkRadiosity::BuildScene(vtkDataObject* input, vtkPatchScene& scene)
+bool vtkRadiosity::BuildScene(vtkDataObject* input, PatchScene& scene)
 {
   std::string error;
   bool built = scene.Build(input, this->Controller, error);
@@ -199,7 +201,7 @@ bool vtkRadiosity::BuildScene(vtkDataObject* input, vtkPatchScene& scene)
   if (built && !this->ShootsOnDevice() && this->IsHierarchical(scene.GetNumberOfPatches()) &&
     this->UsesAtlas(input, tree))
   {
-    built = scene.Build(input, this->Controller, error, vtkPatchScene::Order::Atlas);
+    built = scene.Build(input, this->Controller, error, PatchScene::Order::Atlas);
   }
   if (!built)
   {
@@ -209,13 +211,13 @@ bool vtkRadiosity::BuildScene(vtkDataObject* input, vtkPatchScene& scene)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem)
+bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const PatchScene& scene, Problem& problem)
 {
   std::vector<std::string> names;
-  for (int array = 0; array < vtkRadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
   {
     const char* name = this->GetInputArrayInformation(array)->Get(vtkDataObject::FIELD_NAME());
-    names.emplace_back(name && *name ? name : vtkRadiosityMaterials::GetDefaultName(array));
+    names.emplace_back(name && *name ? name : RadiosityMaterials::GetDefaultName(array));
   }
   problem.Materials.BandLimits = this->BandLimits;
   problem.Materials.BackgroundTemperature = this->BackgroundTemperature;
@@ -242,7 +244,7 @@ bool vtkRadiosity::IsHierarchical(vtkIdType patches) const
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
+bool vtkRadiosity::LinkAndSolve(const PatchScene& scene,
   vtkSmartPointer<vtkViewFactors>& viewFactors, Problem& problem, vtkTable* convergence)
 {
   const bool isBright = this->RefineByBrightness && !this->ViewFactors &&
@@ -267,7 +269,7 @@ bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
   problem.IsTrial = true;
   const bool isBrightKnown = this->Solve(scene, viewFactors, problem, convergence);
   problem.IsTrial = false;
-  if (problem.Solution.Status == vtkRadiosityStatus::Aborted)
+  if (problem.Solution.Status == RadiosityStatus::Aborted)
   {
     return false;
   }
@@ -279,7 +281,7 @@ bool vtkRadiosity::LinkAndSolve(const vtkPatchScene& scene,
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const vtkPatchScene& scene,
+vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const PatchScene& scene,
   const Problem& problem, double linkTolerance)
 {
   vtkSmartPointer<vtkViewFactors> viewFactors = this->ViewFactors;
@@ -302,7 +304,7 @@ vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const vtkPatchSc
 
 //------------------------------------------------------------------------------
 // In an object of their own: they serve this distribution of light alone.
-vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const vtkPatchScene& scene,
+vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const PatchScene& scene,
   const Problem& problem)
 {
   const int bands = problem.Materials.NumberOfBands;
@@ -346,12 +348,12 @@ void vtkRadiosity::AddBackground(const vtkViewFactors* viewFactors, Problem& pro
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
+bool vtkRadiosity::Solve(const PatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
   vtkTable* convergence)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
   vtkExchange* exchange = viewFactors->GetExchange();
-  const int device = vtkRadiositySolvers::IsSequential(this->Solver) ? DEVICE_CPU : this->Device;
+  const int device = RadiositySolvers::IsSequential(this->Solver) ? DEVICE_CPU : this->Device;
   auto links = this->MakeLinkOperator(device, exchange, problem.Materials.NumberOfBands,
     problem.DeviceExplanation);
   auto reference =
@@ -361,7 +363,7 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
     return false;
   }
   problem.Areas = &exchange->GetAreas();
-  vtkRadiosityProblem equation = this->DescribeEquation(problem);
+  RadiosityProblem equation = this->DescribeEquation(problem);
   equation.Operator = links;
   equation.Reference = reference;
   equation.Areas = problem.Areas;
@@ -370,7 +372,7 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
   equation.GetPolygon = [&scene](vtkIdType patch) { return scene.GetPolygon(patch); };
   this->RecordConvergence(equation, convergence, begin);
 
-  problem.Solution = vtkRadiositySolvers::Solve(equation);
+  problem.Solution = RadiositySolvers::Solve(equation);
   problem.DeviceUsed = links->GetDeviceName();
   problem.SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
   return this->Finish(reference, problem);
@@ -378,7 +380,7 @@ bool vtkRadiosity::Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors
 
 //------------------------------------------------------------------------------
 // The other way to solve: an iteration is a shot here, and shots bring the irradiance.
-bool vtkRadiosity::Shoot(const vtkPatchScene& scene, Problem& problem, vtkTable* convergence)
+bool vtkRadiosity::Shoot(const PatchScene& scene, Problem& problem, vtkTable* convergence)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
   auto shooter = vtkSmartPointer<vtkDeviceShooter>::Take(vtkDeviceShooter::New());
@@ -394,15 +396,15 @@ bool vtkRadiosity::Shoot(const vtkPatchScene& scene, Problem& problem, vtkTable*
                   "Device to Auto or CPU, or use another solver.");
     return false;
   }
-  vtkRadiosityProblem equation = this->DescribeEquation(problem);
+  RadiosityProblem equation = this->DescribeEquation(problem);
   const vtkIdType patches = equation.NumberOfPatches;
   equation.MaximumNumberOfIterations =
     static_cast<int>(std::min<vtkIdType>(VTK_INT_MAX, patches * this->MaximumNumberOfIterations));
   this->SetProgressStage(0.0, SolverDone);
   this->RecordConvergence(equation, convergence, begin);
 
-  vtkRadiositySolution& solution = problem.Solution;
-  solution = vtkProgressiveRadiosity::Solve(shooter, scene, equation, problem.Irradiance);
+  RadiositySolution& solution = problem.Solution;
+  solution = ProgressiveRadiosity::Solve(shooter, scene, equation, problem.Irradiance);
   problem.Shots = solution.NumberOfIterations;
   solution.NumberOfIterations = static_cast<int>((problem.Shots + patches - 1) / patches);
   problem.DeviceUsed = shooter->GetDeviceName();
@@ -415,10 +417,10 @@ bool vtkRadiosity::Shoot(const vtkPatchScene& scene, Problem& problem, vtkTable*
 
 //------------------------------------------------------------------------------
 // What the equation is, whatever solves it.
-vtkRadiosityProblem vtkRadiosity::DescribeEquation(const Problem& problem) const
+RadiosityProblem vtkRadiosity::DescribeEquation(const Problem& problem) const
 {
-  const vtkRadiosityMaterials& materials = problem.Materials;
-  vtkRadiosityProblem equation;
+  const RadiosityMaterials& materials = problem.Materials;
+  RadiosityProblem equation;
   equation.Solver = this->Solver;
   equation.NumberOfBands = materials.NumberOfBands;
   equation.Reflectance = materials.Reflectance;
@@ -437,7 +439,7 @@ vtkRadiosityProblem vtkRadiosity::DescribeEquation(const Problem& problem) const
 //------------------------------------------------------------------------------
 // One row of the table per iteration; progress follows the logarithm of the error bound, which
 // falls steadily.
-void vtkRadiosity::RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence,
+void vtkRadiosity::RecordConvergence(RadiosityProblem& equation, vtkTable* convergence,
   double begin)
 {
   vtkNew<vtkIntArray> iterations;
@@ -472,10 +474,10 @@ void vtkRadiosity::RecordConvergence(vtkRadiosityProblem& equation, vtkTable* co
 // Whether there is one to write, after saying what is wrong with it.
 bool vtkRadiosity::CheckSolution(const Problem& problem)
 {
-  const vtkRadiositySolution& solution = problem.Solution;
+  const RadiositySolution& solution = problem.Solution;
   if (problem.IsTrial)
   {
-    return solution.Error.empty() && solution.Status != vtkRadiosityStatus::Aborted;
+    return solution.Error.empty() && solution.Status != RadiosityStatus::Aborted;
   }
   if (!solution.Error.empty())
   {
@@ -487,7 +489,7 @@ bool vtkRadiosity::CheckSolution(const Problem& problem)
     vtkErrorMacro(<< solution.Error << hint);
     return false;
   }
-  if (solution.Status == vtkRadiosityStatus::Aborted)
+  if (solution.Status == RadiosityStatus::Aborted)
   {
     return false;
   }
@@ -503,7 +505,7 @@ bool vtkRadiosity::CheckSolution(const Problem& problem)
 // output arrays.
 bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
 {
-  vtkRadiositySolution& solution = problem.Solution;
+  RadiositySolution& solution = problem.Solution;
   if (!this->CheckSolution(problem))
   {
     return false;
@@ -527,7 +529,7 @@ bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
 }
 
 //------------------------------------------------------------------------------
-void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
+void vtkRadiosity::Write(vtkDataObject* input, PatchScene& scene, const Problem& problem,
   vtkViewFactors* viewFactors, vtkDataObject* output)
 {
   scene.BuildSmoothPoints(this->FeatureAngle, problem.Materials.GetPointMaterials(),
@@ -543,10 +545,10 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
   this->WriteThermal(scene, problem, flux, output);
 
   vtkFieldData* fields = output->GetFieldData();
-  const vtkRadiositySolution& solution = problem.Solution;
-  AddSummary(fields, "SolverUsed", std::string(vtkRadiositySolvers::GetName(solution.Solver)));
+  const RadiositySolution& solution = problem.Solution;
+  AddSummary(fields, "SolverUsed", std::string(RadiositySolvers::GetName(solution.Solver)));
   AddSummary(fields, "SolverExplanation", solution.Explanation);
-  AddSummary(fields, "SolverStatus", std::string(vtkRadiositySolvers::GetName(solution.Status)));
+  AddSummary(fields, "SolverStatus", std::string(RadiositySolvers::GetName(solution.Status)));
   AddSummary(fields, "DeviceUsed", problem.DeviceUsed);
   AddSummary(fields, "DeviceExplanation", problem.DeviceExplanation);
   AddSummary(fields, "NumberOfIterations", solution.NumberOfIterations);
@@ -566,10 +568,10 @@ void vtkRadiosity::Write(vtkDataObject* input, vtkPatchScene& scene, const Probl
 }
 
 //------------------------------------------------------------------------------
-void vtkRadiosity::WriteThermal(const vtkPatchScene& scene, const Problem& problem,
+void vtkRadiosity::WriteThermal(const PatchScene& scene, const Problem& problem,
   const std::vector<double>& flux, vtkDataObject* output)
 {
-  const vtkRadiosityMaterials& materials = problem.Materials;
+  const RadiosityMaterials& materials = problem.Materials;
   if (!materials.IsThermal())
   {
     return;
@@ -650,7 +652,7 @@ double vtkRadiosity::GetBackgroundRadiance(int band) const
 void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Solver: " << vtkRadiositySolvers::GetName(this->Solver) << "\n";
+  os << indent << "Solver: " << RadiositySolvers::GetName(this->Solver) << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumNumberOfIterations: " << this->MaximumNumberOfIterations << "\n";
   PrintValues(os << indent << "BandLimits:", this->BandLimits);

@@ -77,10 +77,14 @@
 #include <vector> // for std::vector
 
 class vtkCPULinkOperator;
-class vtkPatchScene;
 class vtkTable;
 class vtkViewFactors;
-struct vtkRadiosityProblem;
+
+namespace LightTransport
+{
+class PatchScene;
+struct RadiosityProblem;
+} // namespace LightTransport
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkRadiosity : public vtkTransportAlgorithm
 {
@@ -276,26 +280,28 @@ private:
   struct Problem;
   bool ShootsOnDevice() const;
   bool CheckSolver();
-  bool BuildScene(vtkDataObject* input, vtkPatchScene& scene);
-  bool ReadMaterials(vtkDataObject* input, const vtkPatchScene& scene, Problem& problem);
+  bool BuildScene(vtkDataObject* input, LightTransport::PatchScene& scene);
+  bool ReadMaterials(vtkDataObject* input, const LightTransport::PatchScene& scene,
+    Problem& problem);
   bool IsHierarchical(vtkIdType patches) const;
-  bool LinkAndSolve(const vtkPatchScene& scene, vtkSmartPointer<vtkViewFactors>& viewFactors,
-    Problem& problem, vtkTable* convergence);
-  vtkSmartPointer<vtkViewFactors> UpdateViewFactors(const vtkPatchScene& scene,
+  bool LinkAndSolve(const LightTransport::PatchScene& scene,
+    vtkSmartPointer<vtkViewFactors>& viewFactors, Problem& problem, vtkTable* convergence);
+  vtkSmartPointer<vtkViewFactors> UpdateViewFactors(const LightTransport::PatchScene& scene,
     const Problem& problem, double linkTolerance);
-  vtkSmartPointer<vtkViewFactors> UpdateBrightLinks(const vtkPatchScene& scene,
+  vtkSmartPointer<vtkViewFactors> UpdateBrightLinks(const LightTransport::PatchScene& scene,
     const Problem& problem);
   static void AddBackground(const vtkViewFactors* viewFactors, Problem& problem);
-  bool Solve(const vtkPatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
+  bool Solve(const LightTransport::PatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
     vtkTable* convergence);
-  void RecordConvergence(vtkRadiosityProblem& equation, vtkTable* convergence, double begin);
-  bool Shoot(const vtkPatchScene& scene, Problem& problem, vtkTable* convergence);
-  vtkRadiosityProblem DescribeEquation(const Problem& problem) const;
+  void RecordConvergence(LightTransport::RadiosityProblem& equation, vtkTable* convergence,
+    double begin);
+  bool Shoot(const LightTransport::PatchScene& scene, Problem& problem, vtkTable* convergence);
+  LightTransport::RadiosityProblem DescribeEquation(const Problem& problem) const;
   bool CheckSolution(const Problem& problem);
   bool Finish(vtkCPULinkOperator* links, Problem& problem);
-  void Write(vtkDataObject* input, vtkPatchScene& scene, const Problem& problem,
+  void Write(vtkDataObject* input, LightTransport::PatchScene& scene, const Problem& problem,
     vtkViewFactors* viewFactors, vtkDataObject* output);
-  void WriteThermal(const vtkPatchScene& scene, const Problem& problem,
+  void WriteThermal(const LightTransport::PatchScene& scene, const Problem& problem,
     const std::vector<double>& flux, vtkDataObject* output);
 
   int Solver = SOLVER_AUTO;

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubsurfaceScattering.h"
 
+#include "Scattering/DiffusionProfile.h"
+#include "Scattering/ScatteringExchange.h"
+#include "Scene/PatchScene.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
-#include "vtkDiffusionProfile.h"
 #include "vtkDoubleArray.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkFieldData.h"
@@ -16,14 +18,14 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPatchScene.h"
-#include "vtkScatteringExchange.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkSubsurfaceScattering);
 
@@ -80,7 +82,7 @@ struct vtkSubsurfaceScattering::Optics
 //------------------------------------------------------------------------------
 struct vtkSubsurfaceScattering::Internals
 {
-  vtkPatchScene Scene;
+  PatchScene Scene;
 
   /// The links, kept for as long as what they depend on stays the same.
   vtkSmartPointer<vtkExchangeMatrix> Exchange;
@@ -111,7 +113,7 @@ vtkSubsurfaceScattering::~vtkSubsurfaceScattering() = default;
 bool vtkSubsurfaceScattering::GetMaterialProperties(int material, double scattering[3],
   double absorption[3], double& refractiveIndex)
 {
-  const vtkDiffusionProfile::Material* found = vtkDiffusionProfile::FindMaterial(material);
+  const DiffusionProfile::Material* found = DiffusionProfile::FindMaterial(material);
   if (!found)
   {
     return false;
@@ -129,7 +131,7 @@ const char* vtkSubsurfaceScattering::GetMaterialName(int material)
   {
     return "Custom";
   }
-  const vtkDiffusionProfile::Material* found = vtkDiffusionProfile::FindMaterial(material);
+  const DiffusionProfile::Material* found = DiffusionProfile::FindMaterial(material);
   return found ? found->Name : nullptr;
 }
 
@@ -208,7 +210,7 @@ bool vtkSubsurfaceScattering::FindOptics(Optics& optics)
     return false;
   }
   optics.Entering = this->Incidence == INCIDENCE_DIFFUSE
-    ? 1.0 - vtkDiffusionProfile::GetMeanExternalReflectance(optics.RefractiveIndex)
+    ? 1.0 - DiffusionProfile::GetMeanExternalReflectance(optics.RefractiveIndex)
     : 1.0;
   return true;
 }
@@ -292,14 +294,14 @@ bool vtkSubsurfaceScattering::MakeLinks(const Optics& optics)
   {
     return false;
   }
-  std::vector<vtkDiffusionProfile> profiles;
+  std::vector<DiffusionProfile> profiles;
   for (int band = 0; band < Bands; ++band)
   {
     profiles.emplace_back(optics.Scattering[band], optics.Absorption[band], optics.RefractiveIndex);
   }
   this->SetProgressStage(0.0, 0.95);
-  vtkScatteringExchange::Summary summary;
-  if (!vtkScatteringExchange::Fill(
+  ScatteringExchange::Summary summary;
+  if (!ScatteringExchange::Fill(
         self.Scene, scale, profiles, this->LinkTolerance, exchange,
         [this](double fraction) { return this->ReportProgress(fraction); }, summary))
   {

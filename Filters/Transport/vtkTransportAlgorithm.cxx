@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
-#include "vtkAbortCheck.h"
+#include "Scene/PatchScene.h"
+#include "Shared/AbortCheck.h"
+#include "Support/TransportMemory.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
@@ -14,15 +16,15 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
-#include "vtkPatchScene.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
-#include "vtkTransportMemory.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+
+using namespace LightTransport;
 
 namespace
 {
@@ -95,7 +97,7 @@ int vtkTransportAlgorithm::GetNumberOfRanks() const
 bool vtkTransportAlgorithm::UsesAtlas(vtkDataObject* input, int clusterTree)
 {
   return clusterTree == CLUSTER_TREE_ATLAS ||
-    (clusterTree == CLUSTER_TREE_AUTO && vtkPatchScene::HasAtlas(input, this->Controller));
+    (clusterTree == CLUSTER_TREE_AUTO && PatchScene::HasAtlas(input, this->Controller));
 }
 
 //------------------------------------------------------------------------------
@@ -133,7 +135,7 @@ bool vtkTransportAlgorithm::ReportProgress(double fraction)
   const double done = this->StageBegin + within * (this->StageEnd - this->StageBegin);
   this->SetTimeLeft(done);
   this->UpdateProgress(done);
-  int aborted = vtkAbortCheck::IsAborted(this) ? 1 : 0;
+  int aborted = AbortCheck::IsAborted(this) ? 1 : 0;
   if (this->GetNumberOfRanks() > 1)
   {
     // One rank that leaves alone would let the others wait for it for ever.
@@ -156,19 +158,19 @@ template <typename Allocation>
 vtkSmartPointer<vtkExchangeMatrix> vtkTransportAlgorithm::AllocateExchange(
   std::size_t numberOfPatches, double bytes, const std::string& remedy, Allocation&& allocate)
 {
-  const double available = vtkTransportMemory::GetAvailableBytes();
+  const double available = TransportMemory::GetAvailableBytes();
   vtkSmartPointer<vtkExchangeMatrix> exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
   std::string error;
   if (bytes > available || !allocate(exchange))
   {
     error = "The links between " + std::to_string(numberOfPatches) + " patches need " +
-      vtkTransportMemory::Format(bytes) + " of memory" +
+      TransportMemory::Format(bytes) + " of memory" +
       (this->GetNumberOfRanks() > 1 ? " in one process" : "") + " and " +
-      vtkTransportMemory::Format(available) + " are free: " + remedy +
+      TransportMemory::Format(available) + " are free: " + remedy +
       "use fewer patches (a larger TargetEdgeLength in vtkPatchMesher) or "
       "processes on more machines (each holds a part).";
   }
-  if (!vtkPatchScene::Agree(this->Controller, error.empty(), error))
+  if (!PatchScene::Agree(this->Controller, error.empty(), error))
   {
     vtkErrorMacro(<< error);
     return nullptr;

@@ -2,6 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewFactors.h"
 
+#include "Geometry/PatchSampler.h"
+#include "Geometry/SceneRayCaster.h"
+#include "Links/LinkRefinement.h"
+#include "Scene/PatchScene.h"
+#include "Shared/Threads.h"
+#include "Support/TransportMemory.h"
+#include "ViewFactors/PolygonExchange.h"
+#include "ViewFactors/ViewFactorAssembly.h"
+#include "ViewFactors/ViewFactorClosure.h"
+#include "ViewFactors/ViewFactorGroups.h"
+#include "ViewFactors/ViewFactorsFile.h"
+#include "ViewFactors/ViewFactorsResult.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkCommunicator.h"
 #include "vtkDataObject.h"
@@ -9,26 +21,16 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkLinkRefinement.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPatchSampler.h"
-#include "vtkPatchScene.h"
-#include "vtkPolygonExchange.h"
-#include "vtkSceneRayCaster.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
-#include "vtkTransportMemory.h"
-#include "vtkTransportThreads.h"
-#include "vtkViewFactorAssembly.h"
-#include "vtkViewFactorClosure.h"
-#include "vtkViewFactorGroups.h"
-#include "vtkViewFactorsFile.h"
-#include "vtkViewFactorsResult.h"
 
 #include <algorithm>
 #include <numeric>
+
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkViewFactors);
 
@@ -60,10 +62,10 @@ namespace
 class Lookout
 {
 public:
-  Lookout(const vtkPatchScene& scene, const vtkSceneRayCaster& caster, vtkIdType patch)
+  Lookout(const PatchScene& scene, const SceneRayCaster& caster, vtkIdType patch)
     : Caster(caster), Patch(patch), Sampler(static_cast<std::uint64_t>(patch))
   {
-    vtkPolygonExchange::MakePolygon(scene, patch, this->Polygon);
+    PolygonExchange::MakePolygon(scene, patch, this->Polygon);
   }
 
   void Cast(int ray)
@@ -79,15 +81,15 @@ public:
   int Back = 0;
 
 private:
-  const vtkSceneRayCaster& Caster;
+  const SceneRayCaster& Caster;
   vtkIdType Patch;
-  vtkPatchSampler Sampler;
-  vtkPolygonExchange::Polygon Polygon;
+  PatchSampler Sampler;
+  PolygonExchange::Polygon Polygon;
 };
 
 //------------------------------------------------------------------------------
 // Whether any of many rays from all over the scene meets no front.
-bool HasOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
+bool HasOpenings(const PatchScene& scene, const SceneRayCaster& caster)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
   const vtkIdType step = std::max<vtkIdType>(patches / PatchesThatLook, 1);
@@ -108,7 +110,7 @@ bool HasOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkViewFactors::vtkViewFactors() : Result(new vtkViewFactorsResult)
+vtkViewFactors::vtkViewFactors() : Result(new ViewFactorsResult)
 {
   this->SetNumberOfOutputPorts(2);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Group");
@@ -118,11 +120,11 @@ vtkViewFactors::vtkViewFactors() : Result(new vtkViewFactorsResult)
 vtkViewFactors::~vtkViewFactors() = default;
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
+bool vtkViewFactors::UpdateExchange(const PatchScene& scene, const ProgressFunction& progress,
   const std::vector<bool>* senders)
 {
   this->Patches.clear();
-  if (!this->Hierarchical && scene.GetOrder() != vtkPatchScene::Order::Spatial)
+  if (!this->Hierarchical && scene.GetOrder() != PatchScene::Order::Spatial)
   {
     vtkErrorMacro("A matrix needs the spatial order of the scene: set ClusterTree to Spatial or "
                   "switch Hierarchical on.");
@@ -145,7 +147,7 @@ bool vtkViewFactors::UpdateExchange(const vtkPatchScene& scene, const ProgressFu
 
 //------------------------------------------------------------------------------
 // From a file, from the last update, or computed.
-bool vtkViewFactors::Provide(const vtkPatchScene& scene, const ProgressFunction& progress,
+bool vtkViewFactors::Provide(const PatchScene& scene, const ProgressFunction& progress,
   const std::vector<bool>* senders)
 {
   if (!this->LoadedFile.empty())
@@ -156,10 +158,10 @@ bool vtkViewFactors::Provide(const vtkPatchScene& scene, const ProgressFunction&
   {
     return true;
   }
-  *this->Result = vtkViewFactorsResult();
+  *this->Result = ViewFactorsResult();
   if (!this->Compute(scene, progress, senders))
   {
-    *this->Result = vtkViewFactorsResult();
+    *this->Result = ViewFactorsResult();
     return false;
   }
   this->Senders = senders ? *senders : std::vector<bool>();
@@ -167,7 +169,7 @@ bool vtkViewFactors::Provide(const vtkPatchScene& scene, const ProgressFunction&
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const
+bool vtkViewFactors::IsUpToDate(const PatchScene& scene, const std::vector<bool>* senders) const
 {
   // The groups and how points are written may change without new view factors.
   const vtkExchange* exchange = this->Result->GetExchange();
@@ -187,14 +189,14 @@ bool vtkViewFactors::IsUpToDate(const vtkPatchScene& scene, const std::vector<bo
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::CheckLoaded(const vtkPatchScene& scene)
+bool vtkViewFactors::CheckLoaded(const PatchScene& scene)
 {
   const bool fits = this->Result->Fingerprint == scene.GetFingerprint() &&
     this->Result->Exchange->GetNumberOfPatches() == scene.GetNumberOfPatches();
   std::string error = "The view factors in \"" + this->LoadedFile +
     "\" were computed for another geometry: give the mesh that they belong to, or compute them "
     "(Load(nullptr)) and save them again.";
-  if (!vtkPatchScene::Agree(this->Controller, fits, error))
+  if (!PatchScene::Agree(this->Controller, fits, error))
   {
     vtkErrorMacro(<< error);
     return false;
@@ -203,11 +205,11 @@ bool vtkViewFactors::CheckLoaded(const vtkPatchScene& scene)
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::Compute(const vtkPatchScene& scene, const ProgressFunction& progress,
+bool vtkViewFactors::Compute(const PatchScene& scene, const ProgressFunction& progress,
   const std::vector<bool>* senders)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   result.Fingerprint = scene.GetFingerprint();
   if (!(this->Hierarchical ? this->ComputeLinks(scene, progress)
                            : this->ComputeMatrix(scene, progress, senders)))
@@ -219,12 +221,12 @@ bool vtkViewFactors::Compute(const vtkPatchScene& scene, const ProgressFunction&
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::ComputeMatrix(const vtkPatchScene& scene, const ProgressFunction& progress,
+bool vtkViewFactors::ComputeMatrix(const PatchScene& scene, const ProgressFunction& progress,
   const std::vector<bool>* senders)
 {
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   result.Tolerance = this->Tolerance;
-  vtkViewFactorAssembly assembly(scene, this->Tolerance, senders);
+  ViewFactorAssembly assembly(scene, this->Tolerance, senders);
   if (!this->Assemble(scene, progress, assembly) || !this->SumRows())
   {
     return false;
@@ -237,35 +239,35 @@ bool vtkViewFactors::ComputeMatrix(const vtkPatchScene& scene, const ProgressFun
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunction& progress)
+bool vtkViewFactors::ComputeLinks(const PatchScene& scene, const ProgressFunction& progress)
 {
   this->Result->Tolerance = this->LinkTolerance;
-  vtkSceneRayCaster caster;
+  SceneRayCaster caster;
   std::string error;
-  if (!vtkPatchScene::Agree(this->Controller, caster.Build(scene, error), error))
+  if (!PatchScene::Agree(this->Controller, caster.Build(scene, error), error))
   {
     vtkErrorMacro(<< error);
     return false;
   }
-  vtkLinkRefinement refinement(scene, caster);
+  LinkRefinement refinement(scene, caster);
   if (this->Brightness.size() == scene.GetAreas().size())
   {
     refinement.SetBrightness(this->Brightness);
   }
   const bool hasOpenings = HasOpenings(scene, caster);
   refinement.SetClosesRows(!hasOpenings);
-  const double available = MemoryForLinks * vtkTransportMemory::GetAvailableBytes();
-  const vtkLinkRefinement::Outcome outcome = refinement.Refine(this->LinkTolerance, available,
+  const double available = MemoryForLinks * TransportMemory::GetAvailableBytes();
+  const LinkRefinement::Outcome outcome = refinement.Refine(this->LinkTolerance, available,
     this->Controller, [&](double done) { return progress(RefineDone * done); });
-  if (outcome == vtkLinkRefinement::NO_MEMORY)
+  if (outcome == LinkRefinement::NO_MEMORY)
   {
     vtkErrorMacro("The links between clusters of "
       << scene.GetNumberOfPatches() << " patches need more than the "
-      << vtkTransportMemory::Format(available)
+      << TransportMemory::Format(available)
       << " of memory that are free for them: raise LinkTolerance, use fewer patches or processes "
          "on more machines (each holds a part).");
   }
-  if (outcome != vtkLinkRefinement::DONE || !this->StoreLinks(scene, refinement))
+  if (outcome != LinkRefinement::DONE || !this->StoreLinks(scene, refinement))
   {
     return false;
   }
@@ -278,24 +280,24 @@ bool vtkViewFactors::ComputeLinks(const vtkPatchScene& scene, const ProgressFunc
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinement& refinement)
+bool vtkViewFactors::StoreLinks(const PatchScene& scene, const LinkRefinement& refinement)
 {
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   const int ranks = this->GetNumberOfRanks();
   const int rank = ranks > 1 ? this->Controller->GetLocalProcessId() : 0;
   result.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
-  result.ClusterTree = scene.GetOrder() == vtkPatchScene::Order::Atlas ? "Atlas" : "Spatial";
+  result.ClusterTree = scene.GetOrder() == PatchScene::Order::Atlas ? "Atlas" : "Spatial";
   const bool stored =
     result.Hierarchy->SetTree(scene.GetAreas(), refinement.GetNodes(), rank, ranks) &&
     result.Hierarchy->SetLinks(refinement.GetLinks());
   std::string error = "The memory for the links is no longer there: raise LinkTolerance or free "
                       "memory.";
-  if (!vtkPatchScene::Agree(this->Controller, stored, error))
+  if (!PatchScene::Agree(this->Controller, stored, error))
   {
     vtkErrorMacro(<< error);
     return false;
   }
-  const vtkLinkRefinement::Counters& count = refinement.GetCounters();
+  const LinkRefinement::Counters& count = refinement.GetCounters();
   result.Summaries = { { "PairsExamined", count.PairsExamined },
     { "PairsBackFacing", count.PairsBackFacing }, { "PairsUnobstructed", count.PairsUnobstructed },
     { "NumberOfLinks", count.Links }, { "NumberOfPatchLinks", count.PatchLinks },
@@ -303,15 +305,15 @@ bool vtkViewFactors::StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinem
     { "MatrixBytes", result.Hierarchy->GetNumberOfBytes() },
     { "DenseMatrixBytes", vtkExchangeMatrix::GetEstimatedBytes(scene.GetNumberOfPatches(), 1) } };
   result.RowErrors.assign(scene.GetNumberOfPatches(),
-    refinement.GetErrorEstimate() + vtkLinkRefinement::OpenTolerance + SinglePrecision);
+    refinement.GetErrorEstimate() + LinkRefinement::OpenTolerance + SinglePrecision);
   const bool summed = this->SumRows();
   result.RawRowSums = result.RowSums;
   return summed;
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::Assemble(const vtkPatchScene& scene, const ProgressFunction& progress,
-  vtkViewFactorAssembly& assembly)
+bool vtkViewFactors::Assemble(const PatchScene& scene, const ProgressFunction& progress,
+  ViewFactorAssembly& assembly)
 {
   vtkNew<vtkExchangeMatrix> structure;
   const int rank = this->GetNumberOfRanks() > 1 ? this->Controller->GetLocalProcessId() : 0;
@@ -333,7 +335,7 @@ vtkIdType vtkViewFactors::GetMostOfAllRanks(vtkIdType count) const
 
 //------------------------------------------------------------------------------
 // All ranks count the batches of the one with the most work: progress is a collective call.
-bool vtkViewFactors::RunStages(const ProgressFunction& progress, vtkViewFactorAssembly& assembly)
+bool vtkViewFactors::RunStages(const ProgressFunction& progress, ViewFactorAssembly& assembly)
 {
   vtkExchangeMatrix* exchange = this->Result->Exchange;
   const auto run = [&](vtkIdType mine, vtkIdType batch, double from, double to, auto&& work)
@@ -361,7 +363,7 @@ bool vtkViewFactors::RunStages(const ProgressFunction& progress, vtkViewFactorAs
   }
   std::string error = "The memory for the view factors is no longer there: use fewer patches or "
                       "free memory.";
-  if (!vtkPatchScene::Agree(this->Controller, ok, error))
+  if (!PatchScene::Agree(this->Controller, ok, error))
   {
     vtkErrorMacro(<< error);
     return false;
@@ -374,10 +376,10 @@ bool vtkViewFactors::RunStages(const ProgressFunction& progress, vtkViewFactorAs
 
 //------------------------------------------------------------------------------
 // Errors of rows and counters, over all ranks.
-void vtkViewFactors::Summarize(const vtkViewFactorAssembly& assembly)
+void vtkViewFactors::Summarize(const ViewFactorAssembly& assembly)
 {
-  vtkViewFactorsResult& result = *this->Result;
-  const vtkViewFactorAssembly::Counters& count = assembly.GetCounters();
+  ViewFactorsResult& result = *this->Result;
+  const ViewFactorAssembly::Counters& count = assembly.GetCounters();
   const std::vector<std::pair<std::string, double>> summaries = { { "PairsExamined",
                                                                     count.Open.Examined },
     { "PairsBackFacing", count.Open.BackFacing }, { "PairsNotSending", count.NotSending },
@@ -413,7 +415,7 @@ void vtkViewFactors::Summarize(const vtkViewFactorAssembly& assembly)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::SumRows()
 {
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   const std::vector<double>& areas = result.GetExchange()->GetAreas();
   const std::vector<double> ones(areas.size(), 1.0);
   result.RowSums.resize(areas.size());
@@ -435,9 +437,9 @@ namespace
 // misses no more than its error misses nothing.
 struct Openings
 {
-  const vtkPatchScene& Scene;
-  const vtkSceneRayCaster& Caster;
-  vtkViewFactorsResult& Result;
+  const PatchScene& Scene;
+  const SceneRayCaster& Caster;
+  ViewFactorsResult& Result;
   std::vector<int>& Rays; ///< of each patch
 
   void operator()(vtkIdType begin, vtkIdType end) const
@@ -478,15 +480,15 @@ struct Openings
 //------------------------------------------------------------------------------
 void vtkViewFactors::ClearOpenings()
 {
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   result.SkyFractions.assign(result.RowSums.size(), 0.0);
   result.BackFaceFractions.assign(result.RowSums.size(), 0.0);
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
+bool vtkViewFactors::FindOpenings(const PatchScene& scene, bool areRowsWhole)
 {
-  const vtkViewFactorsResult& result = *this->Result;
+  const ViewFactorsResult& result = *this->Result;
   const vtkIdType patches = scene.GetNumberOfPatches();
   this->ClearOpenings();
   if (!areRowsWhole)
@@ -498,10 +500,10 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
   {
     isOpen = isOpen || 1.0 - result.RowSums[patch] > result.RowErrors[patch];
   }
-  vtkSceneRayCaster caster;
+  SceneRayCaster caster;
   std::string error;
   const bool ready = !isOpen || caster.Build(scene, error);
-  if (!vtkPatchScene::Agree(this->Controller, ready, error))
+  if (!PatchScene::Agree(this->Controller, ready, error))
   {
     vtkErrorMacro(<< error);
     return false;
@@ -511,29 +513,29 @@ bool vtkViewFactors::FindOpenings(const vtkPatchScene& scene, bool areRowsWhole)
 }
 
 //------------------------------------------------------------------------------
-void vtkViewFactors::CastForOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster)
+void vtkViewFactors::CastForOpenings(const PatchScene& scene, const SceneRayCaster& caster)
 {
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   std::vector<int> rays(scene.GetNumberOfPatches(), 0);
   Openings openings{ scene, caster, result, rays };
-  vtkTransportThreads::For(0, scene.GetNumberOfPatches(), 64, openings);
+  Threads::For(0, scene.GetNumberOfPatches(), 64, openings);
   result.Summaries.emplace_back("RaysCast", std::accumulate(rays.begin(), rays.end(), 0.0));
 }
 
 //------------------------------------------------------------------------------
-bool vtkViewFactors::CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs)
+bool vtkViewFactors::CloseRows(const std::vector<PartlyVisiblePair>& pairs)
 {
-  vtkViewFactorsResult& result = *this->Result;
+  ViewFactorsResult& result = *this->Result;
   std::vector<bool> closed(result.RowSums.size());
   for (std::size_t row = 0; row < closed.size(); ++row)
   {
     closed[row] = result.SkyFractions[row] + result.BackFaceFractions[row] == 0.0;
   }
-  vtkViewFactorClosure::Report report;
+  ViewFactorClosure::Report report;
   const bool done = result.Hierarchy
-    ? vtkViewFactorClosure::Scale(result, closed, this->Controller, report)
-    : vtkViewFactorClosure::Close(result, pairs, closed,
-        vtkViewFactorAssembly::OpenShare * this->Tolerance + SinglePrecision, this->Controller,
+    ? ViewFactorClosure::Scale(result, closed, this->Controller, report)
+    : ViewFactorClosure::Close(result, pairs, closed,
+        ViewFactorAssembly::OpenShare * this->Tolerance + SinglePrecision, this->Controller,
         report);
   if (!done)
   {
@@ -566,7 +568,7 @@ vtkExchange* vtkViewFactors::GetExchange()
 //------------------------------------------------------------------------------
 void vtkViewFactors::SetBrightness(const std::vector<double>& brightness)
 {
-  *this->Result = vtkViewFactorsResult();
+  *this->Result = ViewFactorsResult();
   this->Brightness = brightness;
   this->Modified();
 }
@@ -616,7 +618,7 @@ bool vtkViewFactors::Save(const char* fileName)
   {
     error = "There are no view factors to save: call Update first.";
   }
-  if (!error.empty() || !vtkViewFactorsFile::Write(fileName, *this->Result, error))
+  if (!error.empty() || !ViewFactorsFile::Write(fileName, *this->Result, error))
   {
     vtkErrorMacro(<< error);
     return false;
@@ -627,14 +629,14 @@ bool vtkViewFactors::Save(const char* fileName)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::Load(const char* fileName)
 {
-  vtkViewFactorsResult loaded;
+  ViewFactorsResult loaded;
   std::string error;
   const bool forget = !fileName || !*fileName;
   if (!forget && this->GetNumberOfRanks() > 1)
   {
     error = "View factors can be loaded on one process only: each of several holds a part.";
   }
-  if (!error.empty() || (!forget && !vtkViewFactorsFile::Read(fileName, loaded, error)))
+  if (!error.empty() || (!forget && !ViewFactorsFile::Read(fileName, loaded, error)))
   {
     vtkErrorMacro(<< error);
     return false;
@@ -672,16 +674,16 @@ int vtkViewFactors::RequestData(vtkInformation*, vtkInformationVector** inputs,
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-  vtkPatchScene scene;
-  vtkViewFactorGroups::Groups groups;
+  PatchScene scene;
+  ViewFactorGroups::Groups groups;
   vtkInformation* choice = this->GetInputArrayInformation(0);
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   std::string error;
   const auto order = this->LinksClusters() && this->UsesAtlas(input, this->ClusterTree)
-    ? vtkPatchScene::Order::Atlas
-    : vtkPatchScene::Order::Spatial;
+    ? PatchScene::Order::Atlas
+    : PatchScene::Order::Spatial;
   if (!scene.Build(input, this->Controller, error, order) ||
-    !vtkViewFactorGroups::Gather(scene, input, name && *name ? name : "Group", groups, error))
+    !ViewFactorGroups::Gather(scene, input, name && *name ? name : "Group", groups, error))
   {
     vtkErrorMacro(<< error);
     return 0;
@@ -691,7 +693,7 @@ int vtkViewFactors::RequestData(vtkInformation*, vtkInformationVector** inputs,
   {
     return 0;
   }
-  if (!vtkViewFactorGroups::FillTable(*this->Result, groups, scene.GetScale(), this->Controller,
+  if (!ViewFactorGroups::FillTable(*this->Result, groups, scene.GetScale(), this->Controller,
         vtkTable::GetData(outputs, 1)))
   {
     return 0;

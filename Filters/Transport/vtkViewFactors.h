@@ -14,7 +14,7 @@
  * bound allows it. What may stand between two patches is found by shaft culling (Haines and Wallace
  * 1991): where nothing does, that is certain. Otherwise the visible part is integrated over one
  * patch, from each of whose points the shadows of the occluders on the other are drawn as
- * intervals of many lines (vtkPairVisibility), until the row keeps its Tolerance.
+ * intervals of many lines (PairVisibility), until the row keeps its Tolerance.
  *
  * Input cell array (SetInputArrayToProcess 0 ["Group"], optional): integers that divide the patches
  * into groups. Without it the blocks of composite input are the groups.
@@ -54,13 +54,17 @@
 #include <vector>     // for std::vector
 
 class vtkExchange;
-class vtkLinkRefinement;
-class vtkPatchScene;
-class vtkSceneRayCaster;
 class vtkTable;
-class vtkViewFactorAssembly;
-struct vtkPartlyVisiblePair;
-struct vtkViewFactorsResult;
+
+namespace LightTransport
+{
+class LinkRefinement;
+class PatchScene;
+class SceneRayCaster;
+class ViewFactorAssembly;
+struct PartlyVisiblePair;
+struct ViewFactorsResult;
+} // namespace LightTransport
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkViewFactors : public vtkTransportAlgorithm
 {
@@ -181,7 +185,7 @@ public:
    * those of the scene's own tree. Returns false after an error or an abort.
    */
   using ProgressFunction = std::function<bool(double)>;
-  bool UpdateExchange(const vtkPatchScene& scene, const ProgressFunction& progress,
+  bool UpdateExchange(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders = nullptr);
   /// For hierarchical links: a radiosity for each patch of the scene to refine them for, instead of
   /// one that is the same everywhere; of any other size than the scene's for that (default). The
@@ -212,26 +216,28 @@ private:
   vtkViewFactors(const vtkViewFactors&) = delete;
   void operator=(const vtkViewFactors&) = delete;
 
-  bool Provide(const vtkPatchScene& scene, const ProgressFunction& progress,
+  bool Provide(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders);
-  bool IsUpToDate(const vtkPatchScene& scene, const std::vector<bool>* senders) const;
-  bool CheckLoaded(const vtkPatchScene& scene);
-  bool ComputeLinks(const vtkPatchScene& scene, const ProgressFunction& progress);
-  bool StoreLinks(const vtkPatchScene& scene, const vtkLinkRefinement& refinement);
-  bool ComputeMatrix(const vtkPatchScene& scene, const ProgressFunction& progress,
+  bool IsUpToDate(const LightTransport::PatchScene& scene, const std::vector<bool>* senders) const;
+  bool CheckLoaded(const LightTransport::PatchScene& scene);
+  bool ComputeLinks(const LightTransport::PatchScene& scene, const ProgressFunction& progress);
+  bool StoreLinks(const LightTransport::PatchScene& scene,
+    const LightTransport::LinkRefinement& refinement);
+  bool ComputeMatrix(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders);
-  bool Compute(const vtkPatchScene& scene, const ProgressFunction& progress,
+  bool Compute(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
     const std::vector<bool>* senders);
-  bool Assemble(const vtkPatchScene& scene, const ProgressFunction& progress,
-    vtkViewFactorAssembly& assembly);
-  bool RunStages(const ProgressFunction& progress, vtkViewFactorAssembly& assembly);
+  bool Assemble(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
+    LightTransport::ViewFactorAssembly& assembly);
+  bool RunStages(const ProgressFunction& progress, LightTransport::ViewFactorAssembly& assembly);
   vtkIdType GetMostOfAllRanks(vtkIdType count) const;
-  void Summarize(const vtkViewFactorAssembly& assembly);
+  void Summarize(const LightTransport::ViewFactorAssembly& assembly);
   bool SumRows();
   void ClearOpenings();
-  bool FindOpenings(const vtkPatchScene& scene, bool areRowsWhole);
-  void CastForOpenings(const vtkPatchScene& scene, const vtkSceneRayCaster& caster);
-  bool CloseRows(const std::vector<vtkPartlyVisiblePair>& pairs);
+  bool FindOpenings(const LightTransport::PatchScene& scene, bool areRowsWhole);
+  void CastForOpenings(const LightTransport::PatchScene& scene,
+    const LightTransport::SceneRayCaster& caster);
+  bool CloseRows(const std::vector<LightTransport::PartlyVisiblePair>& pairs);
 
   double Tolerance = 1e-4;
   bool EnforceClosure = false;
@@ -239,7 +245,7 @@ private:
   double LinkTolerance = 1e-2;
   int ClusterTree = CLUSTER_TREE_AUTO;
 
-  std::unique_ptr<vtkViewFactorsResult> Result;
+  std::unique_ptr<LightTransport::ViewFactorsResult> Result;
   std::vector<double> Brightness;
   std::vector<bool> Senders;      ///< that the result was computed for; empty for all
   std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons

@@ -13,7 +13,7 @@
  * measured alike. Triangles without area in the texture, which nothing can be painted on, are left
  * out: "in" counts them, "out" does not.
  */
-#include "vtkAtlasMetrics.h"
+#include "Atlas/AtlasMetrics.h"
 #include "vtkAtlasToSurface.h"
 #include "vtkPatchMesher.h"
 #include "vtkSurfaceAtlas.h"
@@ -52,6 +52,8 @@
 #include <map>
 #include <string>
 #include <vector>
+
+using namespace LightTransport;
 
 namespace
 {
@@ -462,7 +464,7 @@ void PrintHead()
 }
 
 //------------------------------------------------------------------------------
-void PrintRow(const std::string& mesh, const Measurement& row, const vtkAtlasMetrics& metrics,
+void PrintRow(const std::string& mesh, const Measurement& row, const AtlasMetrics& metrics,
   bool unfolded)
 {
   std::cout << std::setw(24) << vtksys::SystemTools::GetFilenameName(mesh) << std::setw(10)
@@ -526,7 +528,7 @@ int main(int argc, char* argv[])
       continue;
     }
     row.TrianglesOut = surface->GetNumberOfCells();
-    const vtkAtlasMetrics metrics(surface, surface->GetPointData()->GetTCoords());
+    const AtlasMetrics metrics(surface, surface->GetPointData()->GetTCoords());
     PrintRow(name, row, metrics, !options.Measure);
   }
   return result;

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExactRows.h"
-#include "vtkOpenExchange.h"
-#include "vtkPairVisibility.h"
-#include "vtkShaftCuller.h"
-#include "vtkTransportThreads.h"
+#include "Geometry/ShaftCuller.h"
+#include "Shared/Threads.h"
+#include "ViewFactors/OpenExchange.h"
+#include "ViewFactors/PairVisibility.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <random>
+
+using namespace LightTransport;
 
 namespace
 {
@@ -27,8 +29,8 @@ struct ExactRows::Worker
 {
   ExactRows& Self;
   const std::vector<const Values*>& Vectors;
-  const vtkOpenExchange& Open;
-  const vtkShaftCuller& Culler;
+  const OpenExchange& Open;
+  const ShaftCuller& Culler;
   const std::vector<int>& Leaves; ///< of each patch
 
   /// One row at work.
@@ -37,7 +39,7 @@ struct ExactRows::Worker
     std::size_t Index;
     vtkIdType Patch;
     int Leaf;
-    vtkPairVisibility Visibility;
+    PairVisibility Visibility;
     std::vector<vtkIdType> Between;
   };
 
@@ -58,7 +60,7 @@ struct ExactRows::Worker
       return;
     }
     isFree = isFree || !this->Culler.MayBlock(row.Leaf, node);
-    const vtkPatchTree::Node& there = this->Self.Scene.GetTree().GetNode(node);
+    const PatchTree::Node& there = this->Self.Scene.GetTree().GetNode(node);
     if (!there.IsLeaf())
     {
       this->Descend(there.Left, isFree, row);
@@ -73,15 +75,15 @@ struct ExactRows::Worker
 
   void AddPair(vtkIdType j, bool isFree, Row& row) const
   {
-    const vtkPolygonExchange::Estimate open =
-      j == row.Patch ? vtkPolygonExchange::Estimate() : this->Open.Compute(row.Patch, j);
+    const PolygonExchange::Estimate open =
+      j == row.Patch ? PolygonExchange::Estimate() : this->Open.Compute(row.Patch, j);
     if (open.Value <= 0.0)
     {
       return;
     }
     const double factor = open.Value / this->Self.Scene.GetAreas()[row.Patch];
-    const vtkPairVisibility::Share share =
-      isFree ? vtkPairVisibility::Share() : this->See(j, open.Value, factor, row);
+    const PairVisibility::Share share =
+      isFree ? PairVisibility::Share() : this->See(j, open.Value, factor, row);
     this->Self.Errors[row.Index] +=
       factor * share.Error + open.Error / this->Self.Scene.GetAreas()[row.Patch];
     for (std::size_t k = 0; k < this->Vectors.size(); ++k)
@@ -91,16 +93,16 @@ struct ExactRows::Worker
   }
 
   /// The visible part of a pair.
-  vtkPairVisibility::Share See(vtkIdType j, double open, double factor, Row& row) const
+  PairVisibility::Share See(vtkIdType j, double open, double factor, Row& row) const
   {
-    const vtkPatchScene& scene = this->Self.Scene;
+    const PatchScene& scene = this->Self.Scene;
     this->Culler.FindBetween(row.Patch, j, row.Between);
     if (row.Between.empty())
     {
       return {};
     }
-    vtkPolygonExchange::Polygon a, b;
-    vtkPolygonExchange::MakeClippedPair(scene, row.Patch, j, a, b);
+    PolygonExchange::Polygon a, b;
+    PolygonExchange::MakeClippedPair(scene, row.Patch, j, a, b);
     const std::uint64_t key =
       static_cast<std::uint64_t>(row.Patch) << 32 ^ static_cast<std::uint64_t>(j);
     if (!row.Visibility.SetPair(a, b, scene, row.Between, key,
@@ -108,14 +110,14 @@ struct ExactRows::Worker
     {
       return {};
     }
-    const vtkPairVisibility::Share share = row.Visibility.Look();
+    const PairVisibility::Share share = row.Visibility.Look();
     const double allowed = std::min(ShareTolerance, RowTolerance / factor);
     return share.Error > allowed ? row.Visibility.Integrate(allowed) : share;
   }
 };
 
 //------------------------------------------------------------------------------
-ExactRows::ExactRows(const vtkPatchScene& scene, int count)
+ExactRows::ExactRows(const PatchScene& scene, int count)
   : Scene(scene), Patches(scene.GetNumberOfPatches())
 {
   std::iota(this->Patches.begin(), this->Patches.end(), vtkIdType(0));
@@ -135,8 +137,8 @@ void ExactRows::Multiply(const std::vector<const Values*>& vectors)
 {
   this->Products.assign(this->Patches.size(), Values(vectors.size(), 0.0));
   this->Errors.assign(this->Patches.size(), 0.0);
-  const vtkOpenExchange open(this->Scene, OpenTolerance);
-  const vtkShaftCuller culler(this->Scene);
+  const OpenExchange open(this->Scene, OpenTolerance);
+  const ShaftCuller culler(this->Scene);
   std::vector<int> leaves(this->Scene.GetNumberOfPatches());
   const auto& nodes = this->Scene.GetTree().GetNodes();
   for (std::size_t index = 0; index < nodes.size(); ++index)
@@ -148,5 +150,5 @@ void ExactRows::Multiply(const std::vector<const Values*>& vectors)
     }
   }
   Worker worker{ *this, vectors, open, culler, leaves };
-  vtkTransportThreads::For(0, static_cast<vtkIdType>(this->Patches.size()), 1, worker);
+  Threads::For(0, static_cast<vtkIdType>(this->Patches.size()), 1, worker);
 }

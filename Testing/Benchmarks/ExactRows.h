@@ -4,14 +4,16 @@
 #ifndef ExactRows_h
 #define ExactRows_h
 
-#include "vtkPatchScene.h"
+#include "Scene/PatchScene.h"
 
 #include <vector>
 
+using namespace LightTransport;
+
 /**
  * A few rows, each computed pair by pair: the exchange with nothing in between in double precision
- * (vtkOpenExchange), and the visible part with all that reaches into the shaft between the two
- * patches (vtkShaftCuller, vtkPairVisibility). Nothing of it knows of clusters but to leave out
+ * (OpenExchange), and the visible part with all that reaches into the shaft between the two
+ * patches (ShaftCuller, PairVisibility). Nothing of it knows of clusters but to leave out
  * pairs that certainly exchange nothing and tests of pairs with certainly nothing in between.
  */
 class ExactRows
@@ -20,7 +22,7 @@ public:
   using Values = std::vector<double>; ///< one per patch of the scene
 
   /// `count` patches of the scene at random, the same in every run; all where there are fewer.
-  ExactRows(const vtkPatchScene& scene, int count);
+  ExactRows(const PatchScene& scene, int count);
 
   /// The patches, in order.
   const std::vector<vtkIdType>& GetPatches() const { return this->Patches; }
@@ -39,7 +41,7 @@ public:
 private:
   struct Worker;
 
-  const vtkPatchScene& Scene;
+  const PatchScene& Scene;
   std::vector<vtkIdType> Patches;
   std::vector<Values> Products;
   std::vector<double> Errors;

@@ -20,12 +20,12 @@
  * radiosity that the links are for).
  */
 #include "ExactRows.h"
+#include "Support/TransportMemory.h"
 #include "ViewFactorScenes.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkCallbackCommand.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkRadiosity.h"
-#include "vtkTransportMemory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -40,6 +40,8 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 using namespace ViewFactorBenchmark;
@@ -471,7 +473,7 @@ double TimeFilledMatrix(vtkIdType patches)
   constexpr int size = vtkExchangeMatrix::TileSize;
   vtkNew<vtkExchangeMatrix> matrix;
   if (vtkExchangeMatrix::GetEstimatedBytes(patches, 1) >
-      0.8 * vtkTransportMemory::GetAvailableBytes() ||
+      0.8 * TransportMemory::GetAvailableBytes() ||
     !matrix->Allocate(Values(patches, 1.0), 1))
   {
     return Unknown;
@@ -511,7 +513,7 @@ void Record(vtkRadiosity* run, vtkViewFactors* factors, Measurement& row)
 
 //------------------------------------------------------------------------------
 /// For values of the scene's patches of those of the mesh's polygons.
-Values SortValues(const vtkPatchScene& scene, const Values& values)
+Values SortValues(const PatchScene& scene, const Values& values)
 {
   Values sorted(values.size());
   for (std::size_t polygon = 0; polygon < values.size(); ++polygon)
@@ -541,7 +543,7 @@ Measurement Describe(vtkPolyData* mesh, const Setting& setting)
  * vtkRadiosity::RefineByBrightness, which gives its links to nobody else: coarse links and their
  * solution, which stay in memory, come first.
  */
-Measurement Measure(vtkPolyData* mesh, const vtkPatchScene& scene, const Setting& setting,
+Measurement Measure(vtkPolyData* mesh, const PatchScene& scene, const Setting& setting,
   double limit)
 {
   Measurement row = Describe(mesh, setting);
@@ -615,7 +617,7 @@ void CompareWithDense(const Values& areas, const Measurement& dense, Measurement
 //------------------------------------------------------------------------------
 /// `vector` is the one that the row's radiosity was among those that the exact rows were
 /// multiplied with, 0 that of ones.
-void CompareWithRows(const vtkPatchScene& scene, const ExactRows& exact, std::size_t vector,
+void CompareWithRows(const PatchScene& scene, const ExactRows& exact, std::size_t vector,
   Measurement& row)
 {
   Values areas, irradiance, difference, sumDifference;
@@ -788,7 +790,7 @@ private:
   bool RunSize(double size)
   {
     const vtkSmartPointer<vtkPolyData> mesh = MakeScene(this->Settings.Scene, size);
-    vtkPatchScene scene;
+    PatchScene scene;
     std::string error;
     if (!mesh || !scene.Build(mesh, nullptr, error))
     {
@@ -817,7 +819,7 @@ private:
   }
 
   //------------------------------------------------------------------------------
-  void RunDense(vtkPolyData* mesh, const vtkPatchScene& scene)
+  void RunDense(vtkPolyData* mesh, const PatchScene& scene)
   {
     const Setting dense{ 0.0, false, false };
     Measurement row = Describe(mesh, dense);
@@ -835,7 +837,7 @@ private:
 
   //------------------------------------------------------------------------------
   /// `first` is the row of the dense matrix of this size.
-  void RunLinks(vtkPolyData* mesh, const vtkPatchScene& scene, const Setting& setting,
+  void RunLinks(vtkPolyData* mesh, const PatchScene& scene, const Setting& setting,
     std::size_t first)
   {
     Measurement row = Describe(mesh, setting);
@@ -867,7 +869,7 @@ private:
 
   //------------------------------------------------------------------------------
   /// Errors of all runs of this size.
-  void RunRows(const vtkPatchScene& scene, std::size_t first)
+  void RunRows(const PatchScene& scene, std::size_t first)
   {
     if (this->Settings.Rows == 0)
     {

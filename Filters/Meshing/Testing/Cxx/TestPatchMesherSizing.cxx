@@ -3,8 +3,8 @@
 // How good, how large and how true the patches are: over many surfaces, for each size field.
 #include "PatchQuality.h"
 
-#include "vtkPatchSizing.h"
-#include "vtkSourceSurface.h"
+#include "Mesher/PatchSizing.h"
+#include "Mesher/SourceSurface.h"
 
 #include "vtkCubeSource.h"
 #include "vtkCylinderSource.h"
@@ -20,6 +20,8 @@
 #include <functional>
 #include <iomanip>
 #include <vector>
+
+using namespace LightTransport;
 
 namespace
 {
@@ -341,9 +343,9 @@ void TestLengths(meshTest::Checker& check)
 }
 
 //------------------------------------------------------------------------------
-vtkSourceSurface MakeSource(vtkPolyData* mesh)
+SourceSurface MakeSource(vtkPolyData* mesh)
 {
-  vtkSourceSurface surface;
+  SourceSurface surface;
   std::map<std::pair<vtkIdType, vtkIdType>, std::size_t> sides;
   for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
   {
@@ -353,7 +355,7 @@ vtkSourceSurface MakeSource(vtkPolyData* mesh)
   for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
   {
     mesh->GetCellPoints(i, ids);
-    vtkSourceSurface::Triangle triangle;
+    SourceSurface::Triangle triangle;
     for (int j = 0; j < 3; ++j)
     {
       triangle[j] = ids->GetId(j);
@@ -363,13 +365,13 @@ vtkSourceSurface MakeSource(vtkPolyData* mesh)
     surface.Parts.push_back(0);
     surface.Sources.push_back(i);
   }
-  for (const vtkSourceSurface::Triangle& triangle : surface.Triangles)
+  for (const SourceSurface::Triangle& triangle : surface.Triangles)
   {
     std::array<std::size_t, 3> neighbours;
     for (int j = 0; j < 3; ++j)
     {
       const auto side = sides.find({ triangle[(j + 1) % 3], triangle[j] });
-      neighbours[j] = side == sides.end() ? vtkSourceSurface::NONE : side->second;
+      neighbours[j] = side == sides.end() ? SourceSurface::NONE : side->second;
     }
     surface.Neighbours.push_back(neighbours);
   }
@@ -381,8 +383,7 @@ vtkSourceSurface MakeSource(vtkPolyData* mesh)
 void TestCurvature(meshTest::Checker& check)
 {
   // Ring: the tube's own curvature is the largest everywhere.
-  const std::vector<double> ring =
-    vtkPatchSizing::GetCurvatures(MakeSource(MakeRing(0.25, 120, 48)));
+  const std::vector<double> ring = PatchSizing::GetCurvatures(MakeSource(MakeRing(0.25, 120, 48)));
   for (const double curvature : ring)
   {
     check.Equal(curvature, 4.0, 0.2, "curvature of the ring");
@@ -396,10 +397,10 @@ void TestCurvature(meshTest::Checker& check)
     vtkMath::Normalize(point.data());
     sphere->GetPoints()->SetPoint(i, point.data());
   }
-  std::vector<double> curvatures = vtkPatchSizing::GetCurvatures(MakeSource(sphere));
+  std::vector<double> curvatures = PatchSizing::GetCurvatures(MakeSource(sphere));
   std::sort(curvatures.begin(), curvatures.end());
   check.Equal(curvatures[curvatures.size() / 2], 1.0, 0.15, "median curvature of the sphere");
-  for (const double curvature : vtkPatchSizing::GetCurvatures(MakeSource(MakePlane(3))))
+  for (const double curvature : PatchSizing::GetCurvatures(MakeSource(MakePlane(3))))
   {
     check.Equal(curvature, 0.0, 1e-12, "curvature of the plane");
   }
@@ -410,11 +411,11 @@ void TestGrading(meshTest::Checker& check)
 {
   vtkNew<vtkPatchMesher> mesher;
   mesher->SetTargetEdgeLength(0.05);
-  const vtkSourceSurface plane = MakeSource(Remesh(mesher, MakePlane(1)));
+  const SourceSurface plane = MakeSource(Remesh(mesher, MakePlane(1)));
   const double grading = 0.3;
   std::vector<double> lengths(plane.Points.size(), 10.0);
   lengths[7] = 0.01;
-  vtkPatchSizing::Grade(plane, grading, lengths);
+  PatchSizing::Grade(plane, grading, lengths);
   for (std::size_t i = 0; i < lengths.size(); ++i)
   {
     const double distance =
@@ -429,7 +430,7 @@ void TestGrading(meshTest::Checker& check)
     slow.push_back(1.0 + 0.2 * p[0] - 0.2 * p[1]);
   }
   std::vector<double> graded = slow;
-  vtkPatchSizing::Grade(plane, grading, graded);
+  PatchSizing::Grade(plane, grading, graded);
   check.True(graded == slow, "lengths that grow slowly enough stay");
 
   // A jump from 0.02 to 0.2 within a short way.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discs of many kinds are mapped onto the whole square, one-to-one by exact predicates, and flat
 // ones with the stretch that is known for them.
+#include "Atlas/SquareMap.h"
 #include "MeshTestTools.h"
-#include "vtkSquareMap.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -12,16 +12,17 @@
 #include <functional>
 #include <set>
 
+using namespace LightTransport;
+
 namespace
 {
-using Disc = vtkSquareMap::Disc;
-using Coordinates = vtkSquareMap::Coordinates;
+using Disc = SquareMap::Disc;
+using Coordinates = SquareMap::Coordinates;
 using Edge = std::pair<std::size_t, std::size_t>;
 using meshTest::Vector;
 
 //------------------------------------------------------------------------------
-Disc MakeDisc(const std::vector<Vector>& points,
-  const std::vector<vtkSquareMap::Triangle>& triangles)
+Disc MakeDisc(const std::vector<Vector>& points, const std::vector<SquareMap::Triangle>& triangles)
 {
   Disc disc;
   disc.Points = points;
@@ -39,7 +40,7 @@ Disc MakeGrid(std::size_t columns, std::size_t rows,
   const std::function<Vector(double, double)>& place)
 {
   std::vector<Vector> points;
-  std::vector<vtkSquareMap::Triangle> triangles;
+  std::vector<SquareMap::Triangle> triangles;
   for (std::size_t j = 0; j <= rows; ++j)
   {
     for (std::size_t i = 0; i <= columns; ++i)
@@ -236,9 +237,9 @@ void CheckHalving(meshTest::Checker& check, const Disc& disc, const Disc& halved
 
 //------------------------------------------------------------------------------
 // Returns the map; `disc` becomes the mapped one.
-vtkSquareMap CheckMap(meshTest::Checker& check, Disc& disc, const std::string& name)
+SquareMap CheckMap(meshTest::Checker& check, Disc& disc, const std::string& name)
 {
-  vtkSquareMap map;
+  SquareMap map;
   std::string problem;
   const Disc given = disc;
   if (!map.Map(disc, problem))
@@ -395,7 +396,7 @@ void TestSmall(meshTest::Checker& check)
   // A fan without inner points: all inner edges end at one point, so that those to points of its
   // two sides are halved.
   std::vector<Vector> fan;
-  std::vector<vtkSquareMap::Triangle> triangles;
+  std::vector<SquareMap::Triangle> triangles;
   for (std::size_t i = 0; i < 12; ++i)
   {
     const double angle = vtkMath::Pi() * i / 6.0;
@@ -430,7 +431,7 @@ void TestNeedles(meshTest::Checker& check)
 // A part of a scan, grown triangle by triangle as long as it stays a disc: its border is jagged.
 void TestScan(meshTest::Checker& check, vtkPolyData* scan)
 {
-  std::vector<vtkSquareMap::Triangle> triangles;
+  std::vector<SquareMap::Triangle> triangles;
   std::map<Edge, std::size_t> owners;
   for (vtkIdType cell = 0; cell < scan->GetNumberOfCells(); ++cell)
   {
@@ -468,7 +469,7 @@ void TestScan(meshTest::Checker& check, vtkPolyData* scan)
       {
         continue;
       }
-      vtkSquareMap::Triangle triangle;
+      SquareMap::Triangle triangle;
       for (int j = 0; j < 3; ++j)
       {
         const auto number = numbers.emplace(corners[j], disc.Points.size());
@@ -501,7 +502,7 @@ void TestRefusal(meshTest::Checker& check)
   for (Disc disc : { MakeDisc({ points.begin(), points.begin() + 3 }, { { 0, 1, 2 } }),
          MakeDisc(points, { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } }) })
   {
-    vtkSquareMap map;
+    SquareMap map;
     std::string problem;
     const std::size_t size = disc.Triangles.size();
     check.True(!map.Map(disc, problem), "three points of the border are not enough");

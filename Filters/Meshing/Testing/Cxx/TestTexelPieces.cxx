@@ -4,17 +4,19 @@
 // area and the centroid that integration finds.
 #include "AtlasTestTools.h"
 
-#include "vtkTexelPieces.h"
+#include "Atlas/TexelPieces.h"
 
 #include <algorithm>
 #include <map>
+
+using namespace LightTransport;
 
 namespace
 {
 using meshTest::Checker;
 using Point = std::array<double, 2>;
 using Triangle = std::array<Point, 3>;
-using Piece = vtkTexelPieces::Piece;
+using Piece = TexelPieces::Piece;
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MakeFlat(const std::vector<Triangle>& triangles)
@@ -166,7 +168,7 @@ void TestAgainstIntegration(Checker& check)
   const std::vector<Triangle> triangles = MakeRandomTriangles(resolution);
   std::map<std::pair<vtkIdType, vtkIdType>, Piece> pieces;
   int twice = 0;
-  vtkTexelPieces::Visit(MakeFlat(triangles), resolution,
+  TexelPieces::Visit(MakeFlat(triangles), resolution,
     [&](const Piece& piece)
     { twice += !pieces.emplace(std::make_pair(piece.Cell, piece.Texel), piece).second; });
   check.Equal(twice, 0, 0, "pieces that have cell and texel in common");
@@ -204,7 +206,7 @@ void TestAgainstIntegration(Checker& check)
 // The pieces of each cell make up the cell, and each chart's lie in the chart's block.
 void TestSums(vtkPolyData* surface, int resolution, const std::string& what, Checker& check)
 {
-  vtkTexelPieces::Check(surface, resolution);
+  TexelPieces::Check(surface, resolution);
   vtkDataArray* charts = surface->GetCellData()->GetArray("ChartId");
   const std::vector<double> areas = atlasTest::GetCellAreas(surface);
   std::vector<std::array<double, 3>> moments(areas.size(), { 0.0, 0.0, 0.0 });
@@ -212,7 +214,7 @@ void TestSums(vtkPolyData* surface, int resolution, const std::string& what, Che
   std::map<vtkIdType, double> chartOfTexel;
   int shared = 0;
   int outside = 0;
-  vtkTexelPieces::Visit(surface, resolution,
+  TexelPieces::Visit(surface, resolution,
     [&](const Piece& piece)
     {
       const double chart = charts->GetTuple1(piece.Cell);
@@ -249,7 +251,7 @@ void TestAreaOfTexels(vtkPolyData* square, int resolution, Checker& check)
 {
   std::vector<double> areas(static_cast<std::size_t>(resolution) * resolution, 0.0);
   vtkIdType count = 0;
-  vtkTexelPieces::Visit(square, resolution,
+  TexelPieces::Visit(square, resolution,
     [&](const Piece& piece)
     {
       areas[piece.Texel] += piece.Area;
@@ -306,10 +308,10 @@ void TestNeedles(Checker& check)
   {
     surface->GetPoints()->SetPoint(i, i % 3 == 0, i % 3 == 1, i % 3 == 2);
   }
-  vtkTexelPieces::Check(surface, resolution);
+  TexelPieces::Check(surface, resolution);
   std::vector<double> sums(triangles.size(), 0.0);
   int astray = 0;
-  vtkTexelPieces::Visit(surface, resolution,
+  TexelPieces::Visit(surface, resolution,
     [&](const Piece& piece)
     {
       sums[piece.Cell] += piece.Area;
@@ -346,9 +348,9 @@ int TestTexelPieces(int, char*[])
   }
   TestAreaOfTexels(atlasTest::MakeSquare(1, 0.0), 1024, check);
   TestNeedles(check);
-  check.Equal(vtkTexelPieces::GetSmallestResolution(atlasTest::MakeSquare(2, 0.0)), 1, 0,
+  check.Equal(TexelPieces::GetSmallestResolution(atlasTest::MakeSquare(2, 0.0)), 1, 0,
     "smallest resolution for one chart");
-  check.Equal(vtkTexelPieces::GetSmallestResolution(atlasTest::MakeMixture()), 4, 0,
+  check.Equal(TexelPieces::GetSmallestResolution(atlasTest::MakeMixture()), 4, 0,
     "smallest resolution for charts of a quarter of the side");
   return check.GetExitCode();
 }

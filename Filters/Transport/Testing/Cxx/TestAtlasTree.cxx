@@ -5,8 +5,8 @@
 // between its clusters against the matrix of all pairs; what is refused, and why.
 #include "RadiosityTesting.h"
 #include "RanksInThreads.h"
+#include "Scene/PatchScene.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPatchScene.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
 
@@ -20,6 +20,8 @@
 #include <numeric>
 #include <random>
 #include <set>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -126,11 +128,11 @@ vtkSmartPointer<vtkPolyData> Shuffle(vtkPolyData* data, unsigned int seed)
 }
 
 //------------------------------------------------------------------------------
-vtkPatchScene Build(vtkDataObject* data)
+PatchScene Build(vtkDataObject* data)
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
-  Check(scene.Build(data, nullptr, error, vtkPatchScene::Order::Atlas), "scene: " + error);
+  Check(scene.Build(data, nullptr, error, PatchScene::Order::Atlas), "scene: " + error);
   return scene;
 }
 
@@ -159,10 +161,10 @@ std::vector<std::array<double, 2>> GetPlaces(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-std::set<Range> GetRanges(const vtkPatchScene& scene)
+std::set<Range> GetRanges(const PatchScene& scene)
 {
   std::set<Range> ranges;
-  for (const vtkPatchTree::Node& node : scene.GetTree().GetNodes())
+  for (const PatchTree::Node& node : scene.GetTree().GetNodes())
   {
     ranges.emplace(node.First, node.Last);
   }
@@ -172,7 +174,7 @@ std::set<Range> GetRanges(const vtkPatchScene& scene)
 //------------------------------------------------------------------------------
 // The patches of a block: true where they are one range, which is then a node unless it is less
 // than a leaf.
-void CheckBlock(const vtkPatchScene& scene, const std::set<Range>& nodes,
+void CheckBlock(const PatchScene& scene, const std::set<Range>& nodes,
   const std::vector<std::array<double, 2>>& places, vtkIdType firstPolygon, const Block& block)
 {
   std::vector<vtkIdType> patches;
@@ -193,7 +195,7 @@ void CheckBlock(const vtkPatchScene& scene, const std::set<Range>& nodes,
   const Range expected(*range.first, *range.second + 1);
   Check(expected.second - expected.first == static_cast<vtkIdType>(patches.size()),
     "the patches of a block are next to each other");
-  Check(patches.size() <= static_cast<std::size_t>(vtkPatchTree::LeafSize) ||
+  Check(patches.size() <= static_cast<std::size_t>(PatchTree::LeafSize) ||
       nodes.count(expected) == 1,
     "the block at " + std::to_string(block.X) + ", " + std::to_string(block.Y) + " of size " +
       std::to_string(block.Size) + " is a node");
@@ -201,7 +203,7 @@ void CheckBlock(const vtkPatchScene& scene, const std::set<Range>& nodes,
 
 //------------------------------------------------------------------------------
 // All blocks of the quadtree down to `smallest`.
-void CheckBlocks(const vtkPatchScene& scene, vtkPolyData* data, vtkIdType firstPolygon,
+void CheckBlocks(const PatchScene& scene, vtkPolyData* data, vtkIdType firstPolygon,
   double smallest)
 {
   const std::set<Range> nodes = GetRanges(scene);
@@ -219,22 +221,22 @@ void CheckBlocks(const vtkPatchScene& scene, vtkPolyData* data, vtkIdType firstP
 }
 
 //------------------------------------------------------------------------------
-void CheckShape(const vtkPatchScene& scene)
+void CheckShape(const PatchScene& scene)
 {
   const auto& nodes = scene.GetTree().GetNodes();
   double area = 0.0;
   for (std::size_t index = 0; index < nodes.size(); ++index)
   {
-    const vtkPatchTree::Node& node = nodes[index];
+    const PatchTree::Node& node = nodes[index];
     Check(node.Last > node.First, "no node is empty");
     if (node.IsLeaf())
     {
-      Check(node.GetSize() <= vtkPatchTree::LeafSize, "leaves are small");
+      Check(node.GetSize() <= PatchTree::LeafSize, "leaves are small");
       area += node.Area;
       continue;
     }
-    const vtkPatchTree::Node& left = nodes[node.Left];
-    const vtkPatchTree::Node& right = nodes[node.Left + 1];
+    const PatchTree::Node& left = nodes[node.Left];
+    const PatchTree::Node& right = nodes[node.Left + 1];
     Check(left.First == node.First && left.Last == right.First && right.Last == node.Last &&
         left.Parent == static_cast<int>(index) && right.Parent == left.Parent,
       "children divide their parent");
@@ -255,9 +257,9 @@ void TestCodes()
     const double near = std::exp2(-30.0 * draw());
     const double b[2] = { std::min(a[0] + near * draw(), 1.0),
       std::min(a[1] + near * draw(), 1.0) };
-    const std::uint64_t codes[2] = { vtkPatchTree::GetCode(a[0], a[1]),
-      vtkPatchTree::GetCode(b[0], b[1]) };
-    for (int depth = 0; depth <= vtkPatchTree::AtlasBits; ++depth)
+    const std::uint64_t codes[2] = { PatchTree::GetCode(a[0], a[1]),
+      PatchTree::GetCode(b[0], b[1]) };
+    for (int depth = 0; depth <= PatchTree::AtlasBits; ++depth)
     {
       const double side = std::exp2(depth);
       const auto isSame = [&](int axis)
@@ -265,20 +267,20 @@ void TestCodes()
         const auto place = [&](double at) { return std::min(std::floor(at * side), side - 1.0); };
         return place(a[axis]) == place(b[axis]);
       };
-      const int bits = 2 * (vtkPatchTree::AtlasBits - depth);
+      const int bits = 2 * (PatchTree::AtlasBits - depth);
       good = good && (codes[0] >> bits == codes[1] >> bits) == (isSame(0) && isSame(1));
     }
   }
   Check(good, "codes have a prefix in common where places have a block in common");
-  Check(vtkPatchTree::GetCode(0.0, 0.9) < vtkPatchTree::GetCode(0.5, 0.0), "x comes first");
-  Check(vtkPatchTree::GetCode(1.0, 1.0) >> (2 * vtkPatchTree::AtlasBits) == 0, "bits of a code");
+  Check(PatchTree::GetCode(0.0, 0.9) < PatchTree::GetCode(0.5, 0.0), "x comes first");
+  Check(PatchTree::GetCode(1.0, 1.0) >> (2 * PatchTree::AtlasBits) == 0, "bits of a code");
 }
 
 //------------------------------------------------------------------------------
 void TestNodes()
 {
   auto room = Shuffle(MakeBox({ 0, 0, 0 }, 1.0, 12, true), 5);
-  const vtkPatchScene scene = Build(room);
+  const PatchScene scene = Build(room);
   CheckShape(scene);
   const std::set<Range> nodes = GetRanges(scene);
   for (const Block& chart : RoomBlocks)
@@ -287,16 +289,16 @@ void TestNodes()
   }
   CheckBlocks(scene, room, 0, 8.0);
   // A chart is one wall: one normal.
-  const vtkPatchTree& tree = scene.GetTree();
+  const PatchTree& tree = scene.GetTree();
   Check(std::count_if(tree.GetNodes().begin(), tree.GetNodes().end(),
-          [](const vtkPatchTree::Node& node)
+          [](const PatchTree::Node& node)
           { return node.GetSize() == 144 && node.ConeCosine > 1.0 - 1e-12; }) == 6,
     "a node for each wall");
 
   // The same atlas in any order of cells gives the same tree.
-  const vtkPatchScene other = Build(Shuffle(room, 6));
+  const PatchScene other = Build(Shuffle(room, 6));
   Check(GetRanges(other) == nodes, "the tree does not depend on the order of the cells");
-  vtkPatchScene spatial;
+  PatchScene spatial;
   std::string error;
   Check(spatial.Build(room, nullptr, error), error);
   Check(spatial.GetFingerprint() != scene.GetFingerprint(), "the tree is part of the fingerprint");
@@ -305,12 +307,12 @@ void TestNodes()
 //------------------------------------------------------------------------------
 void TestEqualCodes()
 {
-  vtkPatchTree tree;
+  PatchTree tree;
   const std::vector<vtkIdType> order = tree.Sort(std::vector<std::uint64_t>(1000, 7));
   Check(std::is_sorted(order.begin(), order.end()), "equal codes stay in their order");
   Check(std::all_of(tree.GetNodes().begin(), tree.GetNodes().end(),
-          [](const vtkPatchTree::Node& node)
-          { return !node.IsLeaf() || node.GetSize() <= vtkPatchTree::LeafSize; }),
+          [](const PatchTree::Node& node)
+          { return !node.IsLeaf() || node.GetSize() <= PatchTree::LeafSize; }),
     "equal codes are divided");
   Check(tree.GetNodes().size() < 1000, "evenly");
   Check(tree.Sort(std::vector<std::uint64_t>()).empty(), "no patches");
@@ -334,7 +336,7 @@ void TestSurfaces()
     input->SetBlock(k + (k == 2 ? 1 : 0), surfaces[k]);
     size += surfaces[k]->GetNumberOfCells();
   }
-  const vtkPatchScene scene = Build(input);
+  const PatchScene scene = Build(input);
   Check(scene.GetNumberOfPatches() == size, "all patches are there");
   CheckShape(scene);
   vtkIdType first = 0;
@@ -358,7 +360,7 @@ void TestSurfaceAtlas()
   atlas->TexelMapsOff();
   atlas->Update();
   vtkTable* charts = atlas->GetCharts();
-  const vtkPatchScene scene = Build(atlas->GetOutputDataObject(0));
+  const PatchScene scene = Build(atlas->GetOutputDataObject(0));
   Check(charts->GetNumberOfRows() > 1 && scene.GetNumberOfPatches() > 1, "the atlas of a bunny");
   CheckShape(scene);
   const std::set<Range> nodes = GetRanges(scene);
@@ -376,7 +378,7 @@ void TestSurfaceAtlas()
 void TestRanks()
 {
   auto whole = MakeBox({ 0, 0, 0 }, 1.0, 8, true);
-  const vtkPatchScene serial = Build(whole);
+  const PatchScene serial = Build(whole);
   const vtkIdType starts[4] = { 0, 100, 100, whole->GetNumberOfCells() };
   vtkSmartPointer<vtkPolyData> pieces[3];
   for (int rank = 0; rank < 3; ++rank)
@@ -398,17 +400,17 @@ void TestRanks()
   RunRanks(3,
     [&](vtkMultiProcessController* controller, int rank)
     {
-      vtkPatchScene scene;
+      PatchScene scene;
       std::string error;
-      equal[rank] = scene.Build(pieces[rank], controller, error, vtkPatchScene::Order::Atlas) &&
+      equal[rank] = scene.Build(pieces[rank], controller, error, PatchScene::Order::Atlas) &&
         scene.GetFingerprint() == serial.GetFingerprint() && GetRanges(scene) == GetRanges(serial);
-      equal[rank] = vtkPatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
+      equal[rank] = PatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
       if (rank == 2)
       {
         pieces[rank]->GetPointData()->RemoveArray("AtlasCoordinates");
       }
-      equal[rank] = !vtkPatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
-      scene.Build(pieces[rank], controller, errors[rank], vtkPatchScene::Order::Atlas);
+      equal[rank] = !PatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
+      scene.Build(pieces[rank], controller, errors[rank], PatchScene::Order::Atlas);
     });
   for (int rank = 0; rank < 3; ++rank)
   {
@@ -642,7 +644,7 @@ void TestErrors()
   CheckRefused(many, "more than 4096 blocks");
 
   // A tree without blocks of 256 patches is none for a matrix.
-  const vtkPatchScene ordered = Build(MakeScene());
+  const PatchScene ordered = Build(MakeScene());
   vtkNew<vtkViewFactors> factors;
   vtkNew<vtkTest::ErrorObserver> observer;
   factors->AddObserver(vtkCommand::ErrorEvent, observer);

@@ -3,11 +3,13 @@
 // The dipole of every preset against derived quantities computed independently, Fresnel means
 // against exact integrals, tails and moments against quadrature.
 #include "LightTransportTesting.h"
-#include "vtkDiffusionProfile.h"
+#include "Scattering/DiffusionProfile.h"
 #include "vtkSubsurfaceScattering.h"
 
 #include <cstring>
 #include <limits>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -149,7 +151,7 @@ void TestPresets()
     Check(scattering[row.Band] == std::stod(row.Scattering), what + "scattering");
     Check(absorption[row.Band] == std::stod(row.Absorption), what + "absorption");
     Check(index == std::stod(row.Index), what + "index");
-    const vtkDiffusionProfile profile(scattering[row.Band], absorption[row.Band], index);
+    const DiffusionProfile profile(scattering[row.Band], absorption[row.Band], index);
     CheckDigits(profile.GetAlbedo(), row.Albedo, what + "albedo");
     CheckDigits(profile.GetRealDepth(), row.RealDepth, what + "real depth");
     CheckDigits(profile.GetVirtualDepth(), row.VirtualDepth, what + "virtual depth");
@@ -174,21 +176,21 @@ void TestFresnel()
   for (const auto& mean : Means)
   {
     const std::string what = "index " + std::to_string(mean[0]);
-    Check(std::abs(vtkDiffusionProfile::GetMeanInternalReflectance(mean[0]) - mean[1]) < 5.1e-7,
+    Check(std::abs(DiffusionProfile::GetMeanInternalReflectance(mean[0]) - mean[1]) < 5.1e-7,
       what + " internal");
-    Check(std::abs(vtkDiffusionProfile::GetMeanExternalReflectance(mean[0]) - mean[2]) < 5.1e-7,
+    Check(std::abs(DiffusionProfile::GetMeanExternalReflectance(mean[0]) - mean[2]) < 5.1e-7,
       what + " external");
   }
-  Check(vtkDiffusionProfile::GetMeanInternalReflectance(1.0) == 0.0, "index 1 internal");
-  Check(vtkDiffusionProfile::GetMeanExternalReflectance(1.0) == 0.0, "index 1 external");
-  Check(vtkDiffusionProfile::GetTransmittance(0.3, 1.0) == 1.0, "index 1 transmits all");
-  CheckClose(vtkDiffusionProfile::GetTransmittance(1.0, 1.5), 0.96, 1e-14, "normal incidence");
+  Check(DiffusionProfile::GetMeanInternalReflectance(1.0) == 0.0, "index 1 internal");
+  Check(DiffusionProfile::GetMeanExternalReflectance(1.0) == 0.0, "index 1 external");
+  Check(DiffusionProfile::GetTransmittance(0.3, 1.0) == 1.0, "index 1 transmits all");
+  CheckClose(DiffusionProfile::GetTransmittance(1.0, 1.5), 0.96, 1e-14, "normal incidence");
   // Brewster's angle: only the perpendicular half is reflected.
   const double brewster = std::cos(std::atan(1.5));
   const double reflected = (1.0 - 1.5 * 1.5) / (1.0 + 1.5 * 1.5);
-  CheckClose(vtkDiffusionProfile::GetTransmittance(brewster, 1.5),
-    1.0 - 0.5 * reflected * reflected, 1e-14, "Brewster's angle");
-  const vtkDiffusionProfile matched(1.0, 0.0, 1.0);
+  CheckClose(DiffusionProfile::GetTransmittance(brewster, 1.5), 1.0 - 0.5 * reflected * reflected,
+    1e-14, "Brewster's angle");
+  const DiffusionProfile matched(1.0, 0.0, 1.0);
   CheckClose(matched.GetVirtualDepth(), 7.0 / 3.0, 1e-14, "virtual depth at index 1");
 }
 
@@ -198,7 +200,7 @@ void TestTailAndMoments()
 {
   for (const Row& row : Rows)
   {
-    const vtkDiffusionProfile profile(std::stod(row.Scattering), std::stod(row.Absorption),
+    const DiffusionProfile profile(std::stod(row.Scattering), std::stod(row.Absorption),
       std::stod(row.Index));
     for (const double over : { 0.01, 0.3, 1.0, 7.0, 100.0 })
     {

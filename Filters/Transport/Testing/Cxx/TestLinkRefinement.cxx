@@ -3,10 +3,10 @@
 // Which links between clusters a scene gets: their error against the matrix of all pairs, and what
 // they must not depend on.
 #include "RanksInThreads.h"
+#include "Scene/PatchScene.h"
 #include "ViewFactorTesting.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkExchangeHierarchy.h"
-#include "vtkPatchScene.h"
 #include "vtkXMLPolyDataReader.h"
 
 #include <Eigen/Dense>
@@ -15,6 +15,8 @@
 #include <mutex>
 #include <random>
 #include <tuple>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -132,7 +134,7 @@ struct Irradiator
   vtkSmartPointer<vtkCPULinkOperator> Links;
   Vector Areas;
 
-  Irradiator(const vtkPatchScene& scene, double linkTolerance, bool closed = false)
+  Irradiator(const PatchScene& scene, double linkTolerance, bool closed = false)
     : Factors(MakeFactors(linkTolerance, closed))
   {
     Check(this->Factors->UpdateExchange(scene, [](double) { return true; }), "links");
@@ -182,7 +184,7 @@ Vector MakeRandom(Eigen::Index size, double low, double high, unsigned seed)
 
 //------------------------------------------------------------------------------
 /// A few neighbours send, all others reflect what they get.
-Vector MakeLamp(const vtkPatchScene& scene)
+Vector MakeLamp(const PatchScene& scene)
 {
   Vector emission = Vector::Zero(scene.GetNumberOfPatches());
   const vtkIdType lamp = scene.GetNumberOfPatches() / 3;
@@ -193,7 +195,7 @@ Vector MakeLamp(const vtkPatchScene& scene)
 //------------------------------------------------------------------------------
 void TestErrors(const std::string& name, vtkPolyData* data)
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
   Check(scene.Build(data, nullptr, error), error);
   const Irradiator dense(scene, 0.0);
@@ -268,7 +270,7 @@ void Append(vtkExchangeHierarchy* hierarchy, Table& table)
 }
 
 //------------------------------------------------------------------------------
-void TestThreads(const vtkPatchScene& scene)
+void TestThreads(const PatchScene& scene)
 {
   vtkSmartPointer<vtkViewFactors> factors[2];
   for (const int threads : { 1, 4 })
@@ -283,7 +285,7 @@ void TestThreads(const vtkPatchScene& scene)
 }
 
 //------------------------------------------------------------------------------
-void TestRanks(vtkPolyData* data, const vtkPatchScene& scene)
+void TestRanks(vtkPolyData* data, const PatchScene& scene)
 {
   const Irradiator whole(scene, 3e-2, true);
   Table expected, found;
@@ -292,7 +294,7 @@ void TestRanks(vtkPolyData* data, const vtkPatchScene& scene)
   RunRanks(3,
     [&](vtkMultiProcessController* controller, int rank)
     {
-      vtkPatchScene mine;
+      PatchScene mine;
       std::string error;
       vtkNew<vtkPolyData> nothing;
       const bool good = mine.Build(rank == 1 ? data : nothing.Get(), controller, error);
@@ -397,7 +399,7 @@ void TestPlaces(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-void TestClosure(const vtkPatchScene& scene)
+void TestClosure(const PatchScene& scene)
 {
   for (const double tolerance : { 1e-1, 1e-2 })
   {
@@ -416,7 +418,7 @@ void TestClosure(const vtkPatchScene& scene)
 //------------------------------------------------------------------------------
 void TestOpenScene(vtkPolyData* data)
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
   Check(scene.Build(data, nullptr, error), error);
   const Irradiator open(scene, 3e-2);
@@ -445,7 +447,7 @@ int TestLinkRefinement(int, char*[])
   TestErrors("spheres", MakeSpheres());
   TestErrors("Cornell box", MakeCornellBox());
   auto room = MakeFurnishedRoom(0.9);
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
   Check(scene.Build(room, nullptr, error), error);
   TestThreads(scene);

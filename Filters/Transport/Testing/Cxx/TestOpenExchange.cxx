@@ -4,14 +4,16 @@
 // blocks against pairs, and of plates and closed boxes against exact values.
 
 #include "LightTransportTesting.h"
-#include "vtkOpenExchange.h"
-#include "vtkPatchTree.h"
+#include "Scene/PatchTree.h"
+#include "ViewFactors/OpenExchange.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstdint>
 #include <sstream>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -328,14 +330,14 @@ vtkSmartPointer<vtkPolyData> MakeSurface(const std::vector<Corners>& polygons)
 }
 
 //------------------------------------------------------------------------------
-bool Build(vtkPatchScene& scene, const std::vector<Corners>& polygons)
+bool Build(PatchScene& scene, const std::vector<Corners>& polygons)
 {
   std::string error;
   return Check(scene.Build(MakeSurface(polygons), nullptr, error), error);
 }
 
 //------------------------------------------------------------------------------
-Corners GetPatch(const vtkPatchScene& scene, vtkIdType patch)
+Corners GetPatch(const PatchScene& scene, vtkIdType patch)
 {
   Corners corners;
   for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
@@ -363,13 +365,13 @@ void TestPairs(Kind kind, int count)
   for (int trial = 0; trial < count; ++trial)
   {
     const TrianglePair pair = MakePair(random, kind);
-    vtkPatchScene scene;
+    PatchScene scene;
     if (!Build(scene, { pair.A, pair.B }))
     {
       return;
     }
     const double tolerance = std::pow(10.0, -2.0 * (trial % 5 + 1));
-    const vtkPolygonExchange::Estimate result = vtkOpenExchange(scene, tolerance).Compute(0, 1);
+    const PolygonExchange::Estimate result = OpenExchange(scene, tolerance).Compute(0, 1);
     const bool swap = scene.GetAreas()[0] > scene.GetAreas()[1];
     const double smaller = scene.GetAreas()[swap ? 1 : 0];
     const Corners a = GetPatch(scene, swap ? 1 : 0);
@@ -427,18 +429,18 @@ struct Matrix
 {
   std::vector<float> Values; ///< above the diagonal
   std::vector<double> Errors;
-  vtkOpenExchange::Counters Counters;
+  OpenExchange::Counters Counters;
 };
 
 //------------------------------------------------------------------------------
-Matrix FillAll(const vtkPatchScene& scene, double tolerance)
+Matrix FillAll(const PatchScene& scene, double tolerance)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
-  const vtkOpenExchange exchange(scene, tolerance);
+  const OpenExchange exchange(scene, tolerance);
   Matrix matrix;
   matrix.Values.resize(patches * patches, 0.0f);
   matrix.Errors.resize(patches, 0.0);
-  constexpr vtkIdType size = vtkPatchTree::BlockSize;
+  constexpr vtkIdType size = PatchTree::BlockSize;
   for (vtkIdType i = 0; i < patches; i += size)
   {
     for (vtkIdType j = i; j < patches; j += size)
@@ -455,13 +457,13 @@ Matrix FillAll(const vtkPatchScene& scene, double tolerance)
 //------------------------------------------------------------------------------
 void TestBlocks()
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   if (!Build(scene, MakeSoup(700)))
   {
     return;
   }
   const vtkIdType patches = scene.GetNumberOfPatches();
-  const vtkOpenExchange exact(scene, 1e-9);
+  const OpenExchange exact(scene, 1e-9);
   for (const double tolerance : { 1e-2, 1e-4, 1e-6 })
   {
     const Matrix matrix = FillAll(scene, tolerance);
@@ -486,7 +488,7 @@ void TestBlocks()
     }
     Check(worst <= 1.0, "errors of blocks are within their bounds: " + std::to_string(worst));
     Check(worst > 0.0 && largest <= tolerance, "bounds of blocks are within the tolerance");
-    const vtkOpenExchange::Counters& counters = matrix.Counters;
+    const OpenExchange::Counters& counters = matrix.Counters;
     Check(counters.Examined == 0.5 * static_cast<double>(patches * (patches - 1)),
       "pairs examined");
     Check(counters.BackFacing + counters.Facing == counters.Examined, "pairs facing or not");
@@ -519,13 +521,13 @@ void TestMayFace()
   std::vector<Corners> polygons = MakeSoup(100);
   AddPlate(polygons, Vector::Zero(), Vector::UnitX(), Vector::UnitY(), 7);
   AddPlate(polygons, Vector::Zero(), Vector::UnitY(), Vector::UnitZ(), 7);
-  vtkPatchScene scene;
+  PatchScene scene;
   if (!Build(scene, polygons))
   {
     return;
   }
-  const vtkOpenExchange exchange(scene, 1e-6);
-  const std::vector<vtkPatchTree::Node>& nodes = scene.GetTree().GetNodes();
+  const OpenExchange exchange(scene, 1e-6);
+  const std::vector<PatchTree::Node>& nodes = scene.GetTree().GetNodes();
   int apart = 0;
   for (int a = 0; a < static_cast<int>(nodes.size()); ++a)
   {
@@ -558,7 +560,7 @@ void TestPlates(const Vector& origin, const Vector& u, const Vector& v, double e
     std::vector<Corners> polygons;
     AddPlate(polygons, Vector::Zero(), Vector::UnitX(), Vector::UnitY(), n);
     AddPlate(polygons, origin, u, v, n - 1);
-    vtkPatchScene scene;
+    PatchScene scene;
     if (!Build(scene, polygons))
     {
       return;
@@ -582,7 +584,7 @@ void TestPlates(const Vector& origin, const Vector& u, const Vector& v, double e
 //------------------------------------------------------------------------------
 void TestRoom()
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
   Check(scene.Build(MakeRoom(8), nullptr, error), error);
   const vtkIdType patches = scene.GetNumberOfPatches();
@@ -590,7 +592,7 @@ void TestRoom()
   for (const double tolerance : { 1e-2, 1e-4, 1e-6, 1e-10 })
   {
     const Matrix matrix = FillAll(scene, tolerance);
-    const vtkOpenExchange exchange(scene, tolerance);
+    const OpenExchange exchange(scene, tolerance);
     for (vtkIdType i = 0; i < patches; i += 5)
     {
       double row = 0.0;
@@ -616,14 +618,14 @@ void TestReciprocity()
   for (int trial = 0; trial < 100; ++trial)
   {
     const TrianglePair pair = MakePair(random, static_cast<Kind>(trial % Coplanar));
-    vtkPatchScene scene;
+    PatchScene scene;
     if (!Build(scene, { pair.A, pair.B }))
     {
       return;
     }
-    const vtkOpenExchange exchange(scene, 1e-12);
-    const vtkPolygonExchange::Estimate there = exchange.Compute(0, 1);
-    const vtkPolygonExchange::Estimate back = exchange.Compute(1, 0);
+    const OpenExchange exchange(scene, 1e-12);
+    const PolygonExchange::Estimate there = exchange.Compute(0, 1);
+    const PolygonExchange::Estimate back = exchange.Compute(1, 0);
     const double smaller = std::min(scene.GetAreas()[0], scene.GetAreas()[1]);
     CheckClose(there.Value, back.Value, 1e-13, "reciprocity");
     Check(there.Error <= 1e-12 * smaller,

@@ -3,21 +3,23 @@
 // The visible part of the exchange between two polygons past occluders against exact values and
 // against an independent integration: the exact view (clipped polygons) of many points.
 
+#include "ViewFactors/PairVisibility.h"
 #include "VisibilityTesting.h"
-#include "vtkPairVisibility.h"
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 using namespace VisibilityTesting;
 
 namespace
 {
-using Share = vtkPairVisibility::Share;
+using Share = PairVisibility::Share;
 
 //------------------------------------------------------------------------------
 // Patches a and b of a scene, each cut to the front of the other, and all others as occluders.
 struct Case
 {
-  vtkPatchScene Scene;
+  PatchScene Scene;
   Corners A, B;
   std::vector<vtkIdType> Occluders;
   std::vector<Corners> Parts; ///< what of the occluders is in front of both
@@ -45,9 +47,9 @@ struct Case
 };
 
 //------------------------------------------------------------------------------
-vtkPairVisibility::Polygon MakePolygon(const Corners& corners)
+PairVisibility::Polygon MakePolygon(const Corners& corners)
 {
-  vtkPairVisibility::Polygon polygon;
+  PairVisibility::Polygon polygon;
   polygon.Count = static_cast<int>(corners.size());
   std::copy(corners.begin(), corners.end(), polygon.Corners.begin());
   polygon.Normal = GetNormal(corners);
@@ -58,7 +60,7 @@ vtkPairVisibility::Polygon MakePolygon(const Corners& corners)
 // The first look where `tolerance` is 0, otherwise the integral.
 Share GetShare(const Case& scene, double tolerance, std::uint64_t key = 7, bool swapped = false)
 {
-  vtkPairVisibility visibility;
+  PairVisibility visibility;
   const auto a = MakePolygon(swapped ? scene.B : scene.A);
   const auto b = MakePolygon(swapped ? scene.A : scene.B);
   if (!visibility.SetPair(a, b, scene.Scene, scene.Occluders, key))

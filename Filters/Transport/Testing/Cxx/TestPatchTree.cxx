@@ -4,10 +4,10 @@
 // arrays and numbers that users see are those of the input.
 #include "LightTransportTesting.h"
 #include "RanksInThreads.h"
+#include "Scene/PatchScene.h"
+#include "Scene/PatchTree.h"
 #include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPatchScene.h"
-#include "vtkPatchTree.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
@@ -15,16 +15,18 @@
 #include <numeric>
 #include <random>
 
+using namespace LightTransport;
+
 using namespace LightTransportTesting;
 
 namespace
 {
-using Vector = vtkPatchTree::Vector;
+using Vector = PatchTree::Vector;
 
 //------------------------------------------------------------------------------
-vtkPatchScene Build(vtkDataObject* data)
+PatchScene Build(vtkDataObject* data)
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
   Check(scene.Build(data, nullptr, error), "scene: " + error);
   return scene;
@@ -55,14 +57,14 @@ vtkSmartPointer<vtkPolyData> Shuffle(vtkPolyData* data, unsigned int seed)
 }
 
 //------------------------------------------------------------------------------
-bool FacesManyWays(const vtkPatchTree::Node& node)
+bool FacesManyWays(const PatchTree::Node& node)
 {
   return node.ConeCosine < 0.95;
 }
 
 //------------------------------------------------------------------------------
 // Where normals divide a cluster depth is lost, but only a few times on the way down.
-int GetDepth(const vtkPatchTree& tree, int index)
+int GetDepth(const PatchTree& tree, int index)
 {
   int depth = 0;
   for (; tree.GetNode(index).Parent >= 0; index = tree.GetNode(index).Parent)
@@ -73,39 +75,39 @@ int GetDepth(const vtkPatchTree& tree, int index)
 }
 
 //------------------------------------------------------------------------------
-void CheckShape(const vtkPatchTree& tree, vtkIdType patches)
+void CheckShape(const PatchTree& tree, vtkIdType patches)
 {
-  const std::vector<vtkPatchTree::Node>& nodes = tree.GetNodes();
+  const std::vector<PatchTree::Node>& nodes = tree.GetNodes();
   Check(nodes[0].First == 0 && nodes[0].Last == patches && nodes[0].Parent == -1,
     "the root holds all patches");
   for (std::size_t index = 0; index < nodes.size(); ++index)
   {
-    const vtkPatchTree::Node& node = nodes[index];
+    const PatchTree::Node& node = nodes[index];
     if (node.IsLeaf())
     {
-      Check(node.GetSize() >= 1 && node.GetSize() <= vtkPatchTree::LeafSize, "size of a leaf");
+      Check(node.GetSize() >= 1 && node.GetSize() <= PatchTree::LeafSize, "size of a leaf");
       continue;
     }
-    const vtkPatchTree::Node& left = nodes[node.Left];
-    const vtkPatchTree::Node& right = nodes[node.Left + 1];
-    Check(node.GetSize() > vtkPatchTree::LeafSize, "leaves are not divided");
+    const PatchTree::Node& left = nodes[node.Left];
+    const PatchTree::Node& right = nodes[node.Left + 1];
+    Check(node.GetSize() > PatchTree::LeafSize, "leaves are not divided");
     Check(left.First == node.First && left.Last == right.First && right.Last == node.Last,
       "children divide the range of their parent");
     Check(left.Parent == static_cast<int>(index) && right.Parent == left.Parent, "parents");
     const vtkIdType unit =
-      node.GetSize() > vtkPatchTree::BlockSize ? vtkPatchTree::BlockSize : vtkPatchTree::LeafSize;
+      node.GetSize() > PatchTree::BlockSize ? PatchTree::BlockSize : PatchTree::LeafSize;
     Check(left.Last % unit == 0, "ranges are cut at multiples of blocks and leaves");
     Check(FacesManyWays(node) || std::abs(left.GetSize() - right.GetSize()) <= 2 * unit,
       "what faces one way is cut in half");
   }
   const double halvings = std::log2(std::max(1.0, static_cast<double>(patches)));
   Check(GetDepth(tree, static_cast<int>(nodes.size()) - 1) <= halvings + 9, "the tree is flat");
-  const vtkIdType blocks = (patches + vtkPatchTree::BlockSize - 1) / vtkPatchTree::BlockSize;
+  const vtkIdType blocks = (patches + PatchTree::BlockSize - 1) / PatchTree::BlockSize;
   for (vtkIdType block = 0; block < blocks; ++block)
   {
-    const vtkPatchTree::Node& node = tree.GetNode(tree.GetBlock(block));
-    Check(node.First == block * vtkPatchTree::BlockSize &&
-        node.Last == std::min((block + 1) * vtkPatchTree::BlockSize, patches),
+    const PatchTree::Node& node = tree.GetNode(tree.GetBlock(block));
+    Check(node.First == block * PatchTree::BlockSize &&
+        node.Last == std::min((block + 1) * PatchTree::BlockSize, patches),
       "a block is a node");
   }
 }
@@ -117,9 +119,9 @@ bool IsInside(const Vector& point, const Vector& lower, const Vector& upper)
 }
 
 //------------------------------------------------------------------------------
-void CheckBounds(const vtkPatchScene& scene)
+void CheckBounds(const PatchScene& scene)
 {
-  for (const vtkPatchTree::Node& node : scene.GetTree().GetNodes())
+  for (const PatchTree::Node& node : scene.GetTree().GetNodes())
   {
     Vector lower = node.Upper, upper = node.Lower;
     double area = 0.0, radius = 0.0, cosine = 1.0;
@@ -149,19 +151,19 @@ void TestTree()
   for (const int n : { 1, 2, 3, 7, 13, 20 })
   {
     auto room = Shuffle(MakeRoom(n), n);
-    const vtkPatchScene scene = Build(room);
+    const PatchScene scene = Build(room);
     CheckShape(scene.GetTree(), 6 * n * n);
     CheckBounds(scene);
   }
   Surface sphere;
   AddSphere(sphere, 1.0, 3, false);
-  const vtkPatchScene scene = Build(Shuffle(sphere.Get(), 1));
+  const PatchScene scene = Build(Shuffle(sphere.Get(), 1));
   CheckShape(scene.GetTree(), 1280);
   CheckBounds(scene);
   for (vtkIdType block = 0; block < 5; ++block)
   {
     // A fifth of a sphere: its normals stay on one side, and it does not reach across.
-    const vtkPatchTree::Node& node = scene.GetTree().GetNode(scene.GetTree().GetBlock(block));
+    const PatchTree::Node& node = scene.GetTree().GetNode(scene.GetTree().GetBlock(block));
     Check(node.ConeCosine > 0.0, "the patches of a block are near each other");
   }
 }
@@ -177,17 +179,17 @@ void TestCones()
     const double x = std::cos(angle), z = std::sin(angle);
     strip.AddPolygon({ { x, 0, z }, { x - z, 0, z + x }, { x - z, 1, z + x }, { x, 1, z } });
   }
-  const vtkPatchScene scene = Build(strip.Get());
-  const vtkPatchTree::Node& root = scene.GetTree().GetNode(0);
+  const PatchScene scene = Build(strip.Get());
+  const PatchTree::Node& root = scene.GetTree().GetNode(0);
   CheckClose(root.ConeCosine, std::sqrt(0.5), 1e-12, "cone of a quarter of a circle");
-  const vtkPatchScene room = Build(MakeRoom(1));
+  const PatchScene room = Build(MakeRoom(1));
   Check(room.GetTree().GetNode(0).ConeCosine == -1.0, "the walls of a room face everywhere");
 }
 
 //------------------------------------------------------------------------------
 std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids)
 {
-  vtkPatchTree tree;
+  PatchTree tree;
   return tree.Sort(centroids, std::vector<Vector>(centroids.size(), Vector::UnitX()));
 }
 
@@ -201,10 +203,10 @@ void TestNormals()
     centroids.emplace_back(k % 30, k / 30, 0.0);
     normals.push_back(k % 2 == 0 ? Vector::UnitZ() : Vector(-Vector::UnitZ()));
   }
-  vtkPatchTree tree;
+  PatchTree tree;
   const std::vector<vtkIdType> order = tree.Sort(centroids, normals);
   const vtkIdType cut = tree.GetNodes()[1].Last;
-  Check(cut == vtkPatchTree::BlockSize, "the block nearest to half");
+  Check(cut == PatchTree::BlockSize, "the block nearest to half");
   Check(std::all_of(order.begin(), order.begin() + cut,
           [&](vtkIdType patch) { return normals[patch].z() < 0.0; }),
     "the first block faces one way");
@@ -250,7 +252,7 @@ double GetTag(vtkPolyData* data, vtkIdType cell)
 }
 
 //------------------------------------------------------------------------------
-double GetTag(const vtkPatchScene& scene, vtkIdType patch)
+double GetTag(const PatchScene& scene, vtkIdType patch)
 {
   double tag = 0.0;
   for (int k = 0; k < scene.GetNumberOfCorners(patch); ++k)
@@ -302,7 +304,7 @@ void CheckArrays(vtkPolyData* data, double tolerance)
 
 //------------------------------------------------------------------------------
 // A number for each direction of a normal.
-std::vector<double> GetWalls(const vtkPatchScene& scene)
+std::vector<double> GetWalls(const PatchScene& scene)
 {
   std::vector<double> walls;
   for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
@@ -316,7 +318,7 @@ std::vector<double> GetWalls(const vtkPatchScene& scene)
 void CheckRoundTrip(vtkDataObject* input, vtkDataObject* output,
   const std::vector<vtkPolyData*>& blocks)
 {
-  vtkPatchScene scene = Build(input);
+  PatchScene scene = Build(input);
   std::vector<double> values;
   int components = 0;
   std::string error;
@@ -380,7 +382,7 @@ void TestRanks()
 {
   auto whole = Shuffle(MakeRoom(8), 5);
   AddTags(whole);
-  const vtkPatchScene serial = Build(whole);
+  const PatchScene serial = Build(whole);
   vtkSmartPointer<vtkPolyData> pieces[3];
   const vtkIdType starts[4] = { 0, 150, 150, whole->GetNumberOfCells() };
   for (int rank = 0; rank < 3; ++rank)
@@ -402,7 +404,7 @@ void TestRanks()
   RunRanks(3,
     [&](vtkMultiProcessController* controller, int rank)
     {
-      vtkPatchScene scene;
+      PatchScene scene;
       std::string error;
       std::vector<double> values;
       int components = 0;

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shares of black body radiation against integrals with 30 digits, quadrature, and each other.
 #include "LightTransportTesting.h"
-#include "vtkGaussLegendre.h"
-#include "vtkPlanckFraction.h"
+#include "Radiosity/PlanckFraction.h"
+#include "Support/GaussLegendre.h"
 
 #include <limits>
 
+using namespace LightTransport;
+
 using namespace LightTransportTesting;
-using namespace vtkPlanckFraction;
+using namespace PlanckFraction;
 
 namespace
 {
@@ -42,7 +44,7 @@ void TestKnownShares()
 double Integrate(double from, double to)
 {
   constexpr int intervals = 30;
-  const vtkGaussLegendre rule(20);
+  const GaussLegendre rule(20);
   const double width = (to - from) / intervals;
   double sum = 0.0;
   for (int k = 0; k < intervals; ++k)

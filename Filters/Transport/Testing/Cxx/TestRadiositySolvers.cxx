@@ -3,19 +3,21 @@
 // The solvers by themselves, against a dense LU decomposition in double precision: how many
 // iterations they take, that the error bound holds after each of them, and how they end.
 #include "LightTransportTesting.h"
+#include "Radiosity/RadiosityIteration.h"
+#include "Radiosity/RadiositySolvers.h"
+#include "Scene/PatchScene.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkObjectFactory.h"
-#include "vtkPatchScene.h"
 #include "vtkRadiosity.h"
-#include "vtkRadiosityIteration.h"
-#include "vtkRadiositySolvers.h"
 #include "vtkViewFactors.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <limits>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -76,14 +78,14 @@ public:
   Vector GetExact() const { return this->K.lu().solve(this->Emission); }
 
   // Everything but Report; several bands are copies of the one.
-  vtkRadiosityProblem MakeProblem(int solver, int bands = 1)
+  RadiosityProblem MakeProblem(int solver, int bands = 1)
   {
     this->Links = vtkSmartPointer<vtkDenseLinkOperator>::New();
     this->Reference = vtkSmartPointer<vtkDenseLinkOperator>::New();
     Check(this->Links->Initialize(this->Exchange, bands) &&
         this->Reference->Initialize(this->Exchange, bands),
       "link operators");
-    vtkRadiosityProblem problem;
+    RadiosityProblem problem;
     problem.Operator = this->Links;
     problem.Reference = this->Reference;
     problem.Solver = solver;
@@ -107,12 +109,12 @@ public:
   Vector GetCurrent() const
   {
     Vector current(this->GetNumberOfPatches());
-    this->Links->GetVector(vtkRadiosityIteration::SOLUTION, current.data());
+    this->Links->GetVector(RadiosityIteration::SOLUTION, current.data());
     return current;
   }
 
   vtkNew<vtkViewFactors> Factors;
-  vtkPatchScene Scene;
+  PatchScene Scene;
   vtkExchangeMatrix* Exchange = nullptr;
   vtkSmartPointer<vtkDenseLinkOperator> Links, Reference;
   Matrix F, K;
@@ -134,7 +136,7 @@ vtkSmartPointer<vtkPolyData> MakePlates(double gap)
 int CountIterations(Case& scene, int solver, const std::string& what)
 {
   const Vector exact = scene.GetExact();
-  vtkRadiosityProblem problem = scene.MakeProblem(solver);
+  RadiosityProblem problem = scene.MakeProblem(solver);
   problem.Tolerance = 1e-15;
   int count = -1;
   problem.Report = [&](int iteration, double residual, double bound)
@@ -155,8 +157,8 @@ int CountIterations(Case& scene, int solver, const std::string& what)
     }
     return count < 0;
   };
-  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
-  Check(solution.Status == vtkRadiosityStatus::Aborted && solution.Error.empty(),
+  const RadiositySolution solution = RadiositySolvers::Solve(problem);
+  Check(solution.Status == RadiosityStatus::Aborted && solution.Error.empty(),
     what + ": stopped by us " + solution.Error);
   return count;
 }
@@ -181,8 +183,8 @@ void TestCounts(Case& scene, const std::vector<Expected>& rows, const std::strin
          solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT; ++solver)
     {
       const int most = row.Most[solver - 1];
-      const std::string what = name + " at " + std::to_string(row.Reflectance) + ", " +
-        vtkRadiositySolvers::GetName(solver);
+      const std::string what =
+        name + " at " + std::to_string(row.Reflectance) + ", " + RadiositySolvers::GetName(solver);
       const int count = most > 0 ? CountIterations(scene, solver, what) : 0;
       Check(count >= 0 && count <= most + most / 20 + 1,
         what + " takes " + std::to_string(count) + " iterations, not " + std::to_string(most));
@@ -239,10 +241,10 @@ void TestAnswers()
            solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT; ++solver)
       {
         const std::string what =
-          std::string(vtkRadiositySolvers::GetName(solver)) + " to " + std::to_string(tolerance);
-        vtkRadiosityProblem problem = cube.MakeProblem(solver, bands);
+          std::string(RadiositySolvers::GetName(solver)) + " to " + std::to_string(tolerance);
+        RadiosityProblem problem = cube.MakeProblem(solver, bands);
         problem.Tolerance = tolerance;
-        const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+        const RadiositySolution solution = RadiositySolvers::Solve(problem);
         Check(solution.HasConverged() && solution.Warning.empty() && solution.Error.empty(),
           what + " converges");
         Check(solution.Solver == (solver == 0 ? vtkRadiosity::SOLVER_CONJUGATE_GRADIENT : solver),
@@ -331,10 +333,10 @@ void TestSinglePrecision()
       {
         continue;
       }
-      const std::string what = std::string(vtkRadiositySolvers::GetName(solver)) +
+      const std::string what = std::string(RadiositySolvers::GetName(solver)) +
         " in single precision at " + std::to_string(rho);
       vtkNew<SinglePrecisionLinks> links;
-      vtkRadiosityProblem problem = cube.MakeProblem(solver);
+      RadiosityProblem problem = cube.MakeProblem(solver);
       Check(links->Take(cube.Exchange), "links");
       problem.Operator = links;
       problem.Tolerance = 1e-8;
@@ -345,7 +347,7 @@ void TestSinglePrecision()
         last = iteration;
         return true;
       };
-      const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+      const RadiositySolution solution = RadiositySolvers::Solve(problem);
       Check(solution.HasConverged() && last == solution.NumberOfIterations,
         what + " converges: " + solution.Warning);
       double error = 0.0;
@@ -370,16 +372,16 @@ void TestAuto()
   for (const double rho : { 0.0, 0.02, 0.5, 0.99 })
   {
     cube.SetReflectance([&](vtkIdType) { return rho; });
-    const vtkRadiositySolution chosen =
-      vtkRadiositySolvers::Solve(cube.MakeProblem(vtkRadiosity::SOLVER_AUTO));
+    const RadiositySolution chosen =
+      RadiositySolvers::Solve(cube.MakeProblem(vtkRadiosity::SOLVER_AUTO));
     const int expected =
       rho < 0.1 ? vtkRadiosity::SOLVER_JACOBI : vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
     Check(chosen.HasConverged() && chosen.Solver == expected, "Auto at " + std::to_string(rho));
-    Check(chosen.Explanation.find(std::string(vtkRadiositySolvers::GetName(expected)) + ": ") == 0,
+    Check(chosen.Explanation.find(std::string(RadiositySolvers::GetName(expected)) + ": ") == 0,
       "Auto explains: " + chosen.Explanation);
     for (const int other : { vtkRadiosity::SOLVER_JACOBI, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
     {
-      const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(cube.MakeProblem(other));
+      const RadiositySolution solution = RadiositySolvers::Solve(cube.MakeProblem(other));
       Check(chosen.NumberOfIterations <= solution.NumberOfIterations + 1, "Auto is no slower");
       Check(solution.Explanation.find("asked for") != std::string::npos,
         "a choice needs no reason");
@@ -388,13 +390,12 @@ void TestAuto()
 }
 
 //------------------------------------------------------------------------------
-void ExpectEnd(const vtkRadiosityProblem& problem, vtkRadiosityStatus status,
-  const std::string& remedy)
+void ExpectEnd(const RadiosityProblem& problem, RadiosityStatus status, const std::string& remedy)
 {
-  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
-  const std::string what = std::string(vtkRadiositySolvers::GetName(problem.Solver)) + ": " +
-    vtkRadiositySolvers::GetName(status);
-  Check(solution.Status == status, what + ", not " + vtkRadiositySolvers::GetName(solution.Status));
+  const RadiositySolution solution = RadiositySolvers::Solve(problem);
+  const std::string what = std::string(RadiositySolvers::GetName(problem.Solver)) + ": " +
+    RadiositySolvers::GetName(status);
+  Check(solution.Status == status, what + ", not " + RadiositySolvers::GetName(solution.Status));
   Check(solution.Warning.find(remedy) != std::string::npos, what + " warns: " + solution.Warning);
   Check(solution.Error.empty() && solution.Radiosity.size() == problem.Emission.size(),
     what + " leaves the result so far");
@@ -420,24 +421,24 @@ void TestEndings()
   for (int solver = vtkRadiosity::SOLVER_JACOBI; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
        ++solver)
   {
-    vtkRadiosityProblem hasty = cube.MakeProblem(solver);
+    RadiosityProblem hasty = cube.MakeProblem(solver);
     hasty.Tolerance = 1e-12;
     hasty.MaximumNumberOfIterations = 2;
-    ExpectEnd(hasty, vtkRadiosityStatus::IterationsUsedUp, "MaximumNumberOfIterations");
-    vtkRadiosityProblem tight = cube.MakeProblem(solver);
+    ExpectEnd(hasty, RadiosityStatus::IterationsUsedUp, "MaximumNumberOfIterations");
+    RadiosityProblem tight = cube.MakeProblem(solver);
     tight.Tolerance = 1e-15;
-    ExpectEnd(tight, vtkRadiosityStatus::Stagnated, "Raise Tolerance");
-    vtkRadiosityProblem stopped = cube.MakeProblem(solver);
+    ExpectEnd(tight, RadiosityStatus::Stagnated, "Raise Tolerance");
+    RadiosityProblem stopped = cube.MakeProblem(solver);
     stopped.Report = [](int iteration, double, double) { return iteration < 1; };
-    ExpectEnd(stopped, vtkRadiosityStatus::Aborted, "");
-    ExpectEnd(unstable.MakeProblem(solver), vtkRadiosityStatus::Diverged, "EnforceClosure");
+    ExpectEnd(stopped, RadiosityStatus::Aborted, "");
+    ExpectEnd(unstable.MakeProblem(solver), RadiosityStatus::Diverged, "EnforceClosure");
   }
 }
 
 //------------------------------------------------------------------------------
-void ExpectError(const vtkRadiosityProblem& problem, const std::vector<std::string>& parts)
+void ExpectError(const RadiosityProblem& problem, const std::vector<std::string>& parts)
 {
-  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(problem);
+  const RadiositySolution solution = RadiositySolvers::Solve(problem);
   for (const std::string& part : parts)
   {
     Check(solution.Error.find(part) != std::string::npos,
@@ -456,7 +457,7 @@ void TestDiagnoses()
     { "no unique solution: polygon ", "(reflectance 1, view factors that sum to 1)",
       "closed part" });
   // Two bands, of which the second is the one.
-  vtkRadiosityProblem bands = cube.MakeProblem(0, 2);
+  RadiosityProblem bands = cube.MakeProblem(0, 2);
   for (std::size_t k = 0; k < bands.Reflectance.size(); k += 2)
   {
     bands.Reflectance[k] = 0.7;
@@ -490,9 +491,9 @@ void TestDiagnoses()
   {
     sums[two.Scene.GetPatch(i)] = 1.3;
   }
-  vtkRadiosityProblem overfull = two.MakeProblem(0);
+  RadiosityProblem overfull = two.MakeProblem(0);
   overfull.RowSums = &sums;
-  const vtkRadiositySolution solution = vtkRadiositySolvers::Solve(overfull);
+  const RadiositySolution solution = RadiositySolvers::Solve(overfull);
   ExpectError(overfull,
     { "no unique solution", "(reflectance 0.8, view factors that sum to 1.3)",
       "returns more than it receives" });
@@ -502,16 +503,16 @@ void TestDiagnoses()
   two.SetReflectance([](vtkIdType) { return 0.7; });
   overfull = two.MakeProblem(0);
   overfull.RowSums = &sums;
-  const vtkRadiositySolution doubtful = vtkRadiositySolvers::Solve(overfull);
+  const RadiositySolution doubtful = RadiositySolvers::Solve(overfull);
   Check(doubtful.HasConverged() &&
       doubtful.Warning.find("arrives more than once") != std::string::npos,
     "a row above 1 is named: " + doubtful.Warning);
   // View factors that are not good enough.
   cube.SetReflectance([](vtkIdType) { return 0.9999; });
-  vtkRadiosityProblem vague = cube.MakeProblem(0);
+  RadiosityProblem vague = cube.MakeProblem(0);
   vague.RowSumError = 1e-3;
   // Where no row exceeds 1 there is a solution, however doubtful.
-  const vtkRadiositySolution doubted = vtkRadiositySolvers::Solve(vague);
+  const RadiositySolution doubted = RadiositySolvers::Solve(vague);
   Check(doubted.HasConverged() && doubted.Warning.find("EnforceClosure") != std::string::npos,
     "view factors that tell little: " + doubted.Warning);
   std::vector<double> fuller = *vague.RowSums;
@@ -520,7 +521,7 @@ void TestDiagnoses()
   ExpectError(vague, { "no unique solution within that error", "EnforceClosure" });
   vague = cube.MakeProblem(0);
   vague.RowSumError = 3e-5;
-  const vtkRadiositySolution uncertain = vtkRadiositySolvers::Solve(vague);
+  const RadiositySolution uncertain = RadiositySolvers::Solve(vague);
   Check(uncertain.HasConverged() &&
       uncertain.Warning.find("B may be wrong by 3") != std::string::npos,
     "errors of view factors are amplified: " + uncertain.Warning);

@@ -3,20 +3,22 @@
 // The profile integrated over pairs of triangles and over one triangle twice, against brute force,
 // for triangles from much smaller to much larger than the mean free path.
 #include "LightTransportTesting.h"
-#include "vtkScatteringIntegrals.h"
+#include "Scattering/ScatteringIntegrals.h"
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
 namespace
 {
-using Vector = vtkScatteringIntegrals::Vector;
-using Triangle = vtkScatteringIntegrals::Triangle;
-using Result3 = vtkScatteringIntegrals::Result;
+using Vector = ScatteringIntegrals::Vector;
+using Triangle = ScatteringIntegrals::Triangle;
+using Result3 = ScatteringIntegrals::Result;
 
 constexpr double Tolerance = 4e-5;
 
 //------------------------------------------------------------------------------
-std::vector<vtkDiffusionProfile> MakeProfiles()
+std::vector<DiffusionProfile> MakeProfiles()
 {
   return { { 2.19, 0.0021, 1.5 }, { 2.62, 0.0041, 1.5 }, { 1.0, 1.0, 1.3 } };
 }
@@ -44,8 +46,7 @@ std::vector<Vector> GetCentroids(const Triangle& triangle, int cuts)
 
 //------------------------------------------------------------------------------
 /// All pairs of small triangles by their centroids.
-double SumCentroids(const vtkDiffusionProfile& profile, const Triangle& a, const Triangle& b,
-  int cuts)
+double SumCentroids(const DiffusionProfile& profile, const Triangle& a, const Triangle& b, int cuts)
 {
   const std::vector<Vector> from = GetCentroids(a, cuts);
   const std::vector<Vector> to = GetCentroids(b, cuts);
@@ -63,8 +64,7 @@ double SumCentroids(const vtkDiffusionProfile& profile, const Triangle& a, const
 //------------------------------------------------------------------------------
 /// Mean of the profile over both triangles, over its total; the error falls with the square of the
 /// number of cuts, which extrapolation removes.
-double BruteForce(const vtkDiffusionProfile& profile, const Triangle& a, const Triangle& b,
-  int cuts)
+double BruteForce(const DiffusionProfile& profile, const Triangle& a, const Triangle& b, int cuts)
 {
   const double coarse = SumCentroids(profile, a, b, cuts / 2);
   const double fine = SumCentroids(profile, a, b, cuts);
@@ -91,10 +91,10 @@ const Case Cases[] = { { "coplanar edge", { Side, Origin, { 0.6, -0.8, 0.0 } } }
 //------------------------------------------------------------------------------
 void TestPairs()
 {
-  const std::vector<vtkDiffusionProfile> profiles = MakeProfiles();
+  const std::vector<DiffusionProfile> profiles = MakeProfiles();
   for (const double size : { 0.003, 0.05, 0.5, 3.0 })
   {
-    const vtkScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
+    const ScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
     const Triangle first(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
     for (const Case& other : Cases)
     {
@@ -124,10 +124,10 @@ void TestPairs()
 /// The four quarters of a triangle: with themselves and with each other they make the whole.
 void TestSelf()
 {
-  const std::vector<vtkDiffusionProfile> profiles = MakeProfiles();
+  const std::vector<DiffusionProfile> profiles = MakeProfiles();
   for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0 })
   {
-    const vtkScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
+    const ScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
     const Vector a = size * Origin, b = size * Side, c = size * Vector(0.8, 0.3, 0.4);
     const Triangle whole(a, b, c);
     const Vector ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
@@ -164,9 +164,9 @@ void TestSelf()
 /// edge, 2 int R r^2 dr.
 void TestWidePatch()
 {
-  const std::vector<vtkDiffusionProfile> profiles = MakeProfiles();
+  const std::vector<DiffusionProfile> profiles = MakeProfiles();
   const double size = 3000.0;
-  const vtkScatteringIntegrals integrals(profiles, size, Tolerance);
+  const ScatteringIntegrals integrals(profiles, size, Tolerance);
   const Triangle patch(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
   double perimeter = 0.0;
   for (int k = 0; k < 3; ++k)

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays where single precision cannot tell: edges, vertices, gaps, tiny patches, patches in one
 // plane. Every answer is known from the construction.
+#include "Geometry/PatchSampler.h"
+#include "Geometry/SceneRayCaster.h"
 #include "LightTransportTesting.h"
-#include "vtkPatchSampler.h"
-#include "vtkPatchScene.h"
-#include "vtkSceneRayCaster.h"
+#include "Scene/PatchScene.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
 
@@ -13,17 +13,19 @@
 #include <memory>
 #include <random>
 
+using namespace LightTransport;
+
 using namespace LightTransportTesting;
 
 namespace
 {
-using Vector = vtkPatchScene::Vector;
+using Vector = PatchScene::Vector;
 
 //------------------------------------------------------------------------------
 struct Scene
 {
-  vtkPatchScene Patches;
-  vtkSceneRayCaster Caster;
+  PatchScene Patches;
+  SceneRayCaster Caster;
 
   explicit Scene(vtkPolyData* data, const std::vector<bool>* subset = nullptr)
   {
@@ -53,14 +55,14 @@ struct Scene
 
   Vector Sample(vtkIdType patch, int index) const
   {
-    vtkPolygonExchange::Polygon polygon;
+    PolygonExchange::Polygon polygon;
     polygon.Count = this->Patches.GetNumberOfCorners(patch);
     for (int corner = 0; corner < polygon.Count; ++corner)
     {
       polygon.Corners[corner] = this->Patches.GetCorner(patch, corner);
     }
     polygon.Normal = this->Patches.GetNormal(patch);
-    return vtkPatchSampler(static_cast<std::uint64_t>(patch)).GetPoint(polygon, index, 0);
+    return PatchSampler(static_cast<std::uint64_t>(patch)).GetPoint(polygon, index, 0);
   }
 };
 
@@ -89,7 +91,7 @@ vtkSmartPointer<vtkPolyData> MakeSphere(int levels, bool inward)
 void TestLeaks(vtkPolyData* data, const std::string& name)
 {
   const Scene scene(data);
-  const vtkPatchScene& patches = scene.Patches;
+  const PatchScene& patches = scene.Patches;
   std::mt19937 random(11);
   const auto draw = [&random]() { return static_cast<double>(random() >> 5) * 0x1p-27; };
   int rays = 0, missed = 0, passed = 0, wrong = 0;
@@ -127,12 +129,12 @@ void TestLeaks(vtkPolyData* data, const std::string& name)
 void TestSelfHits(vtkPolyData* data, const std::string& name)
 {
   const Scene scene(data);
-  const vtkPatchScene& patches = scene.Patches;
+  const PatchScene& patches = scene.Patches;
   int hits = 0;
   for (vtkIdType patch = 0; patch < patches.GetNumberOfPatches(); ++patch)
   {
     const Vector& normal = patches.GetNormal(patch);
-    const vtkPatchSampler sampler(static_cast<std::uint64_t>(patch));
+    const PatchSampler sampler(static_cast<std::uint64_t>(patch));
     for (int ray = 0; ray < 64; ++ray)
     {
       Vector origin = scene.Sample(patch, ray);
@@ -203,7 +205,7 @@ void TestOutline(double size, double margin)
   }
   surface.AddPolygon(corners);
   const Scene scene(surface.Get());
-  const vtkPatchScene& patches = scene.Patches;
+  const PatchScene& patches = scene.Patches;
   const vtkIdType occluder = patches.GetPatch(2);
   int wrong = 0;
   for (int ray = 0; ray < 3000; ++ray)
@@ -262,7 +264,7 @@ void TestThinWall()
   surface.AddGrid({ 0, 0, 0.5 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
   surface.AddGrid({ 0, 0, -0.5 }, { 1, 0, 0 }, { 0, 1, 0 }, 2, 2);
   const Scene scene(Turn(surface.Get()));
-  const vtkPatchScene& patches = scene.Patches;
+  const PatchScene& patches = scene.Patches;
   for (vtkIdType polygon = 0; polygon < patches.GetNumberOfPatches(); ++polygon)
   {
     const vtkIdType patch = patches.GetPatch(polygon);
@@ -288,7 +290,7 @@ void TestTinyAngle(double angle)
     surface.AddPolygon({ { 0, 0, 0 }, { 1, 0, height }, { 1, 1, height }, { 0, 1, 0 } });
     surface.AddPolygon({ { 0, 0, 0 }, { 0, 1, 0 }, { -1, 1, height }, { -1, 0, height } });
     const Scene scene(Turn(surface.Get()));
-    const vtkPatchScene& patches = scene.Patches;
+    const PatchScene& patches = scene.Patches;
     for (int i = 0; i < 2; ++i)
     {
       const vtkIdType from = patches.GetPatch(i);

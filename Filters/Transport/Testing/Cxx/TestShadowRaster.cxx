@@ -3,8 +3,10 @@
 // What a point sees of a target past triangles, from rasters of all shifts together, against the
 // exact view; closed sheets let nothing through.
 
+#include "ViewFactors/ShadowRaster.h"
 #include "VisibilityTesting.h"
-#include "vtkShadowRaster.h"
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 using namespace VisibilityTesting;
@@ -16,9 +18,9 @@ const double Down[3] = { 0.0, 0.0, -1.0 };
 
 //------------------------------------------------------------------------------
 // Counter-clockwise corners in the plane h = 0.
-vtkShadowRaster::Target MakeTarget(const Corners& corners)
+ShadowRaster::Target MakeTarget(const Corners& corners)
 {
-  vtkShadowRaster::Target target;
+  ShadowRaster::Target target;
   target.Begin = target.End = corners[0].x();
   for (std::size_t k = 0; k < corners.size(); ++k)
   {
@@ -36,9 +38,9 @@ vtkShadowRaster::Target MakeTarget(const Corners& corners)
 }
 
 //------------------------------------------------------------------------------
-vtkShadowRaster::Triangles MakeTriangles(const std::vector<Corners>& triangles)
+ShadowRaster::Triangles MakeTriangles(const std::vector<Corners>& triangles)
 {
-  vtkShadowRaster::Triangles result;
+  ShadowRaster::Triangles result;
   for (const Corners& triangle : triangles)
   {
     result.Add(triangle[0].data(), triangle[1].data(), triangle[2].data());
@@ -48,16 +50,16 @@ vtkShadowRaster::Triangles MakeTriangles(const std::vector<Corners>& triangles)
 
 //------------------------------------------------------------------------------
 // The visible part from rasters of size x size shifts.
-double GetMeanShare(const vtkShadowRaster::Target& target,
-  const vtkShadowRaster::Triangles& triangles, const Vector& point, const double* normal, int size)
+double GetMeanShare(const ShadowRaster::Target& target, const ShadowRaster::Triangles& triangles,
+  const Vector& point, const double* normal, int size)
 {
-  vtkShadowRaster::Flux sum;
+  ShadowRaster::Flux sum;
   for (int i = 0; i < size; ++i)
   {
     for (int j = 0; j < size; ++j)
     {
       const double shift[2] = { (i + 0.5) / size, (j + 0.5) / size };
-      const auto flux = vtkShadowRaster::See(target, triangles, point.data(), normal, shift);
+      const auto flux = ShadowRaster::See(target, triangles, point.data(), normal, shift);
       sum.Visible += flux.Visible;
       sum.Open += flux.Open;
     }
@@ -182,7 +184,7 @@ std::vector<Corners> MakeSheet(double jitter, Random& random)
 void TestClosedSheets()
 {
   Random random(2);
-  const vtkShadowRaster::Target square =
+  const ShadowRaster::Target square =
     MakeTarget({ { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } });
   double visible = 0.0;
   for (int k = 0; k < 3000; ++k)
@@ -202,8 +204,7 @@ void TestClosedSheets()
     // Points and shifts with few digits put edges and corners on lines and samples.
     const double shift[2] = { even ? 0.125 * (k / 2 % 8) : random.Uniform(),
       even ? 0.125 * (k / 16 % 8) : random.Uniform() };
-    visible +=
-      vtkShadowRaster::See(square, MakeTriangles(sheet), point.data(), Down, shift).Visible;
+    visible += ShadowRaster::See(square, MakeTriangles(sheet), point.data(), Down, shift).Visible;
   }
   CheckClose(visible, 0.0, 0.0, "what a closed sheet lets through");
 }
@@ -214,7 +215,7 @@ void TestEdgeOn()
 {
   Random random(3);
   const Corners corners{ { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
-  const vtkShadowRaster::Target square = MakeTarget(corners);
+  const ShadowRaster::Target square = MakeTarget(corners);
   double largest = 0.0;
   for (int k = 0; k < 20000; ++k)
   {
@@ -229,7 +230,7 @@ void TestEdgeOn()
     }
     const double shift[2] = { random.Uniform(), random.Uniform() };
     const auto flux =
-      vtkShadowRaster::See(square, MakeTriangles({ triangle }), point.data(), Down, shift);
+      ShadowRaster::See(square, MakeTriangles({ triangle }), point.data(), Down, shift);
     largest = std::max(largest, 1.0 - flux.GetShare());
   }
   CheckClose(largest, 0.0, 0.0, "shadow of a triangle seen from its plane");
@@ -241,7 +242,7 @@ void TestCounts()
 {
   Random random(4);
   const Corners target = MakePolygon(4, 0.7);
-  vtkShadowRaster::Triangles triangles;
+  ShadowRaster::Triangles triangles;
   for (int count = 40; count >= 0; --count)
   {
     std::vector<Corners> occluders;

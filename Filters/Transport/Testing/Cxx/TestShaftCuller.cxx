@@ -3,10 +3,12 @@
 // Shaft culling never leaves out a patch that hides anything, leaves out most others, and knows
 // scenes in which nothing can be in between.
 
+#include "Geometry/ShaftCuller.h"
 #include "VisibilityTesting.h"
-#include "vtkShaftCuller.h"
 
 #include <set>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 using namespace VisibilityTesting;
@@ -17,7 +19,7 @@ using Patches = std::vector<vtkIdType>;
 
 //------------------------------------------------------------------------------
 // Whether a segment crosses a patch, well inside both.
-bool Crosses(const vtkPatchScene& scene, vtkIdType patch, const Vector& from, const Vector& to)
+bool Crosses(const PatchScene& scene, vtkIdType patch, const Vector& from, const Vector& to)
 {
   const Corners corners = GetCorners(scene, patch);
   const Vector& normal = scene.GetNormal(patch);
@@ -40,7 +42,7 @@ bool Crosses(const vtkPatchScene& scene, vtkIdType patch, const Vector& from, co
 }
 
 //------------------------------------------------------------------------------
-Vector GetPoint(const vtkPatchScene& scene, vtkIdType patch, Random& random)
+Vector GetPoint(const PatchScene& scene, vtkIdType patch, Random& random)
 {
   const Corners corners = GetCorners(scene, patch);
   const auto last = static_cast<double>(corners.size() - 1);
@@ -52,7 +54,7 @@ Vector GetPoint(const vtkPatchScene& scene, vtkIdType patch, Random& random)
 
 //------------------------------------------------------------------------------
 // All patches but the two that some segments between them cross.
-std::set<vtkIdType> GetCrossed(const vtkPatchScene& scene, vtkIdType i, vtkIdType j, int count,
+std::set<vtkIdType> GetCrossed(const PatchScene& scene, vtkIdType i, vtkIdType j, int count,
   Random& random)
 {
   std::set<vtkIdType> crossed;
@@ -86,18 +88,18 @@ bool Holds(Patches found, const std::set<vtkIdType>& wanted)
 //------------------------------------------------------------------------------
 // Down the tree from the root to the leaves of two patches: lists only shrink, and at their end is
 // what a search of the whole scene finds.
-void CheckDescent(const vtkPatchScene& scene, const vtkShaftCuller& culler, vtkIdType i,
-  vtkIdType j, const std::set<vtkIdType>& crossed, const std::string& what)
+void CheckDescent(const PatchScene& scene, const ShaftCuller& culler, vtkIdType i, vtkIdType j,
+  const std::set<vtkIdType>& crossed, const std::string& what)
 {
   const auto getChild = [&](int node, vtkIdType patch)
   {
-    const vtkPatchTree& tree = scene.GetTree();
+    const PatchTree& tree = scene.GetTree();
     const int left = tree.GetNode(node).Left;
     return tree.GetNode(node).IsLeaf() ? node : (patch < tree.GetNode(left).Last ? left : left + 1);
   };
   int nodeI = 0;
   int nodeJ = 0;
-  vtkShaftCuller::Candidates list, direct, next;
+  ShaftCuller::Candidates list, direct, next;
   culler.Find(0, 0, list);
   while (!scene.GetTree().GetNode(nodeI).IsLeaf() || !scene.GetTree().GetNode(nodeJ).IsLeaf())
   {
@@ -125,12 +127,12 @@ void CheckDescent(const vtkPatchScene& scene, const vtkShaftCuller& culler, vtkI
 // `most`: of all patches, what lists may hold on average for each patch that is crossed.
 void CheckScene(const std::vector<Corners>& polygons, double most, const std::string& what)
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   if (!BuildScene(polygons, scene))
   {
     return;
   }
-  const vtkShaftCuller culler(scene);
+  const ShaftCuller culler(scene);
   Check(culler.HasOccluders(), what + ": has occluders");
   Random random(11);
   const auto count = static_cast<double>(scene.GetNumberOfPatches());
@@ -243,9 +245,9 @@ void TestScenes()
 //------------------------------------------------------------------------------
 bool HasOccluders(const std::vector<Corners>& polygons)
 {
-  vtkPatchScene scene;
+  PatchScene scene;
   BuildScene(polygons, scene);
-  return vtkShaftCuller(scene).HasOccluders();
+  return ShaftCuller(scene).HasOccluders();
 }
 
 //------------------------------------------------------------------------------

@@ -3,17 +3,17 @@
 // Heat exchange against closed forms: two-surface enclosures, given net fluxes, spectral bands,
 // backgrounds, series of temperatures.
 #include "LightTransportTesting.h"
+#include "Radiosity/PlanckFraction.h"
+#include "Radiosity/RadiosityMaterials.h"
 #include "RanksInThreads.h"
+#include "Scene/PatchScene.h"
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPatchScene.h"
-#include "vtkPlanckFraction.h"
 #include "vtkPointData.h"
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkRadiosity.h"
-#include "vtkRadiosityMaterials.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkViewFactors.h"
@@ -22,6 +22,8 @@
 
 #include <algorithm>
 #include <limits>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -400,7 +402,7 @@ void TestBodyUnderSky()
   CheckClose(Get(radiosity, "Irradiance", 3, 0),
     BlackFlux(300.0) * 0.37574229364592431 + 10.0 * vtkMath::Pi(), 1e-12, "sky in the window");
   CheckClose(Get(radiosity, "Irradiance", 3, 1),
-    BlackFlux(300.0) * vtkPlanckFraction::GetAbove(14.0 * 300.0) + 20.0 * vtkMath::Pi(), 1e-12,
+    BlackFlux(300.0) * PlanckFraction::GetAbove(14.0 * 300.0) + 20.0 * vtkMath::Pi(), 1e-12,
     "sky beyond it");
 }
 
@@ -615,14 +617,14 @@ void TestTimeSeries()
 
 //------------------------------------------------------------------------------
 std::string ReadMaterials(vtkPolyData* data, vtkMultiProcessController* controller,
-  vtkRadiosityMaterials& materials)
+  RadiosityMaterials& materials)
 {
   std::vector<std::string> names;
-  for (int array = 0; array < vtkRadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
   {
-    names.emplace_back(vtkRadiosityMaterials::GetDefaultName(array));
+    names.emplace_back(RadiosityMaterials::GetDefaultName(array));
   }
-  vtkPatchScene scene;
+  PatchScene scene;
   std::string error;
   Check(scene.Build(data, controller, error), "the scene: " + error);
   return materials.Read(data, scene, names, error) ? "" : error;
@@ -658,14 +660,14 @@ void TestRanks()
     }
     return part;
   };
-  vtkRadiosityMaterials whole;
+  RadiosityMaterials whole;
   Check(ReadMaterials(makePart(-1), nullptr, whole).empty(), "one rank reads");
   std::vector<std::string> errors(ranks);
   RunRanks(ranks,
     [&](vtkMultiProcessController* controller, int rank)
     {
       auto part = makePart(rank);
-      vtkRadiosityMaterials materials;
+      RadiosityMaterials materials;
       const std::string error = ReadMaterials(part, controller, materials);
       Check(error.empty(), "all ranks read: " + error);
       Check(materials.Emission == whole.Emission && materials.Reflectance == whole.Reflectance &&

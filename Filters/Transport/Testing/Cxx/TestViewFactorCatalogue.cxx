@@ -5,11 +5,13 @@
 // of which every single factor is known, with and without a wall between them, and closed scenes.
 // Wherever a whole row is known, Tolerance must bound the sum of the absolute errors in it, and
 // ViewFactorError must cover that sum.
+#include "Support/GaussLegendre.h"
 #include "ViewFactorTesting.h"
-#include "vtkGaussLegendre.h"
 
 #include <algorithm>
 #include <sstream>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -269,7 +271,7 @@ struct Opening
 std::vector<std::array<double, 2>> GetWindow(const std::array<double, 2>& p,
   const std::array<double, 2>& q, const std::array<double, 2>& opening, double level)
 {
-  static const vtkGaussLegendre gauss(14);
+  static const GaussLegendre gauss(14);
   // Lines c - s u: the lower patch, the upper one, the opening.
   const std::array<double, 2> lines[] = { { p[0], 0 }, { p[1], 0 }, { q[0], 1 }, { q[1], 1 },
     { opening[0], level }, { opening[1], level } };

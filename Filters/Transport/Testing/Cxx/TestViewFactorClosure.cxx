@@ -4,11 +4,13 @@
 // is exact, whatever the division into patches. Likewise with a smaller sphere within.
 #include "LightTransportTesting.h"
 #include "RanksInThreads.h"
-#include "vtkViewFactorClosure.h"
+#include "ViewFactors/ViewFactorClosure.h"
 
 #include <algorithm>
 #include <numeric>
 #include <random>
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -68,10 +70,10 @@ struct Case
   }
 
   // The tiles of one rank, all others without storage, and the pairs in them.
-  vtkViewFactorsResult MakeResult(std::vector<vtkPartlyVisiblePair>& pairs, int part = 0,
+  ViewFactorsResult MakeResult(std::vector<PartlyVisiblePair>& pairs, int part = 0,
     int parts = 1) const
   {
-    vtkViewFactorsResult result;
+    ViewFactorsResult result;
     result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
     Check(result.Exchange->Allocate(this->Areas, 1, part, parts), "allocation");
     for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
@@ -80,7 +82,7 @@ struct Case
         [&](int row, int column, vtkIdType i, vtkIdType j)
         { vtkExchangeMatrix::SetValue(tile, row, column, 0, this->GetExact(i, j)); });
     }
-    for (const vtkPartlyVisiblePair& pair : this->Pairs)
+    for (const PartlyVisiblePair& pair : this->Pairs)
     {
       const vtkIdType index = result.Exchange->GetTileIndex(pair.I / N, pair.J / N);
       if (index % parts == part)
@@ -106,26 +108,26 @@ struct Case
     }
   }
 
-  vtkViewFactorClosure::Report Close(vtkViewFactorsResult& result, double relativeError) const
+  ViewFactorClosure::Report Close(ViewFactorsResult& result, double relativeError) const
   {
-    std::vector<vtkPartlyVisiblePair> pairs;
+    std::vector<PartlyVisiblePair> pairs;
     result = this->MakeResult(pairs);
-    vtkViewFactorClosure::Report report;
-    Check(vtkViewFactorClosure::Close(result, pairs, this->Closed, relativeError, nullptr, report),
+    ViewFactorClosure::Report report;
+    Check(ViewFactorClosure::Close(result, pairs, this->Closed, relativeError, nullptr, report),
       "closure");
     return report;
   }
 
   std::vector<double> Areas;
   std::vector<bool> Closed;
-  std::vector<vtkPartlyVisiblePair> Pairs;
+  std::vector<PartlyVisiblePair> Pairs;
   double Total = 0.0; // area of the outer sphere
   vtkIdType Inner = 0;
   double InnerArea = 0.0;
 };
 
 //------------------------------------------------------------------------------
-double SumRow(const vtkViewFactorsResult& result, vtkIdType i)
+double SumRow(const ViewFactorsResult& result, vtkIdType i)
 {
   double sum = 0.0;
   for (vtkIdType j = 0; j < result.Exchange->GetNumberOfPatches(); ++j)
@@ -145,11 +147,11 @@ struct Comparison
   double After = 0.0;
 };
 
-Comparison Compare(const Case& scene, const vtkViewFactorsResult& result)
+Comparison Compare(const Case& scene, const ViewFactorsResult& result)
 {
   Comparison comparison;
   std::vector<bool> listed(scene.GetNumberOfPatches() * scene.GetNumberOfPatches(), false);
-  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  for (const PartlyVisiblePair& pair : scene.Pairs)
   {
     const double value = result.Exchange->GetValue(pair.I, pair.J);
     const double exact = scene.GetExact(pair.I, pair.J);
@@ -185,8 +187,8 @@ void TestClosedScene(vtkIdType patches, double relativeError)
     std::to_string(relativeError) + ")";
   Case scene(patches);
   scene.Perturb(5, 0.3);
-  vtkViewFactorsResult result;
-  const vtkViewFactorClosure::Report report = scene.Close(result, relativeError);
+  ViewFactorsResult result;
+  const ViewFactorClosure::Report report = scene.Close(result, relativeError);
   Check(report.Gap < Double, "no gap is left" + what);
   double worst = 0.0;
   for (vtkIdType i = 0; i < patches; ++i)
@@ -211,8 +213,8 @@ void TestSphereWithinSphere()
   Case scene(400);
   scene.SetInner(80);
   scene.Perturb(5, 0.3);
-  std::vector<vtkPartlyVisiblePair> pairs;
-  vtkViewFactorsResult result = scene.MakeResult(pairs);
+  std::vector<PartlyVisiblePair> pairs;
+  ViewFactorsResult result = scene.MakeResult(pairs);
   for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
   {
     scene.ForEachEntry(tile,
@@ -225,8 +227,8 @@ void TestSphereWithinSphere()
         }
       });
   }
-  vtkViewFactorClosure::Report report;
-  vtkViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, nullptr, report);
+  ViewFactorClosure::Report report;
+  ViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, nullptr, report);
   Check(report.Gap < Double, "sphere within a sphere");
   const Comparison comparison = Compare(scene, result);
   Check(comparison.Unlisted < 1.5e-4, "entries of the sphere within");
@@ -240,15 +242,15 @@ void TestLeastSquares()
 {
   Case scene(40);
   scene.Perturb(1, 0.1);
-  for (vtkPartlyVisiblePair& pair : scene.Pairs)
+  for (PartlyVisiblePair& pair : scene.Pairs)
   {
     pair.Error *= 1.0 + static_cast<double>((pair.I * 7 + pair.J * 3) % 5);
   }
-  vtkViewFactorsResult result;
+  ViewFactorsResult result;
   scene.Close(result, 0.0);
   std::map<std::pair<vtkIdType, vtkIdType>, double> slopes;
   double largest = 0.0;
-  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  for (const PartlyVisiblePair& pair : scene.Pairs)
   {
     const double slope = (result.Exchange->GetValue(pair.I, pair.J) - pair.Value) / pair.Error;
     slopes[{ pair.I, pair.J }] = slope;
@@ -271,17 +273,17 @@ void TestBounds()
   // Nothing visible where half is open, and all open where half is: the estimates say less.
   for (std::size_t k = 0; k < scene.Pairs.size(); k += 3)
   {
-    vtkPartlyVisiblePair& pair = scene.Pairs[k];
+    PartlyVisiblePair& pair = scene.Pairs[k];
     pair.Value = k % 2 == 0 ? 0.0 : 0.98 * pair.Open;
     pair.Error = 5.0 * pair.Error;
   }
-  vtkViewFactorsResult result;
-  const vtkViewFactorClosure::Report report = scene.Close(result, 1e-7);
+  ViewFactorsResult result;
+  const ViewFactorClosure::Report report = scene.Close(result, 1e-7);
   Check(report.Gap < Double, "closed at the bounds");
   const Comparison comparison = Compare(scene, result);
   Check(comparison.After < comparison.Before, "closer to the exact matrix at the bounds");
   vtkIdType atBounds = 0;
-  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  for (const PartlyVisiblePair& pair : scene.Pairs)
   {
     const double value = result.Exchange->GetValue(pair.I, pair.J);
     atBounds += value == 0.0 || value > pair.Open * (1.0 - 1e-7) ? 1 : 0;
@@ -299,10 +301,10 @@ void TestOpenRows()
   {
     scene.Closed[i] = false;
   }
-  std::vector<vtkPartlyVisiblePair> pairs;
-  const vtkViewFactorsResult before = scene.MakeResult(pairs);
-  vtkViewFactorsResult result;
-  const vtkViewFactorClosure::Report report = scene.Close(result, 1e-5);
+  std::vector<PartlyVisiblePair> pairs;
+  const ViewFactorsResult before = scene.MakeResult(pairs);
+  ViewFactorsResult result;
+  const ViewFactorClosure::Report report = scene.Close(result, 1e-5);
   Check(report.Gap < Double, "closed rows beside open ones");
   for (vtkIdType i = 0; i < 300; ++i)
   {
@@ -321,15 +323,15 @@ void TestUnclosable()
 {
   Case scene(100);
   scene.Perturb(1, 0.0);
-  for (vtkPartlyVisiblePair& pair : scene.Pairs)
+  for (PartlyVisiblePair& pair : scene.Pairs)
   {
     pair.Value = 0.4 * pair.Value;
     pair.Open = 0.25 * pair.Open;
     pair.Error = 0.1 * pair.Value;
   }
-  vtkViewFactorsResult result;
-  vtkViewFactorClosure::Report report = scene.Close(result, 1e-6);
-  for (const vtkPartlyVisiblePair& pair : scene.Pairs)
+  ViewFactorsResult result;
+  ViewFactorClosure::Report report = scene.Close(result, 1e-6);
+  for (const PartlyVisiblePair& pair : scene.Pairs)
   {
     CheckClose(result.Exchange->GetValue(pair.I, pair.J), pair.Open, 1e-7, "all that is open");
   }
@@ -357,8 +359,8 @@ void TestUnclosable()
 void TestNothing()
 {
   Case scene(50);
-  vtkViewFactorsResult result;
-  vtkViewFactorClosure::Report report = scene.Close(result, 1e-3);
+  ViewFactorsResult result;
+  ViewFactorClosure::Report report = scene.Close(result, 1e-3);
   Check(report.Change < 1e-7 && report.Gap < Double, "a matrix that is closed stays");
   scene.Closed.assign(50, false);
   scene.Perturb(2, 0.5);
@@ -373,18 +375,17 @@ void TestRanks()
 {
   Case scene(700);
   scene.Perturb(5, 0.3);
-  vtkViewFactorsResult whole;
-  const vtkViewFactorClosure::Report expected = scene.Close(whole, 1e-5);
+  ViewFactorsResult whole;
+  const ViewFactorClosure::Report expected = scene.Close(whole, 1e-5);
   constexpr int ranks = 4;
-  std::vector<vtkViewFactorsResult> results(ranks);
+  std::vector<ViewFactorsResult> results(ranks);
   RunRanks(ranks,
     [&](vtkMultiProcessController* controller, int rank)
     {
-      std::vector<vtkPartlyVisiblePair> pairs;
+      std::vector<PartlyVisiblePair> pairs;
       results[rank] = scene.MakeResult(pairs, rank, ranks);
-      vtkViewFactorClosure::Report report;
-      Check(
-        vtkViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5, controller, report),
+      ViewFactorClosure::Report report;
+      Check(ViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5, controller, report),
         "closure on several ranks");
       CheckClose(report.Change, expected.Change, 1e-6, "change on several ranks");
       Check(report.Gap < Double, "gap on several ranks");
@@ -394,7 +395,7 @@ void TestRanks()
     for (vtkIdType j = 0; j < 700; j += 7)
     {
       double sum = 0.0;
-      for (const vtkViewFactorsResult& result : results)
+      for (const ViewFactorsResult& result : results)
       {
         sum += result.Exchange->GetValue(i, j);
       }

@@ -3,16 +3,18 @@
 // The table of view factors between groups: catalogue values, reciprocity, and what makes a group.
 #include "LightTransportTesting.h"
 #include "RanksInThreads.h"
+#include "Scene/PatchScene.h"
+#include "ViewFactors/ViewFactorGroups.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPatchScene.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
-#include "vtkViewFactorGroups.h"
 #include "vtkViewFactors.h"
+
+using namespace LightTransport;
 
 using namespace LightTransportTesting;
 
@@ -36,25 +38,25 @@ double GetEntry(vtkTable* table, const std::string& row, const std::string& colu
 //------------------------------------------------------------------------------
 struct Problem
 {
-  vtkPatchScene Scene;
-  vtkViewFactorGroups::Groups Groups;
+  PatchScene Scene;
+  ViewFactorGroups::Groups Groups;
   std::string Error;
 
   bool Gather(vtkDataObject* input, vtkMultiProcessController* controller = nullptr)
   {
     return Check(this->Scene.Build(input, controller, this->Error), this->Error) &&
-      vtkViewFactorGroups::Gather(this->Scene, input, "Group", this->Groups, this->Error);
+      ViewFactorGroups::Gather(this->Scene, input, "Group", this->Groups, this->Error);
   }
 };
 
 //------------------------------------------------------------------------------
 // The view factors of a scene without sky, all that misses fronts meets back faces.
-vtkViewFactorsResult ComputeResult(const vtkPatchScene& scene)
+ViewFactorsResult ComputeResult(const PatchScene& scene)
 {
   vtkNew<vtkViewFactors> factors;
   factors->SetTolerance(1e-8);
   Check(factors->UpdateExchange(scene, [](double) { return true; }), "view factors");
-  vtkViewFactorsResult result;
+  ViewFactorsResult result;
   result.Exchange = vtkExchangeMatrix::SafeDownCast(factors->GetExchange());
   result.SkyFractions.assign(scene.GetNumberOfPatches(), 0.0);
   for (const double sum : factors->GetRowSums())
@@ -114,7 +116,7 @@ void TestCube()
   Check(problem.Gather(data), "groups of a cube");
   Check(Join(problem.Groups.Names) == "-30|-20|-10|0|10|20", "names of groups by an array");
   vtkNew<vtkTable> table;
-  Check(vtkViewFactorGroups::FillTable(ComputeResult(problem.Scene), problem.Groups,
+  Check(ViewFactorGroups::FillTable(ComputeResult(problem.Scene), problem.Groups,
           problem.Scene.GetScale(), nullptr, table),
     "table");
   Check(table->GetNumberOfRows() == 6 && table->GetNumberOfColumns() == 10, "size of the table");
@@ -145,9 +147,9 @@ void TestUnequalGroups()
   Problem problem;
   vtkNew<vtkTable> table;
   Check(problem.Gather(data), "two plates");
-  vtkViewFactorsResult result = ComputeResult(problem.Scene);
+  ViewFactorsResult result = ComputeResult(problem.Scene);
   result.SkyFractions.swap(result.BackFaceFractions);
-  vtkViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), nullptr, table);
+  ViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), nullptr, table);
   CheckRows(table, { "1", "2" });
   CheckClose(GetEntry(table, "1", "2"), Parallel, Single, "from parts to a whole");
   CheckClose(GetEntry(table, "2", "1"), Parallel, Single, "from a whole to parts");
@@ -156,7 +158,7 @@ void TestUnequalGroups()
 
   ids->SetValue(0, 2.0);
   problem.Gather(data);
-  vtkViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), nullptr, table);
+  ViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), nullptr, table);
   CheckRows(table, { "1", "2" });
   const vtkIdType first = problem.Scene.GetPatch(0), whole = problem.Scene.GetPatch(8);
   const double inside = 2.0 * result.Exchange->GetValue(first, whole) /
@@ -276,9 +278,9 @@ void TestRanks()
   };
   Problem whole;
   whole.Gather(makeBlocks(-1));
-  const vtkViewFactorsResult expected = ComputeResult(whole.Scene);
+  const ViewFactorsResult expected = ComputeResult(whole.Scene);
   vtkNew<vtkTable> expectedTable;
-  vtkViewFactorGroups::FillTable(expected, whole.Groups, whole.Scene.GetScale(), nullptr,
+  ViewFactorGroups::FillTable(expected, whole.Groups, whole.Scene.GetScale(), nullptr,
     expectedTable);
   CheckClose(GetEntry(expectedTable, "face2", "face3"), Parallel, Single, "blocks of one rank");
   std::vector<vtkSmartPointer<vtkTable>> tables(ranks);
@@ -287,7 +289,7 @@ void TestRanks()
     {
       Problem problem;
       problem.Gather(makeBlocks(rank), controller);
-      vtkViewFactorsResult part = expected;
+      ViewFactorsResult part = expected;
       part.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
       part.Exchange->Allocate(problem.Scene.GetAreas(), 1, rank, ranks);
       for (vtkExchangeMatrix::Tile& tile : part.Exchange->GetTiles())
@@ -298,7 +300,7 @@ void TestRanks()
           tile.Values);
       }
       tables[rank] = vtkSmartPointer<vtkTable>::New();
-      vtkViewFactorGroups::FillTable(part, problem.Groups, problem.Scene.GetScale(), controller,
+      ViewFactorGroups::FillTable(part, problem.Groups, problem.Scene.GetScale(), controller,
         tables[rank]);
     });
   for (vtkTable* table : tables)

@@ -3,7 +3,7 @@
 // View factors written and read back bit by bit; files that are cut short, damaged or made up are
 // refused; a failed write leaves nothing behind.
 #include "LightTransportTesting.h"
-#include "vtkViewFactorsFile.h"
+#include "ViewFactors/ViewFactorsFile.h"
 
 #include <algorithm>
 #include <cstring>
@@ -18,6 +18,8 @@
 #include <sys/resource.h>
 #endif
 
+using namespace LightTransport;
+
 using namespace LightTransportTesting;
 
 namespace
@@ -25,7 +27,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int N = vtkExchangeMatrix::TileSize;
-// Where things are in the file (see vtkViewFactorsFile.h).
+// Where things are in the file (see ViewFactorsFile.h).
 constexpr std::size_t Line = 40;
 constexpr std::size_t Order = Line, Tolerance = Line + 24, Patches = Line + 32,
                       Summaries = Line + 40, Tiles = Line + 48, Areas = Line + 56;
@@ -46,7 +48,7 @@ struct Folder
 
 //------------------------------------------------------------------------------
 // Any tile but that of the last row is stored or not; values are anything that may be.
-vtkViewFactorsResult MakeResult(vtkIdType patches)
+ViewFactorsResult MakeResult(vtkIdType patches)
 {
   std::mt19937_64 generator(static_cast<unsigned>(patches));
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -56,7 +58,7 @@ vtkViewFactorsResult MakeResult(vtkIdType patches)
     std::generate(values.begin(), values.end(), [&]() { return uniform(generator); });
     return values;
   };
-  vtkViewFactorsResult result;
+  ViewFactorsResult result;
   result.Fingerprint = generator();
   result.Tolerance = 1e-4;
   result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
@@ -114,7 +116,7 @@ bool IsSame(const vtkExchangeMatrix* a, const vtkExchangeMatrix* b)
 }
 
 //------------------------------------------------------------------------------
-bool IsSame(const vtkViewFactorsResult& a, const vtkViewFactorsResult& b)
+bool IsSame(const ViewFactorsResult& a, const ViewFactorsResult& b)
 {
   return a.Fingerprint == b.Fingerprint && a.Tolerance == b.Tolerance &&
     IsSame(a.RawRowSums, b.RawRowSums) && IsSame(a.RowSums, b.RowSums) &&
@@ -186,10 +188,10 @@ std::string Sign(std::string bytes)
 // The message names the file and the problem; what was there before stays.
 void ExpectError(const std::string& fileName, const std::string& problem, const std::string& what)
 {
-  vtkViewFactorsResult result;
+  ViewFactorsResult result;
   result.Fingerprint = 77;
   std::string error;
-  const bool read = vtkViewFactorsFile::Read(fileName, result, error);
+  const bool read = ViewFactorsFile::Read(fileName, result, error);
   Check(!read && result.Fingerprint == 77 && !result.Exchange, what + " is refused");
   Check(error.find(fileName) != std::string::npos && error.find(problem) != std::string::npos,
     what + " gives the message: " + error);
@@ -203,17 +205,17 @@ void TestRoundTrip(const Folder& folder)
   for (const vtkIdType patches : { 0, 1, 255, 256, 257, 1000 })
   {
     const std::string what = std::to_string(patches) + " patches: ";
-    const vtkViewFactorsResult result = MakeResult(patches);
-    Check(vtkViewFactorsFile::Write(name, result, error), what + error);
-    vtkViewFactorsResult again = MakeResult(3);
-    Check(vtkViewFactorsFile::Read(name, again, error), what + error);
+    const ViewFactorsResult result = MakeResult(patches);
+    Check(ViewFactorsFile::Write(name, result, error), what + error);
+    ViewFactorsResult again = MakeResult(3);
+    Check(ViewFactorsFile::Read(name, again, error), what + error);
     Check(IsSame(result, again), what + "the same bits");
     Check(folder.GetNumberOfFiles() == 1, what + "one file");
   }
   const std::string bytes = GetBytes(name);
   Check(bytes.rfind("vtkLightTransport view factors 2", 0) == 0 && bytes[Line - 1] == '\n',
     "a line to read");
-  const vtkViewFactorsResult result = MakeResult(1000);
+  const ViewFactorsResult result = MakeResult(1000);
   CheckClose(static_cast<double>(bytes.size()),
     Areas + 56.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Exchange->GetNumberOfStoredTiles() +
       result.Exchange->GetNumberOfBytes() + 8,
@@ -253,9 +255,9 @@ void TestFlippedBytes(const Folder& folder, const std::string& bytes)
     std::string damaged = bytes;
     damaged[offset] = static_cast<char>(damaged[offset] ^ (1 << (generator() % 8)));
     PutBytes(name, damaged);
-    vtkViewFactorsResult result;
+    ViewFactorsResult result;
     std::string error;
-    Check(!vtkViewFactorsFile::Read(name, result, error) && !error.empty(),
+    Check(!ViewFactorsFile::Read(name, result, error) && !error.empty(),
       "byte " + std::to_string(offset) + " is changed");
   }
   // The same bit of two words: what a plain sum or exclusive or would not see.
@@ -329,9 +331,9 @@ void TestMadeUp(const Folder& folder, const std::string& bytes)
   expect(Sign(Replace(twice, last - 8, std::uint64_t(0))), "a block", "a tile twice");
   expect(Sign(Replace(bytes, first - 16, std::uint64_t(1))), "a block", "below the diagonal");
   PutBytes(name, Sign(bytes));
-  vtkViewFactorsResult result;
+  ViewFactorsResult result;
   std::string error;
-  Check(vtkViewFactorsFile::Read(name, result, error), "the untouched file is read: " + error);
+  Check(ViewFactorsFile::Read(name, result, error), "the untouched file is read: " + error);
 }
 
 //------------------------------------------------------------------------------
@@ -381,12 +383,12 @@ void TestForeign(const Folder& folder, const std::string& bytes)
 //------------------------------------------------------------------------------
 // Also says that an older file of the name stays and that nothing else is left.
 void ExpectWriteError(const Folder& folder, const std::string& name,
-  const vtkViewFactorsResult& result, const std::string& what)
+  const ViewFactorsResult& result, const std::string& what)
 {
   const std::ptrdiff_t files = folder.GetNumberOfFiles();
   const std::string before = GetBytes(name);
   std::string error;
-  Check(!vtkViewFactorsFile::Write(name, result, error), what + " fails");
+  Check(!ViewFactorsFile::Write(name, result, error), what + " fails");
   Check(error.find(name) != std::string::npos, what + " gives the message: " + error);
   Check(folder.GetNumberOfFiles() == files && GetBytes(name) == before, what + " leaves nothing");
 }
@@ -394,10 +396,10 @@ void ExpectWriteError(const Folder& folder, const std::string& name,
 //------------------------------------------------------------------------------
 void TestWriteErrors(const Folder& folder)
 {
-  const vtkViewFactorsResult good = MakeResult(300);
+  const ViewFactorsResult good = MakeResult(300);
   const std::string name = folder.Get("kept");
   std::string error;
-  Check(vtkViewFactorsFile::Write(name, good, error), error);
+  Check(ViewFactorsFile::Write(name, good, error), error);
   ExpectWriteError(folder, folder.Get("missing/file"), good, "a missing folder");
   ExpectWriteError(folder, name + "/file", good, "a file as folder");
   fs::create_directory(folder.Path / "taken");
@@ -417,10 +419,9 @@ void TestWriteErrors(const Folder& folder)
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
 #endif
-  const auto expect =
-    [&](const std::function<void(vtkViewFactorsResult&)>& change, const char* what)
+  const auto expect = [&](const std::function<void(ViewFactorsResult&)>& change, const char* what)
   {
-    vtkViewFactorsResult result = MakeResult(300);
+    ViewFactorsResult result = MakeResult(300);
     change(result);
     ExpectWriteError(folder, name, result, what);
   };
@@ -445,7 +446,7 @@ int TestViewFactorsFile(int, char*[])
   TestRoundTrip(folder);
   const std::string name = folder.Get("file");
   std::string error;
-  Check(vtkViewFactorsFile::Write(name, MakeResult(300), error), error);
+  Check(ViewFactorsFile::Write(name, MakeResult(300), error), error);
   const std::string bytes = GetBytes(name);
   TestTruncation(folder, bytes);
   TestFlippedBytes(folder, bytes);

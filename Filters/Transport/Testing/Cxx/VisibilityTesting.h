@@ -6,12 +6,14 @@
 #define VisibilityTesting_h
 
 #include "LightTransportTesting.h"
-#include "vtkPatchScene.h"
+#include "Scene/PatchScene.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstdint>
+
+using namespace LightTransport;
 
 namespace VisibilityTesting
 {
@@ -148,8 +150,8 @@ inline double GetVisibleFlux(const Corners& target, const std::vector<Corners>& 
 }
 
 //------------------------------------------------------------------------------
-/// A scene of polygons; its patches are in another order (vtkPatchScene::GetPatch).
-inline bool BuildScene(const std::vector<Corners>& polygons, vtkPatchScene& scene)
+/// A scene of polygons; its patches are in another order (PatchScene::GetPatch).
+inline bool BuildScene(const std::vector<Corners>& polygons, PatchScene& scene)
 {
   LightTransportTesting::Surface surface;
   for (const Corners& polygon : polygons)
@@ -167,7 +169,7 @@ inline bool BuildScene(const std::vector<Corners>& polygons, vtkPatchScene& scen
 }
 
 //------------------------------------------------------------------------------
-inline Corners GetCorners(const vtkPatchScene& scene, vtkIdType patch)
+inline Corners GetCorners(const PatchScene& scene, vtkIdType patch)
 {
   Corners corners;
   for (int k = 0; k < scene.GetNumberOfCorners(patch); ++k)

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The surface that an atlas is made for: oriented manifold triangles that know their neighbours.
+ * Edges that are long beside the surface, or beside their component, are halved at first: charts
+ * are made of whole triangles, and few large ones leave no choice where to cut.
+ */
+#ifndef AtlasSurface_h
+#define AtlasSurface_h
+
+#include "Mesher/TriangleSoup.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace LightTransport
+{
+class AtlasSurface
+{
+public:
+  using Vector = Eigen::Vector3d;
+
+  /// Take the triangles of a soup without defects.
+  explicit AtlasSurface(const TriangleSoup& soup);
+
+  int GetNumberOfFaces() const { return static_cast<int>(this->Triangles.size()); }
+
+  std::vector<TriangleSoup::Point> Points;
+  /// The edges that were halved, in order: their middles are the last points. An edge may end at a
+  /// point that an earlier one made.
+  std::vector<std::array<std::size_t, 2>> HalvedEdges;
+
+  std::vector<TriangleSoup::Triangle> Triangles;
+  /// The triangle of the soup that each triangle is a part of.
+  std::vector<std::size_t> Sources;
+  /// The face across the edge from corner i to corner i + 1; -1 at a border.
+  std::vector<std::array<int, 3>> Neighbors;
+  std::vector<double> Areas;
+  std::vector<Vector> Normals; ///< of length 1
+  std::vector<Vector> Centers;
+  double Area = 0.0;
+
+  Vector GetPoint(std::size_t point) const
+  {
+    return Eigen::Map<const Vector>(this->Points[point].data());
+  }
+  double GetEdgeLength(int face, int edge) const;
+  Vector GetEdgeMiddle(int face, int edge) const;
+
+  /**
+   * The neighbours of the faces of one piece, numbered as `faces` is; -1 across the border of the
+   * piece. `owners` tells the piece that each face of the surface belongs to. `local` is room for
+   * one number per face; only those of the piece are used, so different pieces may be asked for at
+   * the same time.
+   */
+  std::vector<std::array<int, 3>> GetNeighborsWithin(const std::vector<int>& faces,
+    const std::vector<int>& owners, std::vector<int>& local) const;
+
+private:
+  void FindNeighbors();
+  void FindGeometry();
+  std::vector<double> FindLongestEdges() const;
+  /// The point in the middle of each halved edge, by the two points of the edge.
+  using Middles = std::unordered_map<std::uint64_t, std::size_t>;
+  int FindLongestHalvedEdge(std::size_t face, const Middles& middles) const;
+  bool HalveLongEdges(std::vector<double>& longest);
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,581 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Atlas/SquareLayout.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace LightTransport
+{
+namespace
+{
+using Coordinates = SquareMap::Coordinates;
+
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+// Springs are not weaker than this, where 1.15 is what the edges of an even mesh have.
+constexpr double WEAKEST_SPRING = 1e-4;
+
+// Iterations end when the next one would lower the squared stretch by less than this fraction.
+constexpr double LEAST_GAIN = 1e-4;
+
+//------------------------------------------------------------------------------
+double Cross(const Coordinates& a, const Coordinates& b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+//------------------------------------------------------------------------------
+double Dot(const Coordinates& a, const Coordinates& b)
+{
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+//------------------------------------------------------------------------------
+Coordinates Subtract(const Coordinates& a, const Coordinates& b)
+{
+  return { a[0] - b[0], a[1] - b[1] };
+}
+
+//------------------------------------------------------------------------------
+std::vector<Coordinates> Add(const std::vector<Coordinates>& a, double factor,
+  const std::vector<Coordinates>& b)
+{
+  std::vector<Coordinates> sum(a);
+  for (std::size_t i = 0; i < sum.size(); ++i)
+  {
+    sum[i][0] += factor * b[i][0];
+    sum[i][1] += factor * b[i][1];
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+// The step to the minimum of a sum of quadratic forms, one per element of Size unknowns. Unknowns
+// may be -1: held fast.
+template <int Size>
+class StepSolver
+{
+public:
+  using Unknowns = std::array<int, Size>;
+  using Hessian = Eigen::Matrix<double, Size, Size>;
+  using Gradient = Eigen::Matrix<double, Size, 1>;
+
+  StepSolver(std::vector<Unknowns> elements, int numberOfUnknowns)
+    : Elements(std::move(elements)), Matrix(numberOfUnknowns, numberOfUnknowns),
+      Slope(numberOfUnknowns)
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Unknowns& unknowns : this->Elements)
+    {
+      ForEachEntry(unknowns,
+        [&](int i, int j) { entries.emplace_back(unknowns[i], unknowns[j], 0.0); });
+    }
+    this->Matrix.setFromTriplets(entries.begin(), entries.end());
+    for (const Unknowns& unknowns : this->Elements)
+    {
+      ForEachEntry(unknowns,
+        [&](int i, int j) { this->Slots.push_back(this->FindSlot(unknowns[i], unknowns[j])); });
+    }
+    this->Solver.analyzePattern(this->Matrix);
+  }
+
+  void Clear()
+  {
+    std::fill_n(this->Matrix.valuePtr(), this->Matrix.nonZeros(), 0.0);
+    this->Slope.setZero();
+    this->NextElement = 0;
+    this->NextSlot = 0;
+  }
+
+  /// For the elements in their order.
+  void Add(const Hessian& hessian, const Gradient& gradient)
+  {
+    const Unknowns& unknowns = this->Elements[this->NextElement++];
+    ForEachEntry(unknowns,
+      [&](int i, int j)
+      { this->Matrix.valuePtr()[this->Slots[this->NextSlot++]] += hessian(i, j); });
+    for (int i = 0; i < Size; ++i)
+    {
+      if (unknowns[i] >= 0)
+      {
+        this->Slope[unknowns[i]] += gradient[i];
+      }
+    }
+  }
+
+  bool Solve(Eigen::VectorXd& step)
+  {
+    this->Solver.factorize(this->Matrix);
+    if (this->Solver.info() != Eigen::Success)
+    {
+      return false;
+    }
+    step = this->Solver.solve(-this->Slope);
+    return step.allFinite();
+  }
+
+  const Eigen::VectorXd& GetSlope() const { return this->Slope; }
+
+private:
+  // The lower triangle, all that the solver reads.
+  template <typename Visitor>
+  static void ForEachEntry(const Unknowns& unknowns, Visitor&& visit)
+  {
+    for (int i = 0; i < Size; ++i)
+    {
+      for (int j = 0; j < Size; ++j)
+      {
+        if (unknowns[j] >= 0 && unknowns[i] >= unknowns[j])
+        {
+          visit(i, j);
+        }
+      }
+    }
+  }
+
+  int FindSlot(int row, int column) const
+  {
+    const int* rows = this->Matrix.innerIndexPtr();
+    const int* columns = this->Matrix.outerIndexPtr();
+    return static_cast<int>(
+      std::lower_bound(rows + columns[column], rows + columns[column + 1], row) - rows);
+  }
+
+  std::vector<Unknowns> Elements;
+  Eigen::SparseMatrix<double> Matrix;
+  Eigen::VectorXd Slope;
+  std::vector<int> Slots;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> Solver;
+  std::size_t NextElement = 0;
+  std::size_t NextSlot = 0;
+};
+
+//------------------------------------------------------------------------------
+// Numbers the coordinates that are not held by a side.
+struct Freedom
+{
+  std::vector<std::array<int, 2>> Unknowns;
+  std::array<int, 2> Numbers{ 0, 0 };
+
+  explicit Freedom(const std::vector<unsigned char>& sides) : Unknowns(sides.size())
+  {
+    const int holders[2] = { SquareLayout::LEFT | SquareLayout::RIGHT,
+      SquareLayout::BOTTOM | SquareLayout::TOP };
+    for (std::size_t point = 0; point < sides.size(); ++point)
+    {
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        this->Unknowns[point][axis] = (sides[point] & holders[axis]) ? -1 : this->Numbers[axis]++;
+      }
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+// A triangle's part of the squared stretch, 1/2 area (1/s^2 + 1/t^2) with the singular values s >=
+// t of the map from the surface to the square, and its derivatives by the corners' coordinates. The
+// Hessian lacks its one negative eigenvalue, that of the mode which is a rotation for s = t (Smith,
+// de Goes and Kim, "Analytic Eigensystems for Isotropic Distortion Energies", 2019).
+class StretchElement
+{
+public:
+  using Hessian = StepSolver<6>::Hessian;
+  using Gradient = StepSolver<6>::Gradient;
+
+  StretchElement(const Eigen::Matrix<double, 2, 3>& shapeGradients,
+    const Eigen::Matrix<double, 2, 3>& uv, double area)
+  {
+    const Eigen::Matrix2d map = uv * shapeGradients.transpose();
+    const double e = 0.5 * (map(0, 0) + map(1, 1));
+    const double f = 0.5 * (map(0, 0) - map(1, 1));
+    const double g = 0.5 * (map(1, 0) + map(0, 1));
+    const double h = 0.5 * (map(1, 0) - map(0, 1));
+    const double turn = std::atan2(h, e);
+    const double lean = std::atan2(g, f);
+    const double s = std::hypot(e, h) + std::hypot(f, g);
+    const double t = map.determinant() / s;
+
+    const Eigen::Matrix2d left = Eigen::Rotation2Dd(0.5 * (turn + lean)).toRotationMatrix();
+    const Eigen::Matrix<double, 2, 3> right =
+      Eigen::Rotation2Dd(0.5 * (turn - lean)).toRotationMatrix() * shapeGradients;
+    const Gradient major = GetMode(left, Eigen::Vector2d(1.0, 0.0).asDiagonal() * right);
+    const Gradient minor = GetMode(left, Eigen::Vector2d(0.0, 1.0).asDiagonal() * right);
+    const Gradient shear = GetMode(left, right.colwise().reverse());
+    this->Slope = -area * (major / (s * s * s) + minor / (t * t * t));
+    this->Curvature = (3.0 * area / (s * s * s * s)) * major * major.transpose() +
+      (3.0 * area / (t * t * t * t)) * minor * minor.transpose() +
+      (0.5 * area * (s * s + s * t + t * t) / (s * t * s * t * s * t)) * shear * shear.transpose();
+  }
+
+  Hessian Curvature;
+  Gradient Slope;
+
+private:
+  static Gradient GetMode(const Eigen::Matrix2d& left, const Eigen::Matrix<double, 2, 3>& right)
+  {
+    const Eigen::Matrix<double, 2, 3> mode = left * right;
+    return Eigen::Map<const Gradient>(mode.data());
+  }
+};
+} // namespace
+
+//------------------------------------------------------------------------------
+SquareLayout::SquareLayout(const SquareMap::Disc& disc, const std::vector<unsigned char>& sides)
+  : Surface(disc), Sides(sides)
+{
+  double area = 0.0;
+  for (const auto& triangle : disc.Triangles)
+  {
+    this->Shapes.push_back(this->MakeShape(triangle));
+    area += this->Shapes.back().Area;
+  }
+  for (Shape& shape : this->Shapes)
+  {
+    shape.Length /= std::sqrt(area);
+    shape.Apex[0] /= std::sqrt(area);
+    shape.Apex[1] /= std::sqrt(area);
+    shape.Area /= area;
+  }
+}
+
+//------------------------------------------------------------------------------
+SquareLayout::Shape SquareLayout::MakeShape(const SquareMap::Triangle& triangle) const
+{
+  const auto point = [&](int corner)
+  { return Eigen::Map<const Eigen::Vector3d>(this->Surface.Points[triangle[corner]].data()); };
+  const Eigen::Vector3d first = point(1) - point(0);
+  const Eigen::Vector3d second = point(2) - point(0);
+  const double length = first.norm();
+  const double height = first.cross(second).norm() / length;
+  return { length, { first.dot(second) / length, height }, 0.5 * length * height };
+}
+
+//------------------------------------------------------------------------------
+// Half the cotangents of the angles opposite to the edges; an edge's two halves may differ in sign,
+// but their sum is kept positive.
+void SquareLayout::MakeConformalSprings()
+{
+  struct Half
+  {
+    std::size_t From;
+    std::size_t To;
+    double* Spring;
+  };
+  std::vector<Half> halves;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    const auto& triangle = this->Surface.Triangles[i];
+    const Shape& shape = this->Shapes[i];
+    const Coordinates corners[3] = { { 0.0, 0.0 }, { shape.Length, 0.0 }, shape.Apex };
+    for (int j = 0; j < 3; ++j)
+    {
+      const int next = (j + 1) % 3;
+      const int last = (j + 2) % 3;
+      this->Springs[i][j] =
+        Dot(Subtract(corners[next], corners[j]), Subtract(corners[last], corners[j])) /
+        (4.0 * shape.Area);
+      halves.push_back({ std::min(triangle[next], triangle[last]),
+        std::max(triangle[next], triangle[last]), &this->Springs[i][j] });
+    }
+  }
+  std::sort(halves.begin(), halves.end(),
+    [](const Half& a, const Half& b) { return std::tie(a.From, a.To) < std::tie(b.From, b.To); });
+  for (auto half = halves.begin(); half != halves.end();)
+  {
+    const auto other = half + 1;
+    const bool paired = other != halves.end() && other->From == half->From && other->To == half->To;
+    const double sum = *half->Spring + (paired ? *other->Spring : 0.0);
+    if (sum < WEAKEST_SPRING)
+    {
+      *half->Spring = WEAKEST_SPRING;
+      if (paired)
+      {
+        *other->Spring = 0.0;
+      }
+    }
+    half += paired ? 2 : 1;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool SquareLayout::Balance(SpringKind kind)
+{
+  this->Springs.assign(this->Shapes.size(), { 0.5, 0.5, 0.5 });
+  if (kind == SpringKind::Conformal)
+  {
+    this->MakeConformalSprings();
+  }
+  return this->Solve(this->UV);
+}
+
+//------------------------------------------------------------------------------
+// Both coordinates are found apart from each other, as steps from zero where they are free.
+bool SquareLayout::Solve(std::vector<Coordinates>& uv) const
+{
+  const Freedom freedom(this->Sides);
+  uv.resize(this->Sides.size());
+  for (std::size_t point = 0; point < uv.size(); ++point)
+  {
+    uv[point] = { this->Sides[point] & RIGHT ? 1.0 : 0.0, this->Sides[point] & TOP ? 1.0 : 0.0 };
+  }
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    std::vector<StepSolver<3>::Unknowns> elements;
+    for (const auto& triangle : this->Surface.Triangles)
+    {
+      elements.push_back({ freedom.Unknowns[triangle[0]][axis], freedom.Unknowns[triangle[1]][axis],
+        freedom.Unknowns[triangle[2]][axis] });
+    }
+    StepSolver<3> solver(std::move(elements), freedom.Numbers[axis]);
+    solver.Clear();
+    for (std::size_t i = 0; i < this->Springs.size(); ++i)
+    {
+      const auto& triangle = this->Surface.Triangles[i];
+      const auto& k = this->Springs[i];
+      StepSolver<3>::Hessian hessian;
+      hessian << k[1] + k[2], -k[2], -k[1], -k[2], k[2] + k[0], -k[0], -k[1], -k[0], k[0] + k[1];
+      solver.Add(hessian,
+        hessian *
+          Eigen::Vector3d(uv[triangle[0]][axis], uv[triangle[1]][axis], uv[triangle[2]][axis]));
+    }
+    Eigen::VectorXd step;
+    if (!solver.Solve(step))
+    {
+      return false;
+    }
+    for (std::size_t point = 0; point < uv.size(); ++point)
+    {
+      if (freedom.Unknowns[point][axis] >= 0)
+      {
+        uv[point][axis] = step[freedom.Unknowns[point][axis]];
+      }
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void SquareLayout::Reweight(int maximumNumberOfIterations)
+{
+  double best = this->MeasureL2Stretch(this->UV);
+  std::vector<Coordinates> uv = this->UV;
+  for (int iteration = 0; iteration < maximumNumberOfIterations; ++iteration)
+  {
+    const std::vector<double> stretch = this->GetPointStretch(uv);
+    for (std::size_t i = 0; i < this->Springs.size(); ++i)
+    {
+      const auto& triangle = this->Surface.Triangles[i];
+      for (int j = 0; j < 3; ++j)
+      {
+        this->Springs[i][j] /= stretch[triangle[(j + 1) % 3]] * stretch[triangle[(j + 2) % 3]];
+      }
+    }
+    if (!this->Solve(uv))
+    {
+      return;
+    }
+    const double next = this->MeasureL2Stretch(uv);
+    if (!(next < best))
+    {
+      return;
+    }
+    best = next;
+    this->UV = uv;
+  }
+}
+
+//------------------------------------------------------------------------------
+double SquareLayout::GetSquaredStretch(std::size_t triangle,
+  const std::vector<Coordinates>& uv) const
+{
+  const auto& corners = this->Surface.Triangles[triangle];
+  const Shape& shape = this->Shapes[triangle];
+  const Coordinates first = Subtract(uv[corners[1]], uv[corners[0]]);
+  const Coordinates second = Subtract(uv[corners[2]], uv[corners[0]]);
+  const double twiceArea = Cross(first, second);
+  if (!(twiceArea > 0.0))
+  {
+    return INFINITE;
+  }
+  // The derivatives of the surface's point by u and by v, in the triangle's plane. Squares of these
+  // add up without cancellation, unlike the products of edges' lengths.
+  const double xu = shape.Length * second[1] - shape.Apex[0] * first[1];
+  const double xv = shape.Apex[0] * first[0] - shape.Length * second[0];
+  const double yu = shape.Apex[1] * first[1];
+  const double yv = shape.Apex[1] * first[0];
+  return 0.5 * (xu * xu + xv * xv + yu * yu + yv * yv) / (twiceArea * twiceArea);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> SquareLayout::GetPointStretch(const std::vector<Coordinates>& uv) const
+{
+  std::vector<double> areas(uv.size(), 0.0);
+  std::vector<double> stretch(uv.size(), 0.0);
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    const double squared = this->GetSquaredStretch(i, uv);
+    for (std::size_t point : this->Surface.Triangles[i])
+    {
+      areas[point] += this->Shapes[i].Area;
+      stretch[point] += this->Shapes[i].Area * squared;
+    }
+  }
+  for (std::size_t point = 0; point < uv.size(); ++point)
+  {
+    stretch[point] = std::sqrt(stretch[point] / areas[point]);
+  }
+  return stretch;
+}
+
+//------------------------------------------------------------------------------
+double SquareLayout::MeasureL2Stretch(const std::vector<Coordinates>& uv) const
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    sum += this->Shapes[i].Area * this->GetSquaredStretch(i, uv);
+  }
+  return std::sqrt(sum);
+}
+
+//------------------------------------------------------------------------------
+double SquareLayout::GetLInfinityStretch() const
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    const auto& corners = this->Surface.Triangles[i];
+    const double mean = this->GetSquaredStretch(i, this->UV);
+    const double growth = 2.0 * this->Shapes[i].Area /
+      Cross(Subtract(this->UV[corners[1]], this->UV[corners[0]]),
+        Subtract(this->UV[corners[2]], this->UV[corners[0]]));
+    // The squares of the singular values have this mean and the growth of the area as geometric
+    // one.
+    const double squared = mean + std::sqrt(std::max(0.0, (mean - growth) * (mean + growth)));
+    largest = std::max(largest, std::sqrt(squared));
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
+bool SquareLayout::IsOneToOne() const
+{
+  return this->MeasureL2Stretch(this->UV) < INFINITE;
+}
+
+//------------------------------------------------------------------------------
+// The multiple of the step at which the first triangle loses its area.
+double SquareLayout::GetLargestStep(const std::vector<Coordinates>& step) const
+{
+  double largest = INFINITE;
+  for (const auto& corners : this->Surface.Triangles)
+  {
+    const Coordinates first = Subtract(this->UV[corners[1]], this->UV[corners[0]]);
+    const Coordinates second = Subtract(this->UV[corners[2]], this->UV[corners[0]]);
+    const Coordinates firstStep = Subtract(step[corners[1]], step[corners[0]]);
+    const Coordinates secondStep = Subtract(step[corners[2]], step[corners[0]]);
+    // The least positive root of a x^2 + b x + c, where c > 0.
+    const double a = Cross(firstStep, secondStep);
+    const double b = Cross(first, secondStep) + Cross(firstStep, second);
+    const double c = Cross(first, second);
+    const double discriminant = b * b - 4.0 * a * c;
+    if (discriminant >= 0.0)
+    {
+      const double denominator = std::sqrt(discriminant) - b;
+      if (denominator > 0.0)
+      {
+        largest = std::min(largest, 2.0 * c / denominator);
+      }
+    }
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
+void SquareLayout::Minimize(int maximumNumberOfIterations)
+{
+  const Freedom freedom(this->Sides);
+  std::vector<StepSolver<6>::Unknowns> elements;
+  std::vector<Eigen::Matrix<double, 2, 3>> shapeGradients;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    StepSolver<6>::Unknowns unknowns;
+    for (int j = 0; j < 6; ++j)
+    {
+      const int unknown = freedom.Unknowns[this->Surface.Triangles[i][j / 2]][j % 2];
+      unknowns[j] = unknown < 0 ? -1 : unknown + (j % 2) * freedom.Numbers[0];
+    }
+    elements.push_back(unknowns);
+    const Shape& shape = this->Shapes[i];
+    const Eigen::Vector2d second(1.0 / shape.Length,
+      -shape.Apex[0] / (shape.Length * shape.Apex[1]));
+    const Eigen::Vector2d third(0.0, 1.0 / shape.Apex[1]);
+    shapeGradients.emplace_back();
+    shapeGradients.back() << -second - third, second, third;
+  }
+  StepSolver<6> solver(std::move(elements), freedom.Numbers[0] + freedom.Numbers[1]);
+
+  const auto measure = [this](const std::vector<Coordinates>& uv)
+  {
+    const double stretch = this->MeasureL2Stretch(uv);
+    return stretch * stretch;
+  };
+  double value = measure(this->UV);
+  std::vector<Coordinates> step(this->UV.size());
+  for (int iteration = 0; iteration < maximumNumberOfIterations; ++iteration)
+  {
+    solver.Clear();
+    for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+    {
+      Eigen::Matrix<double, 2, 3> uv;
+      for (int j = 0; j < 3; ++j)
+      {
+        uv.col(j) =
+          Eigen::Map<const Eigen::Vector2d>(this->UV[this->Surface.Triangles[i][j]].data());
+      }
+      const StretchElement element(shapeGradients[i], uv, this->Shapes[i].Area);
+      solver.Add(element.Curvature, element.Slope);
+    }
+    Eigen::VectorXd unknowns;
+    if (!solver.Solve(unknowns))
+    {
+      return;
+    }
+    for (std::size_t point = 0; point < step.size(); ++point)
+    {
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        const int unknown = freedom.Unknowns[point][axis];
+        step[point][axis] = unknown < 0 ? 0.0 : unknowns[unknown + axis * freedom.Numbers[0]];
+      }
+    }
+    const double slope = solver.GetSlope().dot(unknowns);
+    double length = std::min(1.0, 0.8 * this->GetLargestStep(step));
+    std::vector<Coordinates> uv = Add(this->UV, length, step);
+    double next = measure(uv);
+    while (!(next <= value + 1e-4 * length * slope))
+    {
+      length *= 0.5;
+      if (length < 1e-8)
+      {
+        return;
+      }
+      uv = Add(this->UV, length, step);
+      next = measure(uv);
+    }
+    this->UV = std::move(uv);
+    value = next;
+    if (!(-slope > LEAST_GAIN * value))
+    {
+      return;
+    }
+  }
+}
+} // namespace LightTransport

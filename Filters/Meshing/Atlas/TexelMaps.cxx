@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Atlas/TexelMaps.h"
+
+#include "Atlas/TexelPieces.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkMath.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTriangle.h"
+
+#include <array>
+
+namespace LightTransport
+{
+namespace
+{
+const char* const POSITION = "Position";
+const char* const NORMAL = "Normal";
+const char* const AREA = "Area";
+const char* const CHART = "ChartId";
+
+using Triangle = std::array<vtkIdType, 3>;
+
+// The means of one array over all texels, as the pieces seen so far make them.
+class Mean
+{
+public:
+  Mean(const TexelMaps::Source& source, const char* name, vtkImageData* maps)
+    : Source(source), Components(source.Array->GetNumberOfComponents()),
+      Values(source.Array->GetNumberOfComponents())
+  {
+    this->Means->SetName(name);
+    this->Means->SetNumberOfComponents(this->Components);
+    this->Means->CopyComponentNames(source.Array);
+    this->Means->SetNumberOfTuples(maps->GetNumberOfPoints());
+    this->Means->Fill(0.0);
+    maps->GetPointData()->AddArray(this->Means);
+  }
+
+  // The value is linear in each cell: one at the first corner and, from there, two slopes.
+  void SetCell(vtkIdType cell, const Triangle& corners)
+  {
+    for (int i = 0; i < this->Components; ++i)
+    {
+      std::array<double, 3>& value = this->Values[i];
+      if (this->Source.OfPoints)
+      {
+        value[0] = this->Source.Array->GetComponent(corners[0], i);
+        value[1] = this->Source.Array->GetComponent(corners[1], i) - value[0];
+        value[2] = this->Source.Array->GetComponent(corners[2], i) - value[0];
+      }
+      else
+      {
+        value = { this->Source.Array->GetComponent(cell, i), 0.0, 0.0 };
+      }
+    }
+  }
+
+  // `share` is the part that the piece has in what is known of its texel. Moving the mean by that
+  // part of the difference leaves a constant exactly as it is.
+  void Add(const TexelPieces::Piece& piece, double share)
+  {
+    double* mean = this->Means->GetPointer(piece.Texel * this->Components);
+    for (int i = 0; i < this->Components; ++i)
+    {
+      const std::array<double, 3>& value = this->Values[i];
+      const double here = value[0] + piece.Weights[1] * value[1] + piece.Weights[2] * value[2];
+      mean[i] += share * (here - mean[i]);
+    }
+  }
+
+private:
+  TexelMaps::Source Source;
+  int Components;
+  std::vector<std::array<double, 3>> Values;
+  vtkSmartPointer<vtkDoubleArray> Means = vtkSmartPointer<vtkDoubleArray>::New();
+};
+
+//------------------------------------------------------------------------------
+void MakeGrid(int resolution, vtkImageData* maps)
+{
+  const double spacing = 1.0 / resolution;
+  maps->SetDimensions(resolution, resolution, 1);
+  maps->SetSpacing(spacing, spacing, spacing);
+  maps->SetOrigin(0.5 * spacing, 0.5 * spacing, 0.0);
+}
+
+//------------------------------------------------------------------------------
+template <typename Array>
+vtkSmartPointer<Array> AddMap(const char* name, double value, vtkImageData* maps)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfTuples(maps->GetNumberOfPoints());
+  array->Fill(value);
+  maps->GetPointData()->AddArray(array);
+  return array;
+}
+
+//------------------------------------------------------------------------------
+Triangle GetCorners(vtkPolyData* surface, vtkIdType cell)
+{
+  vtkIdType size;
+  const vtkIdType* corners;
+  surface->GetPolys()->GetCellAtId(cell, size, corners);
+  return { corners[0], corners[1], corners[2] };
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDoubleArray> MakeNormals(vtkPolyData* surface)
+{
+  auto normals = vtkSmartPointer<vtkDoubleArray>::New();
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(surface->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
+  {
+    const Triangle corners = GetCorners(surface, cell);
+    vtkTriangle::ComputeNormal(surface->GetPoints(), 3, corners.data(),
+      normals->GetPointer(3 * cell));
+  }
+  return normals;
+}
+
+//------------------------------------------------------------------------------
+void Normalize(vtkDataArray* vectors)
+{
+  for (vtkIdType i = 0; i < vectors->GetNumberOfTuples(); ++i)
+  {
+    std::array<double, 3> vector;
+    vectors->GetTuple(i, vector.data());
+    vtkMath::Normalize(vector.data());
+    vectors->SetTuple(i, vector.data());
+  }
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+void TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
+  const std::vector<Source>& sources)
+{
+  MakeGrid(resolution, maps);
+  const vtkSmartPointer<vtkDoubleArray> normals = MakeNormals(surface);
+  std::vector<Mean> means;
+  means.emplace_back(TexelMaps::Source{ surface->GetPoints()->GetData(), true }, POSITION, maps);
+  means.emplace_back(TexelMaps::Source{ normals, false }, NORMAL, maps);
+  for (const Source& source : sources)
+  {
+    means.emplace_back(source, source.Array->GetName(), maps);
+  }
+  const auto areas = AddMap<vtkDoubleArray>(AREA, 0.0, maps);
+  const auto charts = AddMap<vtkIntArray>(CHART, -1, maps);
+
+  vtkDataArray* chartOfCell = surface->GetCellData()->GetArray(CHART);
+  vtkIdType cell = -1;
+  int chart = 0;
+  TexelPieces::Visit(surface, resolution,
+    [&](const TexelPieces::Piece& piece)
+    {
+      if (piece.Cell != cell)
+      {
+        cell = piece.Cell;
+        const Triangle corners = GetCorners(surface, cell);
+        for (Mean& mean : means)
+        {
+          mean.SetCell(cell, corners);
+        }
+        chart = chartOfCell ? static_cast<int>(chartOfCell->GetComponent(cell, 0)) : 0;
+      }
+      double& area = *areas->GetPointer(piece.Texel);
+      area += piece.Area;
+      for (Mean& mean : means)
+      {
+        mean.Add(piece, piece.Area / area);
+      }
+      charts->SetValue(piece.Texel, chart);
+    });
+  Normalize(maps->GetPointData()->GetArray(NORMAL));
+}
+
+//------------------------------------------------------------------------------
+bool TexelMaps::IsTexelMap(const std::string& name)
+{
+  return name == POSITION || name == NORMAL || name == AREA || name == CHART;
+}
+} // namespace LightTransport

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Remeshes a manifold surface to a length per point. The edges to keep cut it into parts; each part
+ * is remeshed on its own and projected onto itself only.
+ *
+ * Call Build(), SetLengths(), Prepare() and Remesh() in this order; Prepare() starts anew from what
+ * SetLengths() left. All methods throw what CGAL throws (std::exception).
+ */
+#ifndef SurfaceRemesher_h
+#define SurfaceRemesher_h
+
+#include "Mesher/SourceSurface.h"
+#include "Mesher/TriangleSoup.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace LightTransport
+{
+class SurfaceRemesher
+{
+public:
+  SurfaceRemesher();
+  ~SurfaceRemesher();
+  SurfaceRemesher(const SurfaceRemesher&) = delete;
+  void operator=(const SurfaceRemesher&) = delete;
+
+  /**
+   * Take the triangles of a soup without defects, and mark the edges to keep: borders, edges
+   * between triangles of different `regions` (one per triangle), and edges whose normals differ by
+   * more than `featureAngle` degrees. Returns false when the soup is not a manifold.
+   */
+  bool Build(const TriangleSoup& soup, const std::vector<int>& regions, double featureAngle);
+
+  /// The surface as it was built. Its points are those of the soup that triangles use, in order.
+  SourceSurface GetSurface() const;
+  /// The point of the soup that each point of GetSurface() is.
+  const std::vector<std::size_t>& GetPointsOfSoup() const { return this->PointsOfSoup; }
+
+  /// The length that edges should have at each point of GetSurface().
+  void SetLengths(const std::vector<double>& lengths);
+
+  /**
+   * Let edges inside the planar `regions` be as long as `lengths`, both one per triangle; NONE
+   * where there is no region. `keepBorders`: also keep the edges around them.
+   */
+  void SetPlanarRegions(const std::vector<std::size_t>& regions, const std::vector<double>& lengths,
+    bool keepBorders);
+
+  /**
+   * Multiply all lengths by `factor`, split the edges to keep, limit the lengths to what these
+   * allow and to the `grading`, and tell the parts apart. Returns how many triangles will come out,
+   * about.
+   */
+  double Prepare(double factor, double grading);
+
+  /**
+   * Called now and then while Remesh() works, with the fraction of the work that is done (an
+   * estimate); it may throw to stop.
+   */
+  using Monitor = std::function<void(double)>;
+  void Remesh(int numberOfIterations, const Monitor& monitor);
+
+  std::size_t GetNumberOfTriangles() const;
+  /// After Remesh(): split the longest edges, or collapse the shortest, up or down to this number.
+  void AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor);
+
+  /// The prepared surface, and the length that edges should have at each of its points.
+  const SourceSurface& GetSources() const { return this->Sources; }
+  const std::vector<double>& GetLengths() const { return this->Lengths; }
+
+  struct Result
+  {
+    std::vector<TriangleSoup::Point> Points;
+    std::vector<TriangleSoup::Triangle> Triangles;
+    /// The triangle of the soup that each point comes from, and each triangle.
+    std::vector<std::size_t> SourcesOfPoints;
+    std::vector<std::size_t> SourcesOfTriangles;
+  };
+  Result GetResult() const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Meshes;
+  std::vector<std::size_t> PointsOfSoup;
+  SourceSurface Sources;
+  std::vector<double> Lengths;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,577 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/SurfaceRepair.h"
+
+#include "Common/MeshingRun.h"
+#include "Mesher/PatchSources.h"
+#include "vtkMath.h"
+#include "vtkSphere.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/distance.h>
+#include <CGAL/Polygon_mesh_processing/manifoldness.h>
+#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace LightTransport
+{
+namespace
+{
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Vertex = Mesh::Vertex_index;
+using Halfedge = Mesh::Halfedge_index;
+using Face = Mesh::Face_index;
+using Pair = std::pair<Face, Face>;
+
+constexpr vtkIdType NEW = -1;
+
+// A mesh that knows where its points and triangles come from.
+struct RepairMesh
+{
+  RepairMesh()
+  {
+    this->PointIds = this->Triangles.add_property_map<Vertex, vtkIdType>("v:id", NEW).first;
+    this->Split = this->Triangles.add_property_map<Vertex, bool>("v:split", false).first;
+    this->CellIds = this->Triangles.add_property_map<Face, vtkIdType>("f:id", NEW).first;
+  }
+  RepairMesh(const RepairMesh&) = delete;
+  void operator=(const RepairMesh&) = delete;
+
+  Mesh Triangles;
+  Mesh::Property_map<Vertex, vtkIdType> PointIds;
+  Mesh::Property_map<Vertex, bool> Split;
+  Mesh::Property_map<Face, vtkIdType> CellIds;
+};
+
+//------------------------------------------------------------------------------
+std::array<Vertex, 3> GetCorners(const Mesh& mesh, Face face)
+{
+  const Halfedge h = mesh.halfedge(face);
+  return { mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)) };
+}
+
+//------------------------------------------------------------------------------
+Kernel::Triangle_3 GetTriangle(const Mesh& mesh, Face face)
+{
+  const std::array<Vertex, 3> corners = GetCorners(mesh, face);
+  return { mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]) };
+}
+
+//------------------------------------------------------------------------------
+TriangleSoup::Point FromKernel(const Point& point)
+{
+  return { point.x(), point.y(), point.z() };
+}
+
+//------------------------------------------------------------------------------
+double GetRadius(const Mesh& mesh, const std::vector<Vertex>& vertices)
+{
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * vertices.size());
+  for (const Vertex vertex : vertices)
+  {
+    const Point& point = mesh.point(vertex);
+    coordinates.insert(coordinates.end(), { point.x(), point.y(), point.z() });
+  }
+  double sphere[4];
+  vtkSphere::ComputeBoundingSphere(coordinates.data(), static_cast<vtkIdType>(vertices.size()),
+    sphere, nullptr);
+  return sphere[3];
+}
+
+//------------------------------------------------------------------------------
+std::vector<Vertex> GetVertices(const Mesh& mesh, const std::vector<Face>& faces)
+{
+  std::vector<Vertex> vertices;
+  for (const Face face : faces)
+  {
+    const std::array<Vertex, 3> corners = GetCorners(mesh, face);
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+//------------------------------------------------------------------------------
+// The connected components of a mesh, in the order of their first triangles.
+struct Components
+{
+  explicit Components(Mesh& mesh)
+  {
+    this->OfFace = mesh.add_property_map<Face, std::size_t>("f:component").first;
+    this->Faces.resize(PMP::connected_components(mesh, this->OfFace));
+    for (const Face face : mesh.faces())
+    {
+      this->Faces[this->OfFace[face]].push_back(face);
+    }
+  }
+
+  Mesh::Property_map<Face, std::size_t> OfFace;
+  std::vector<std::vector<Face>> Faces;
+};
+
+//------------------------------------------------------------------------------
+// Whether two triangles that meet have only corners or sides in common, by their coordinates: where
+// non-manifold edges and points were split, neighbours meet that share no point of the mesh.
+bool OnlyTouch(const Kernel::Triangle_3& t, const Kernel::Triangle_3& u)
+{
+  int first[3] = { 0, 1, 2 };
+  int second[3] = { 0, 1, 2 };
+  int common = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = common; j < 3; ++j)
+    {
+      if (t[first[i]] == u[second[j]])
+      {
+        std::swap(first[common], first[i]);
+        std::swap(second[common], second[j]);
+        ++common;
+        break;
+      }
+    }
+  }
+  if (common == 1)
+  {
+    return !CGAL::do_intersect(t, Kernel::Segment_3(u[second[1]], u[second[2]])) &&
+      !CGAL::do_intersect(u, Kernel::Segment_3(t[first[1]], t[first[2]]));
+  }
+  const Point& a = t[first[0]];
+  const Point& b = t[first[1]];
+  const Point& c = t[first[2]];
+  const Point& d = u[second[2]];
+  return common == 2 &&
+    (!CGAL::coplanar(a, b, c, d) || CGAL::coplanar_orientation(a, b, c, d) != CGAL::POSITIVE);
+}
+
+//------------------------------------------------------------------------------
+// The pairs of triangles that intersect, sorted.
+std::vector<Pair> GetIntersections(const Mesh& mesh)
+{
+  std::vector<Pair> pairs;
+  PMP::self_intersections(mesh, std::back_inserter(pairs));
+  const auto touch = [&mesh](const Pair& pair)
+  { return OnlyTouch(GetTriangle(mesh, pair.first), GetTriangle(mesh, pair.second)); };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), touch), pairs.end());
+  for (Pair& pair : pairs)
+  {
+    if (pair.second < pair.first)
+    {
+      std::swap(pair.first, pair.second);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+//------------------------------------------------------------------------------
+void Extract(const RepairMesh& whole, const std::vector<Face>& faces, RepairMesh& part)
+{
+  std::map<Vertex, Vertex> known;
+  for (const Face face : faces)
+  {
+    std::array<Vertex, 3> corners = GetCorners(whole.Triangles, face);
+    for (Vertex& corner : corners)
+    {
+      const auto inserted = known.emplace(corner, Vertex());
+      if (inserted.second)
+      {
+        inserted.first->second = part.Triangles.add_vertex(whole.Triangles.point(corner));
+        part.PointIds[inserted.first->second] = whole.PointIds[corner];
+      }
+      corner = inserted.first->second;
+    }
+    part.CellIds[part.Triangles.add_face(corners[0], corners[1], corners[2])] = whole.CellIds[face];
+  }
+}
+
+//------------------------------------------------------------------------------
+void Append(const RepairMesh& surface, const std::vector<Face>& faces, TriangleSoup& soup)
+{
+  const std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> indices(surface.Triangles.num_vertices(), none);
+  for (const Face face : faces)
+  {
+    TriangleSoup::Triangle triangle;
+    std::size_t i = 0;
+    for (const Vertex corner : GetCorners(surface.Triangles, face))
+    {
+      if (indices[corner] == none)
+      {
+        indices[corner] = soup.Points.size();
+        soup.Points.push_back(FromKernel(surface.Triangles.point(corner)));
+        soup.PointIds.push_back(surface.PointIds[corner]);
+        soup.SplitPoints.push_back(surface.Split[corner]);
+      }
+      triangle[i++] = indices[corner];
+    }
+    soup.Triangles.push_back(triangle);
+    soup.CellIds.push_back(surface.CellIds[face]);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<Face> GetFaces(const Mesh& mesh)
+{
+  return { mesh.faces().begin(), mesh.faces().end() };
+}
+
+//------------------------------------------------------------------------------
+// Gives new triangles and points the ids of the old surface where it is closest.
+void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
+{
+  TriangleSoup soup;
+  Append(old, GetFaces(old.Triangles), soup);
+  PatchSources sources(soup);
+  const double reach = soup.GetDiagonal() / 1000.0;
+  const Mesh& mesh = surface.Triangles;
+  for (const Face face : mesh.faces())
+  {
+    if (surface.CellIds[face] == NEW)
+    {
+      const Point center = CGAL::centroid(GetTriangle(mesh, face));
+      surface.CellIds[face] = soup.CellIds[sources.Find(FromKernel(center), reach).Triangle];
+    }
+  }
+  for (const Vertex vertex : mesh.vertices())
+  {
+    if (surface.PointIds[vertex] == NEW)
+    {
+      const auto place = sources.Find(FromKernel(mesh.point(vertex)), reach);
+      const auto corner = std::max_element(place.Weights.begin(), place.Weights.end());
+      surface.PointIds[vertex] =
+        soup.PointIds[soup.Triangles[place.Triangle][corner - place.Weights.begin()]];
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Gives the triangles that fill a hole the cells of those around it, from the border inward.
+void TakeIdsOfNeighbours(RepairMesh& surface, const std::vector<Face>& added)
+{
+  const Mesh& mesh = surface.Triangles;
+  std::vector<Face> open = added;
+  for (bool changed = true; changed && !open.empty();)
+  {
+    std::vector<std::pair<Face, vtkIdType>> found;
+    std::vector<Face> left;
+    for (const Face face : open)
+    {
+      vtkIdType cell = NEW;
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(face)))
+      {
+        const Face neighbour = mesh.face(mesh.opposite(h));
+        cell = std::max(cell, mesh.is_valid(neighbour) ? surface.CellIds[neighbour] : NEW);
+      }
+      if (cell == NEW)
+      {
+        left.push_back(face);
+      }
+      else
+      {
+        found.emplace_back(face, cell);
+      }
+    }
+    for (const auto& face : found)
+    {
+      surface.CellIds[face.first] = face.second;
+    }
+    changed = !found.empty();
+    open = left;
+  }
+}
+
+//------------------------------------------------------------------------------
+std::array<std::size_t, 3> GetTopology(const Mesh& input)
+{
+  Mesh mesh = input;
+  mesh.collect_garbage();
+  std::vector<Halfedge> borders;
+  PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
+  const Components components(mesh);
+  return { components.Faces.size(), borders.size(),
+    mesh.number_of_vertices() + mesh.number_of_faces() - mesh.number_of_edges() };
+}
+
+using DefaultVisitor = PMP::experimental::Remove_self_intersection_default_visitor<Mesh>;
+struct StoppingVisitor : public DefaultVisitor
+{
+  explicit StoppingVisitor(const SurfaceRepair::Stop& ask) : Ask(&ask) {}
+  bool stop() const { return (*this->Ask)(); }
+  const SurfaceRepair::Stop* Ask;
+};
+
+//------------------------------------------------------------------------------
+bool Resolve(Mesh& mesh, double distance, const SurfaceRepair::Stop& stop)
+{
+  const Mesh old = mesh;
+  const auto touch = [&mesh](const Pair& pair)
+  { return OnlyTouch(GetTriangle(mesh, pair.first), GetTriangle(mesh, pair.second)); };
+  PMP::experimental::remove_self_intersections(mesh,
+    CGAL::parameters::preserve_genus(true).filter(touch).visitor(StoppingVisitor(stop)));
+  mesh.collect_garbage();
+  return GetIntersections(mesh).empty() && GetTopology(mesh) == GetTopology(old) &&
+    !PMP::is_Hausdorff_distance_larger<CGAL::Sequential_tag>(old, mesh, distance, 0.01 * distance,
+      CGAL::parameters::use_one_sided_hausdorff(false));
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+struct SurfaceRepair::Internals : public RepairMesh
+{
+  /// The pairs of triangles of one component that intersect.
+  std::vector<Pair> Within;
+  /// Components that have been replaced by others, which are not in the mesh.
+  std::vector<bool> Replaced;
+  std::vector<std::unique_ptr<RepairMesh>> Replacements;
+};
+
+//------------------------------------------------------------------------------
+SurfaceRepair::SurfaceRepair(const TriangleSoup& soup) : Surface(new Internals)
+{
+  Mesh& mesh = this->Surface->Triangles;
+  std::vector<Vertex> vertices(soup.Points.size());
+  for (std::size_t i = 0; i < soup.Triangles.size(); ++i)
+  {
+    const TriangleSoup::Triangle& triangle = soup.Triangles[i];
+    for (const std::size_t corner : triangle)
+    {
+      if (vertices[corner] == Mesh::null_vertex())
+      {
+        const TriangleSoup::Point& point = soup.Points[corner];
+        vertices[corner] = mesh.add_vertex(Point(point[0], point[1], point[2]));
+        this->Surface->PointIds[vertices[corner]] = soup.PointIds[corner];
+        this->Surface->Split[vertices[corner]] =
+          corner < soup.SplitPoints.size() && soup.SplitPoints[corner];
+      }
+    }
+    const Face face =
+      mesh.add_face(vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]);
+    if (face == Mesh::null_face())
+    {
+      throw MeshingRun::InputError("The surface is not a manifold: split it first.");
+    }
+    this->Surface->CellIds[face] = soup.CellIds[i];
+  }
+}
+
+//------------------------------------------------------------------------------
+SurfaceRepair::~SurfaceRepair() = default;
+
+//------------------------------------------------------------------------------
+vtkIdType SurfaceRepair::JoinBorders()
+{
+  Mesh& mesh = this->Surface->Triangles;
+  const std::size_t joined = PMP::stitch_borders(mesh);
+  std::vector<std::vector<Vertex>> copies;
+  PMP::duplicate_non_manifold_vertices(mesh,
+    CGAL::parameters::output_iterator(std::back_inserter(copies)));
+  for (const std::vector<Vertex>& vertices : copies)
+  {
+    for (const Vertex vertex : vertices)
+    {
+      this->Surface->PointIds[vertex] = this->Surface->PointIds[vertices[0]];
+      this->Surface->Split[vertex] = true;
+    }
+  }
+  mesh.collect_garbage();
+  return static_cast<vtkIdType>(joined);
+}
+
+//------------------------------------------------------------------------------
+vtkIdType SurfaceRepair::DropCrumbs(double size)
+{
+  Mesh& mesh = this->Surface->Triangles;
+  const auto isOpen = [&mesh](const std::vector<Face>& faces)
+  {
+    return std::any_of(faces.begin(), faces.end(),
+      [&mesh](Face face)
+      {
+        const Halfedge h = mesh.halfedge(face);
+        return mesh.is_border(mesh.opposite(h)) || mesh.is_border(mesh.opposite(mesh.next(h))) ||
+          mesh.is_border(mesh.opposite(mesh.prev(h)));
+      });
+  };
+  const auto wasSplit = [this, &mesh](const std::vector<Face>& faces)
+  {
+    return std::any_of(faces.begin(), faces.end(),
+      [this, &mesh](Face face)
+      {
+        int corners = 0;
+        for (const Vertex corner : GetCorners(mesh, face))
+        {
+          corners += this->Surface->Split[corner];
+        }
+        return corners > 1;
+      });
+  };
+  const Components components(mesh);
+  const auto smaller = [](const std::vector<Face>& a, const std::vector<Face>& b)
+  { return a.size() < b.size(); };
+  const auto largest = std::max_element(components.Faces.begin(), components.Faces.end(), smaller);
+  vtkIdType dropped = 0;
+  for (auto faces = components.Faces.begin(); faces != components.Faces.end(); ++faces)
+  {
+    if (faces != largest && isOpen(*faces) && wasSplit(*faces) &&
+      GetRadius(mesh, GetVertices(mesh, *faces)) <= size)
+    {
+      for (const Face face : *faces)
+      {
+        CGAL::Euler::remove_face(mesh.halfedge(face), mesh);
+      }
+      dropped += static_cast<vtkIdType>(faces->size());
+    }
+  }
+  mesh.collect_garbage();
+  return dropped;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType SurfaceRepair::FillHoles(double size)
+{
+  Mesh& mesh = this->Surface->Triangles;
+  const Components components(mesh);
+  std::map<std::size_t, double> radii;
+  std::vector<Halfedge> borders;
+  PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
+  vtkIdType filled = 0;
+  for (const Halfedge border : borders)
+  {
+    std::vector<Vertex> vertices;
+    for (const Halfedge h : mesh.halfedges_around_face(border))
+    {
+      vertices.push_back(mesh.target(h));
+    }
+    const double radius = GetRadius(mesh, vertices);
+    if (radius > size)
+    {
+      continue;
+    }
+    const std::size_t component = components.OfFace[mesh.face(mesh.opposite(border))];
+    const auto inserted = radii.emplace(component, 0.0);
+    if (inserted.second)
+    {
+      inserted.first->second = GetRadius(mesh, GetVertices(mesh, components.Faces[component]));
+    }
+    if (radius <= 0.5 * inserted.first->second)
+    {
+      std::vector<Face> added;
+      PMP::triangulate_hole(mesh, border, std::back_inserter(added));
+      TakeIdsOfNeighbours(*this->Surface, added);
+      filled += !added.empty();
+    }
+  }
+  return filled;
+}
+
+//------------------------------------------------------------------------------
+SurfaceRepair::Intersections SurfaceRepair::FindSelfIntersections()
+{
+  const Components components(this->Surface->Triangles);
+  this->Surface->Replaced.assign(components.Faces.size(), false);
+  this->Surface->Replacements.clear();
+  this->Surface->Within = GetIntersections(this->Surface->Triangles);
+  const auto between = [&components](const Pair& pair)
+  { return components.OfFace[pair.first] != components.OfFace[pair.second]; };
+  std::vector<Pair>& within = this->Surface->Within;
+  const std::size_t size = within.size();
+  within.erase(std::remove_if(within.begin(), within.end(), between), within.end());
+  Intersections result = this->DescribeIntersections();
+  result.NumberBetween = static_cast<vtkIdType>(size - within.size());
+  return result;
+}
+
+//------------------------------------------------------------------------------
+SurfaceRepair::Intersections SurfaceRepair::DescribeIntersections() const
+{
+  Intersections result;
+  const std::vector<Pair>& pairs = this->Surface->Within;
+  if (!pairs.empty())
+  {
+    const Mesh& mesh = this->Surface->Triangles;
+    const CGAL::Bbox_3 a = GetTriangle(mesh, pairs[0].first).bbox();
+    const CGAL::Bbox_3 b = GetTriangle(mesh, pairs[0].second).bbox();
+    for (int i = 0; i < 3; ++i)
+    {
+      result.Place[i] = 0.5 * (std::max(a.min(i), b.min(i)) + std::min(a.max(i), b.max(i)));
+    }
+    result.CellIds = { this->Surface->CellIds[pairs[0].first],
+      this->Surface->CellIds[pairs[0].second] };
+    result.NumberWithin = static_cast<vtkIdType>(pairs.size());
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+SurfaceRepair::Intersections SurfaceRepair::ResolveSelfIntersections(double distance,
+  const Stop& stop)
+{
+  const Components components(this->Surface->Triangles);
+  std::vector<bool> tried(components.Faces.size(), false);
+  std::vector<bool>& replaced = this->Surface->Replaced;
+  for (const Pair& pair : this->Surface->Within)
+  {
+    const std::size_t component = components.OfFace[pair.first];
+    if (!tried[component])
+    {
+      tried[component] = true;
+      RepairMesh old;
+      Extract(*this->Surface, components.Faces[component], old);
+      auto part = std::make_unique<RepairMesh>();
+      Extract(*this->Surface, components.Faces[component], *part);
+      if (Resolve(part->Triangles, distance, stop))
+      {
+        TakeNearestIds(*part, old);
+        replaced[component] = true;
+        this->Surface->Replacements.push_back(std::move(part));
+      }
+    }
+  }
+  std::vector<Pair>& within = this->Surface->Within;
+  const auto resolved = [&](const Pair& pair) { return replaced[components.OfFace[pair.first]]; };
+  within.erase(std::remove_if(within.begin(), within.end(), resolved), within.end());
+  return this->DescribeIntersections();
+}
+
+//------------------------------------------------------------------------------
+void SurfaceRepair::Write(TriangleSoup& soup) const
+{
+  const Components components(this->Surface->Triangles);
+  std::vector<Face> faces;
+  for (const Face face : this->Surface->Triangles.faces())
+  {
+    const std::size_t component = components.OfFace[face];
+    if (component >= this->Surface->Replaced.size() || !this->Surface->Replaced[component])
+    {
+      faces.push_back(face);
+    }
+  }
+  soup.Points.clear();
+  soup.PointIds.clear();
+  soup.SplitPoints.clear();
+  soup.Triangles.clear();
+  soup.CellIds.clear();
+  Append(*this->Surface, faces, soup);
+  for (const auto& part : this->Surface->Replacements)
+  {
+    Append(*part, GetFaces(part->Triangles), soup);
+  }
+}
+} // namespace LightTransport

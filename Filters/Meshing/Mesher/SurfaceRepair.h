@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Repairs that need to know neighbours: edges that were split more than needed, crumbs, holes and
+ * self-intersections of an oriented manifold.
+ *
+ * A component is what is connected by edges. All methods throw what CGAL throws (std::exception).
+ */
+#ifndef SurfaceRepair_h
+#define SurfaceRepair_h
+
+#include "Mesher/TriangleSoup.h"
+
+#include <functional>
+#include <memory>
+
+namespace LightTransport
+{
+class SurfaceRepair
+{
+public:
+  /// Takes a copy of the soup; throws MeshingRun::InputError when it is not a manifold.
+  explicit SurfaceRepair(const TriangleSoup& soup);
+  ~SurfaceRepair();
+  SurfaceRepair(const SurfaceRepair&) = delete;
+  void operator=(const SurfaceRepair&) = delete;
+
+  /**
+   * Join borders that coincide: edges that had to be split only because of something else there.
+   * Returns the number of edges joined.
+   */
+  vtkIdType JoinBorders();
+
+  /**
+   * Drop components that are open, not the largest one, have an edge at which the soup was split or
+   * lost a duplicate (TriangleSoup::SplitPoints), and fit into a sphere of radius `size`.
+   * Returns the number of their triangles.
+   */
+  vtkIdType DropCrumbs(double size);
+
+  /**
+   * Fill the holes whose border fits into a sphere of radius `size` and into one half as large as
+   * the component's. Returns their number.
+   */
+  vtkIdType FillHoles(double size);
+
+  struct Intersections
+  {
+    /// Pairs of triangles of one component that have more in common than corners and sides, and of
+    /// two components.
+    vtkIdType NumberWithin = 0;
+    vtkIdType NumberBetween = 0;
+    /// The first pair within a component: where it is, and the cells it comes from.
+    TriangleSoup::Point Place{ 0.0, 0.0, 0.0 };
+    std::array<vtkIdType, 2> CellIds{ -1, -1 };
+  };
+  Intersections FindSelfIntersections();
+
+  /// Asked now and then; when it returns true, the work is given up.
+  using Stop = std::function<bool()>;
+
+  /**
+   * Take away the surface around the self-intersections that were found and close the gap. A
+   * component is left as it was if this fails, changes how it is connected, or moves its surface by
+   * more than `distance`. Returns what is left.
+   */
+  Intersections ResolveSelfIntersections(double distance, const Stop& stop);
+
+  /// The repaired surface. A new triangle or point has the ids of an old one next to it.
+  void Write(TriangleSoup& soup) const;
+
+private:
+  Intersections DescribeIntersections() const;
+
+  struct Internals;
+  std::unique_ptr<Internals> Surface;
+};
+} // namespace LightTransport
+
+#endif

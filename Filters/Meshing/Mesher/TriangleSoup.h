@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Triangles that know their corners and the input cell they come from, and nothing of their
+ * neighbours: what a surface is until its defects have been found and repaired.
+ */
+#ifndef TriangleSoup_h
+#define TriangleSoup_h
+
+#include "vtkType.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace LightTransport
+{
+class TriangleSoup
+{
+public:
+  using Point = std::array<double, 3>;
+  using Triangle = std::array<std::size_t, 3>;
+
+  std::vector<Point> Points;
+  /// The input point that each point comes from: the first one of those that were merged.
+  std::vector<vtkIdType> PointIds;
+  /// Whether a point was a corner of a duplicate or an end of an edge with more than two triangles.
+  std::vector<bool> SplitPoints;
+  std::vector<Triangle> Triangles;
+  /// The input cell that each triangle comes from.
+  std::vector<vtkIdType> CellIds;
+
+  vtkIdType NumberOfDroppedTriangles = 0;
+  vtkIdType NumberOfReversedTriangles = 0;
+  vtkIdType NumberOfSplitPoints = 0;
+  vtkIdType NumberOfFilledHoles = 0;
+  vtkIdType NumberOfSelfIntersections = 0;
+  vtkIdType NumberOfIntersectionsBetweenComponents = 0;
+
+  /**
+   * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
+   * equal coordinates if asked to. Throws MeshingRun::InputError when there are no polygons or
+   * coordinates are not finite.
+   */
+  void Read(vtkPolyData* input, bool mergePoints = true);
+
+  /// What keeps the soup from being an oriented manifold, in words; empty when nothing does.
+  std::string DescribeDefects() const;
+
+  ///@{ The first steps of the repair, in this order; see SurfaceRepair for the others.
+  void DropDegenerateTriangles();
+  void DropDuplicateTriangles();
+  /// Split non-manifold edges and points and orient neighbours alike, unless this is not needed.
+  void Orient();
+  ///@}
+
+  /// Length of the diagonal of the bounding box of the triangles.
+  double GetDiagonal() const;
+  /// Twice the area times the unit normal.
+  Point GetNormal(const Triangle& triangle) const;
+
+private:
+  bool IsDegenerate(const Triangle& triangle) const;
+  bool SplitNeighboursOfDegenerateTriangles();
+  void MarkEdgesToSplit();
+  void TurnComponentsToMajority(const std::vector<bool>& reversed);
+  void Keep(const std::vector<bool>& kept);
+};
+} // namespace LightTransport
+
+#endif

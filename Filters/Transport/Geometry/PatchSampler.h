@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Deterministic, well spread sample points in up to four dimensions: Sobol' points (direction
+ * numbers of Joe and Kuo, 2008) with their digits flipped by a hash, so that different pairs or
+ * patches do not repeat each other's errors. The first 2^k points fill space evenly for every k.
+ * The same key and index give the same point, on any thread.
+ */
+#ifndef PatchSampler_h
+#define PatchSampler_h
+
+#include "ViewFactors/PolygonExchange.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <cstdint>
+
+namespace LightTransport
+{
+class PatchSampler
+{
+public:
+  explicit PatchSampler(std::uint64_t key)
+  {
+    for (std::uint32_t& flips : this->Flips)
+    {
+      // splitmix64 (Steele, Lea and Flood 2014)
+      key += 0x9E3779B97F4A7C15ull;
+      std::uint64_t bits = key;
+      bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ull;
+      bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBull;
+      flips = static_cast<std::uint32_t>(bits >> 32);
+    }
+  }
+
+  /// Coordinate `dimension` (0 to 3) of point `index`, in (0, 1).
+  double Get(int index, int dimension) const
+  {
+    std::uint32_t digits = this->Flips[dimension];
+    const std::uint32_t* direction = GetDirections().Numbers[dimension];
+    for (auto bits = static_cast<std::uint32_t>(index); bits != 0; bits >>= 1, ++direction)
+    {
+      digits ^= bits & 1u ? *direction : 0u;
+    }
+    return (digits + 0.5) * 0x1.0p-32;
+  }
+
+  /// A uniformly distributed point of a polygon, from dimensions `first` and `first` + 1 of point
+  /// `index`.
+  PolygonExchange::Vector GetPoint(const PolygonExchange::Polygon& polygon, int index,
+    int first) const
+  {
+    double u = this->Get(index, first);
+    double v = this->Get(index, first + 1);
+    const PolygonExchange::Vector& origin = polygon.Corners[0];
+    if (IsParallelogram(polygon))
+    {
+      return origin + u * (polygon.Corners[1] - origin) + v * (polygon.Corners[3] - origin);
+    }
+    const int corner = polygon.Count > 3 ? ChooseTriangle(polygon, u) : 1;
+    if (u + v > 1.0)
+    {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    return origin + u * (polygon.Corners[corner] - origin) +
+      v * (polygon.Corners[corner + 1] - origin);
+  }
+
+  /// A unit vector around a normal, even in projected (cosine-weighted) solid angle.
+  PolygonExchange::Vector GetDirection(const PolygonExchange::Vector& normal, int index,
+    int first) const
+  {
+    const double squared = this->Get(index, first);
+    const double angle = 6.283185307179586 * this->Get(index, first + 1);
+    const PolygonExchange::Vector tangent = normal.unitOrthogonal();
+    return std::sqrt(squared) *
+      (std::cos(angle) * tangent + std::sin(angle) * normal.cross(tangent)) +
+      std::sqrt(1.0 - squared) * normal;
+  }
+
+private:
+  // The most frequent polygon besides triangles; on it the points stay as even as they are in the
+  // unit square.
+  static bool IsParallelogram(const PolygonExchange::Polygon& polygon)
+  {
+    if (polygon.Count != 4)
+    {
+      return false;
+    }
+    const auto& corners = polygon.Corners;
+    return (corners[0] - corners[1] + corners[2] - corners[3]).norm() <=
+      1e-9 * (corners[2] - corners[0]).norm();
+  }
+
+  // A triangle of the fan by its share of the area; u is stretched so that it is uniform within it.
+  static int ChooseTriangle(const PolygonExchange::Polygon& polygon, double& u)
+  {
+    const auto getTwiceArea = [&](int corner)
+    {
+      const PolygonExchange::Vector a = polygon.Corners[corner] - polygon.Corners[0];
+      const PolygonExchange::Vector b = polygon.Corners[corner + 1] - polygon.Corners[0];
+      return a.cross(b).dot(polygon.Normal);
+    };
+    const int last = polygon.Count - 2;
+    double left = 0.0;
+    for (int corner = 1; corner <= last; ++corner)
+    {
+      left += getTwiceArea(corner);
+    }
+    left *= u;
+    for (int corner = 1;; ++corner)
+    {
+      const double area = getTwiceArea(corner);
+      if (left < area || corner == last)
+      {
+        u = area > 0.0 ? std::fmin(left / area, 1.0) : 0.0;
+        return corner;
+      }
+      left -= area;
+    }
+  }
+
+  struct Directions
+  {
+    std::uint32_t Numbers[4][32];
+
+    Directions()
+    {
+      // Degree and inner coefficients of the primitive polynomials, and the first odd numbers.
+      constexpr int degrees[4] = { 0, 1, 2, 3 };
+      constexpr std::uint32_t coefficients[4] = { 0, 0, 1, 1 };
+      constexpr std::uint32_t first[4][3] = { {}, { 1 }, { 1, 3 }, { 1, 3, 1 } };
+      for (int bit = 0; bit < 32; ++bit)
+      {
+        this->Numbers[0][bit] = 1u << (31 - bit);
+      }
+      for (int dimension = 1; dimension < 4; ++dimension)
+      {
+        const int degree = degrees[dimension];
+        std::uint32_t* numbers = this->Numbers[dimension];
+        for (int bit = 0; bit < 32; ++bit)
+        {
+          if (bit < degree)
+          {
+            numbers[bit] = first[dimension][bit] << (31 - bit);
+            continue;
+          }
+          numbers[bit] = numbers[bit - degree] ^ (numbers[bit - degree] >> degree);
+          for (int k = 1; k < degree; ++k)
+          {
+            const bool used = (coefficients[dimension] >> (degree - 1 - k)) & 1u;
+            numbers[bit] ^= used ? numbers[bit - k] : 0u;
+          }
+        }
+      }
+    }
+  };
+
+  static const Directions& GetDirections()
+  {
+    static const Directions directions;
+    return directions;
+  }
+
+  std::uint32_t Flips[4];
+};
+} // namespace LightTransport
+
+#endif

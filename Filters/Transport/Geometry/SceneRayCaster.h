@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Rays through a PatchScene. Embree's single precision finds candidates (patches whose box,
+ * enlarged by what single precision loses, is met), double precision decides: a patch is hit where
+ * the ray crosses its plane between its ends, neither of them in the plane, and passes all edges on
+ * the same side or touches them. What counts as touching is rounding in double precision, so
+ * neighbors leave no gap between them and a patch a millionth as large as the scene keeps its
+ * shape.
+ *
+ * Patches named as a ray's own never stop it, nor do others with the same corners (the other side
+ * of a thin wall), so no ray needs an offset to leave the patch where it starts or to arrive where
+ * it ends. Origins must be in the bounding box of the scene. Thread-safe after Build.
+ */
+#ifndef SceneRayCaster_h
+#define SceneRayCaster_h
+
+#include "Scene/PatchScene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LightTransport
+{
+class SceneRayCaster
+{
+public:
+  SceneRayCaster();
+  ~SceneRayCaster();
+  SceneRayCaster(const SceneRayCaster&) = delete;
+  void operator=(const SceneRayCaster&) = delete;
+
+  /**
+   * Only the patches of `subset` (all where it is nullptr) stop rays. The scene must outlive the
+   * caster. Returns false with `error` when Embree cannot build (no memory, no device).
+   */
+  bool Build(const PatchScene& scene, std::string& error,
+    const std::vector<bool>* subset = nullptr);
+
+  /// True when a patch other than `from` and `to` lies between the two points (scene coordinates).
+  /// Both sides of a patch block. `to` is -1 where the target is on no patch.
+  bool IsOccluded(const PatchScene::Vector& origin, const PatchScene::Vector& target,
+    vtkIdType from, vtkIdType to) const;
+
+  /**
+   * The first patch other than `from` along a ray, or -1; `front` tells whether its front was hit.
+   * Of two patches in one place the one that faces the ray is first. `direction` need not be
+   * normalised.
+   */
+  vtkIdType FindHit(const PatchScene::Vector& origin, const PatchScene::Vector& direction,
+    vtkIdType from, bool& front) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Self;
+};
+} // namespace LightTransport
+
+#endif

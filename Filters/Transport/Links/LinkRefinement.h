@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Chooses the links of a vtkExchangeHierarchy over the tree of a scene: from pairs of large
+ * clusters down, a pair becomes one link where what that does to the irradiance is small enough,
+ * and is divided where it is not.
+ *
+ * A link stands for the mean of the kernel cos cos visible / (pi r^2) over both clusters. The mean
+ * and what the link leaves out come from the same samples: a few points on either cluster, all
+ * pairs of them, with a ray for each where anything may stand between the clusters. How the means
+ * of rows and of columns differ is how the irradiance varies over the receiver, in both directions;
+ * with geometry and visibility in one number a shadow's edge is refined as far as its light is
+ * worth. Two patches get the exchange of OpenExchange and the visible part of
+ * PairVisibility.
+ *
+ * The measure is the square of the error of the irradiance, integrated over the scene, for a
+ * radiosity of 1 everywhere, or for a given one (refinement by brightness). What the links of one
+ * cluster leave out often has one sign (all of a floor is nearer to the lower rows of a wall), so
+ * the deviations of its quarters are summed over its links first: that is what the sum is then
+ * squared of, and clusters where it is more than its parts get finer links in the next pass. Passes
+ * end when the error keeps the tolerance (root mean square, relative).
+ *
+ * Sources: P. Hanrahan, D. Salzman, L. Aupperle, A rapid hierarchical radiosity algorithm (1991);
+ * F. X. Sillion, A unified hierarchical algorithm for global illumination with scattering volumes
+ * and object clusters (1995).
+ */
+#ifndef LinkRefinement_h
+#define LinkRefinement_h
+
+#include "Geometry/ShaftCuller.h"
+#include "ViewFactors/OpenExchange.h"
+#include "vtkExchangeHierarchy.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+class vtkMultiProcessController;
+
+namespace LightTransport
+{
+class PairVisibility;
+class PatchScene;
+class SceneRayCaster;
+
+class LinkRefinement
+{
+public:
+  /// What became of the pairs that the last pass looked at.
+  struct Counters
+  {
+    double Links = 0.0;
+    double PatchLinks = 0.0; ///< of which between two patches
+    double PairsExamined = 0.0;
+    double PairsBackFacing = 0.0;
+    double PairsUnobstructed = 0.0; ///< nothing reaches into the shaft between them
+    double Rays = 0.0;
+    double SquaredError = 0.0; ///< of means and of pairs of patches
+    void Add(const Counters& other);
+  };
+
+  /// Of the exchange of two patches with nothing in between: sum of the errors of a row.
+  static constexpr double OpenTolerance = 1e-4;
+
+  enum Outcome
+  {
+    DONE,
+    ABORTED,
+    NO_MEMORY
+  };
+
+  /// `caster` holds the same scene. Both must outlive this.
+  LinkRefinement(const PatchScene& scene, const SceneRayCaster& caster);
+
+  /// A radiosity for each patch (>= 0) that counts instead of 1 everywhere.
+  void SetBrightness(const std::vector<double>& brightness);
+
+  /// Whether the rows of the links will be closed afterwards in a scene without openings: what the
+  /// links of a cluster leave out with one sign is then brought in.
+  void SetClosesRows(bool closes) { this->ClosesRows = closes; }
+
+  /// The nodes of the scene's tree in the form of vtkExchangeHierarchy.
+  std::vector<vtkExchangeHierarchy::Node> GetNodes() const;
+
+  /**
+   * Refine until the error estimate keeps `tolerance`, or there is nothing left to divide. This
+   * rank's share of the links is then in GetLinks. `progress` gets fractions and returns false to
+   * abort. Not more than `availableBytes` are used for links. Collective.
+   */
+  using ProgressFunction = std::function<bool(double)>;
+  Outcome Refine(double tolerance, double availableBytes, vtkMultiProcessController* controller,
+    const ProgressFunction& progress);
+
+  const std::vector<vtkExchangeHierarchy::Link>& GetLinks() const { return this->Links; }
+  /// Of all ranks.
+  const Counters& GetCounters() const { return this->Total; }
+  /// Root mean square error of the irradiance, relative to the radiosity that counts.
+  double GetErrorEstimate() const { return this->ErrorEstimate; }
+
+private:
+  /// Points on each of two clusters.
+  static constexpr int Points = 4;
+
+  struct Pair
+  {
+    int I, J;    ///< slots
+    bool IsFree; ///< nothing can be between them
+  };
+  struct Estimate
+  {
+    double Value = 0.0;  ///< mean of the kernel
+    double ErrorI = 0.0; ///< squared error of the irradiance of I, integrated over I
+    double ErrorJ = 0.0;
+    double Mean = 0.0;               ///< of which what the mean itself may be off
+    double DeviationsI[Points] = {}; ///< of the irradiance of the quarters of I
+    double DeviationsJ[Points] = {};
+  };
+  struct Result
+  {
+    std::vector<vtkExchangeHierarchy::Link> Links;
+    Counters Count;
+  };
+  struct Refiner;
+  /// Sums that do not depend on the order of the threads: in whole numbers of small parts.
+  using Sums = std::unique_ptr<std::atomic<std::int64_t>[]>;
+
+  int GetNumberOfSlots() const { return static_cast<int>(this->Brightness.size()); }
+  void MakeUnits();
+  void ClearSums();
+  Outcome RunPass(double threshold, double availableBytes, vtkMultiProcessController* controller,
+    const ProgressFunction& progress);
+  void AddUpRanks(vtkMultiProcessController* controller);
+  void Assess();
+
+  const PatchScene& Scene;
+  const SceneRayCaster& Caster;
+  OpenExchange Open;
+  ShaftCuller Culler;
+  int NumberOfNodes;
+  std::vector<double> AreaBefore; ///< of the patches before each; the whole area last
+  std::vector<int> Leaves;        ///< of each patch
+  std::vector<double> Brightness; ///< of each slot, at most 1
+  double SquaredBrightness = 0.0; ///< integrated
+  bool ClosesRows = false;
+  std::vector<Pair> Units;
+  std::vector<vtkExchangeHierarchy::Link> Links;
+  Counters Total;
+  double ErrorEstimate = 0.0;
+  Sums Deviations;            ///< Points for each slot
+  Sums Squares;               ///< of the links of each slot, apart
+  std::vector<double> Shares; ///< of the threshold that a slot's links may use
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Radiosity/ProgressiveRadiosity.h"
+
+#include "Scene/PatchScene.h"
+#include "vtkDeviceShooter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace LightTransport
+{
+namespace
+{
+// Less than this fraction of the largest source does not change sums of single precision.
+constexpr double SinglePrecision = 1e-7;
+
+//------------------------------------------------------------------------------
+vtkDeviceShooter::Patches DescribePatches(const PatchScene& scene)
+{
+  vtkDeviceShooter::Patches patches;
+  for (const PatchScene::Vector& point : scene.GetPoints())
+  {
+    patches.Points.insert(patches.Points.end(), point.data(), point.data() + 3);
+  }
+  patches.Offsets.push_back(0);
+  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  {
+    const vtkIdType* corners = scene.GetCorners(patch);
+    const PatchScene::Vector& normal = scene.GetNormal(patch);
+    patches.Corners.insert(patches.Corners.end(), corners,
+      corners + scene.GetNumberOfCorners(patch));
+    patches.Offsets.push_back(static_cast<vtkIdType>(patches.Corners.size()));
+    patches.Normals.insert(patches.Normals.end(), normal.data(), normal.data() + 3);
+  }
+  patches.Areas = scene.GetAreas();
+  return patches;
+}
+
+//------------------------------------------------------------------------------
+// Largest magnitudes of each band.
+std::vector<double> FindLargest(const std::vector<double>& values, int bands)
+{
+  std::vector<double> largest(static_cast<std::size_t>(bands), 0.0);
+  for (std::size_t k = 0; k < values.size(); ++k)
+  {
+    largest[k % bands] = std::max(largest[k % bands], std::abs(values[k]));
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
+// The error bound from what is unshot, and whether that is all there is to do. B is nowhere below
+// its source, so the tolerance is met for B where it is met for the source.
+bool IsOver(const std::vector<double>& unshot, const std::vector<double>& reflectances,
+  const std::vector<double>& sources, const RadiosityProblem& problem, RadiositySolution& solution)
+{
+  bool converged = true;
+  bool exhausted = true;
+  solution.ErrorBound = 0.0;
+  for (std::size_t band = 0; band < unshot.size(); ++band)
+  {
+    const double rho = reflectances[band];
+    const double gain = rho < 1.0 ? 1.0 / (1.0 - rho) : std::numeric_limits<double>::infinity();
+    // Written so that a NaN does not pass for an answer.
+    const double bound = unshot[band] == 0.0 ? 0.0 : gain * unshot[band];
+    solution.ErrorBound = bound <= solution.ErrorBound ? solution.ErrorBound : bound;
+    converged = converged && bound <= problem.Tolerance * sources[band];
+    exhausted = exhausted && unshot[band] <= SinglePrecision * sources[band];
+  }
+  const double residual = *std::max_element(unshot.begin(), unshot.end());
+  const bool aborted = !problem.Report(solution.NumberOfIterations, residual, solution.ErrorBound);
+  solution.Status = aborted ? RadiosityStatus::Aborted
+    : converged             ? RadiosityStatus::Converged
+    : exhausted             ? RadiosityStatus::Stagnated
+                            : RadiosityStatus::IterationsUsedUp;
+  return aborted || converged || exhausted ||
+    solution.NumberOfIterations >= problem.MaximumNumberOfIterations;
+}
+
+//------------------------------------------------------------------------------
+void Warn(const RadiosityProblem& problem, RadiositySolution& solution)
+{
+  if (solution.HasConverged() || solution.Status == RadiosityStatus::Aborted)
+  {
+    return;
+  }
+  std::ostringstream text;
+  text << "Southwell stopped after " << solution.NumberOfIterations
+       << " shots with an error bound of " << solution.ErrorBound << ": "
+       << (solution.Status == RadiosityStatus::Stagnated
+              ? "what is left is nothing to single precision. Raise Tolerance above "
+              : "raise MaximumNumberOfIterations, or Tolerance above ")
+       << problem.Tolerance << ", or use ConjugateGradient.";
+  solution.Warning = text.str();
+}
+} // namespace
+
+namespace ProgressiveRadiosity
+{
+//------------------------------------------------------------------------------
+RadiositySolution Solve(vtkDeviceShooter* shooter, const PatchScene& scene,
+  const RadiosityProblem& problem, std::vector<double>& irradiance)
+{
+  RadiositySolution solution;
+  solution.Solver = problem.Solver;
+  solution.Explanation = "Southwell: asked for, by item buffers without view factors";
+  const int bands = problem.NumberOfBands;
+  const std::vector<double> reflectances = FindLargest(problem.Reflectance, bands);
+  const std::vector<double> sources = FindLargest(problem.Emission, bands);
+  std::vector<double> unshot = sources;
+  bool good = shooter->Initialize(DescribePatches(scene), bands, problem.Emission.data(),
+    problem.Reflectance.data());
+  while (good && !IsOver(unshot, reflectances, sources, problem, solution))
+  {
+    const vtkIdType left = problem.MaximumNumberOfIterations - solution.NumberOfIterations;
+    const vtkIdType shots = shooter->Shoot(std::min(ShotsPerReport, left));
+    good = shots >= 0 && shooter->GetLargestUnshot(unshot.data());
+    solution.NumberOfIterations += static_cast<int>(shots);
+    if (shots == 0)
+    {
+      // What is left has no power that single precision could tell.
+      solution.Status = RadiosityStatus::Stagnated;
+      break;
+    }
+  }
+  irradiance.resize(problem.Emission.size());
+  solution.Radiosity = problem.Emission;
+  if (!good || !shooter->GetIrradiance(irradiance.data()))
+  {
+    solution.Error = "The device could not shoot (see the message before this one).";
+    return solution;
+  }
+  Warn(problem, solution);
+  for (std::size_t k = 0; k < irradiance.size(); ++k)
+  {
+    solution.Radiosity[k] += problem.Reflectance[k] * irradiance[k];
+  }
+  return solution;
+}
+} // namespace ProgressiveRadiosity
+} // namespace LightTransport

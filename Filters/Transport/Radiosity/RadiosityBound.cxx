@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Radiosity/RadiosityBound.h"
+
+#include "Radiosity/RadiosityIteration.h"
+#include "Radiosity/RadiosityMethods.h"
+#include "vtkCPULinkOperator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace LightTransport
+{
+namespace
+{
+using Iteration = RadiosityIteration;
+
+// Where some 1 - rho * row sum is below this, w = 1 gives a poor bound or none, and a better w is
+// worth a few products.
+constexpr double SmallDominance = 1e-2;
+// How well w must solve its system: d = 1 - residual is then at least 0.9.
+constexpr double GoodResidual = 0.1;
+constexpr int MaximumIterations = 1000;
+
+// Reflectances closer to 1 than single precision view factors can tell.
+constexpr double FullReflectance = 1.0 - 1e-7;
+// What the errors of view factors may do to B before users should know, and before B means nothing.
+constexpr double WorthAWarning = 0.1;
+constexpr double Meaningless = 1.0;
+// Row sums that no error of an integral explains, but patches that overlap.
+constexpr double OverfullRow = 1.01;
+// What rounding and closing leave of a row sum.
+constexpr double MostRounding = 1e-6;
+// Errors of row sums from which on a mirror may be open as well as closed.
+constexpr double WellKnown = 1e-3;
+
+//------------------------------------------------------------------------------
+// A patch in a band: where something is wrong.
+struct Place
+{
+  std::size_t Index = 0;
+  double Reflectance = 0.0;
+  double RowSum = 0.0;
+};
+
+//------------------------------------------------------------------------------
+Place GetPlace(const RadiosityProblem& problem, std::size_t index)
+{
+  return { index, problem.Reflectance[index], (*problem.RowSums)[index / problem.NumberOfBands] };
+}
+
+//------------------------------------------------------------------------------
+// Where the part of the scene is in which `w` is largest, by its patch that loses least.
+Place FindWorst(const RadiosityProblem& problem, const std::vector<double>& w)
+{
+  double largest = 0.0;
+  for (const double value : w)
+  {
+    largest = std::abs(value) > largest ? std::abs(value) : largest;
+  }
+  Place worst;
+  double most = -1.0;
+  for (std::size_t k = 0; k < w.size(); ++k)
+  {
+    const Place place = GetPlace(problem, k);
+    const double kept = place.Reflectance * place.RowSum;
+    if (std::abs(w[k]) >= 0.5 * largest && kept > most)
+    {
+      most = kept;
+      worst = place;
+    }
+  }
+  return worst;
+}
+
+//------------------------------------------------------------------------------
+std::string Describe(const RadiosityProblem& problem, const Place& place)
+{
+  const auto patch = static_cast<vtkIdType>(place.Index / problem.NumberOfBands);
+  std::ostringstream text;
+  text.precision(9);
+  text << "polygon " << (problem.GetPolygon ? problem.GetPolygon(patch) : patch);
+  if (problem.NumberOfBands > 1)
+  {
+    text << ", band " << place.Index % problem.NumberOfBands;
+  }
+  text << " (reflectance " << place.Reflectance << ", view factors that sum to " << place.RowSum
+       << ")";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::string ExplainNoSolution(const RadiosityProblem& problem, const Place& place)
+{
+  const std::string beginning =
+    "The radiosity equation has no unique solution: " + Describe(problem, place);
+  const double excess = place.Reflectance * place.RowSum - 1.0;
+  if (excess > std::max(problem.RowSumError, 1e-6))
+  {
+    return beginning +
+      " returns more than it receives. Remove patches that overlap or lie on each other "
+      "(vtkPatchMesher with Repair); where the excess is small, switch EnforceClosure on or lower "
+      "the reflectance.";
+  }
+  if (place.Reflectance >= FullReflectance)
+  {
+    return beginning +
+      " belongs to a closed part of the scene that reflects all that it receives, so that what is "
+      "emitted there never leaves. Lower a reflectance there, or give it an opening.";
+  }
+  return beginning +
+    " returns all that it receives as far as these view factors tell. Switch EnforceClosure on, "
+    "lower ViewFactorTolerance, LinkTolerance or the reflectance.";
+}
+
+//------------------------------------------------------------------------------
+// What errors of the view factors may do to B, relative to its largest value.
+void CheckViewFactors(const RadiosityProblem& problem, const Place& place, double amplification,
+  RadiosityBound& bound)
+{
+  const double effect = amplification * problem.RowSumError;
+  if (effect < WorthAWarning)
+  {
+    return;
+  }
+  if (effect >= Meaningless && place.Reflectance >= FullReflectance &&
+    problem.RowSumError <= WellKnown)
+  {
+    bound.Error = ExplainNoSolution(problem, place);
+    return;
+  }
+  std::ostringstream text;
+  text << "Light is reflected about " << amplification << " times around "
+       << Describe(problem, place) << ", and row sums of the view factors are known to "
+       << problem.RowSumError << ": ";
+  const char* const remedy = " Switch EnforceClosure on, lower ViewFactorTolerance, "
+                             "LinkTolerance or the reflectance.";
+  // Where no row sums to more than 1, light cannot grow: doubtful, but a solution.
+  const auto& sums = *problem.RowSums;
+  const bool mayGrow =
+    !sums.empty() && *std::max_element(sums.begin(), sums.end()) > 1.0 + MostRounding;
+  if (effect >= Meaningless && mayGrow)
+  {
+    text << "the radiosity equation has no unique solution within that error." << remedy;
+    bound.Error = text.str();
+    return;
+  }
+  text << "B may be wrong by " << 100.0 * effect << " % there." << remedy;
+  bound.Warning = text.str();
+}
+
+//------------------------------------------------------------------------------
+void CheckRows(const RadiosityProblem& problem, RadiosityBound& bound)
+{
+  const std::vector<double>& sums = *problem.RowSums;
+  const auto fullest = std::max_element(sums.begin(), sums.end());
+  if (fullest != sums.end() && *fullest > OverfullRow + problem.RowSumError)
+  {
+    const auto patch = static_cast<std::size_t>(fullest - sums.begin());
+    bound.Warning = "What leaves " +
+      Describe(problem, GetPlace(problem, patch * problem.NumberOfBands)) +
+      " arrives more than once: patches that it sees overlap or lie on each other. Remove them "
+      "(vtkPatchMesher with Repair). " +
+      bound.Warning;
+  }
+}
+
+//------------------------------------------------------------------------------
+// With residuals 1 - d in Inverse. False unless all d and w are positive.
+bool Finish(const std::vector<double>& w, RadiosityBound& bound)
+{
+  const auto bands = bound.LargestW.size();
+  bound.SpectralRadii.assign(bands, 0.0);
+  bound.LargestInverse.assign(bands, 0.0);
+  bool positive = true;
+  for (std::size_t k = 0; k < w.size(); ++k)
+  {
+    const double d = 1.0 - bound.Inverse[k];
+    // Written so that a NaN is not positive.
+    positive = positive && d > 0.0 && w[k] > 0.0;
+    bound.Inverse[k] = 1.0 / d;
+    double& largest = bound.LargestInverse[k % bands];
+    largest = std::max(largest, bound.Inverse[k]);
+    double& radius = bound.SpectralRadii[k % bands];
+    radius = std::max(radius, 1.0 - d / w[k]);
+  }
+  return positive;
+}
+
+//------------------------------------------------------------------------------
+// w from conjugate gradients for a right-hand side of ones: then (I - rho F) w = 1 - residual.
+// Returns false where there is no such w; it then points to where that fails.
+bool FindW(const RadiosityProblem& problem, RadiosityBound& bound, std::vector<double>& w)
+{
+  const std::vector<double> ones(problem.Reflectance.size(), 1.0);
+  Iteration state(problem, problem.Reference, ones.data());
+  RadiosityMethods::ConjugateGradients gradients(state);
+  state.Ok = state.Ok && gradients.Begin();
+  Iteration::Bands residuals(problem.NumberOfBands);
+  for (; state.Ok && state.Count < MaximumIterations; ++state.Count)
+  {
+    state.Ok = problem.Reference->MaxNorm(Iteration::RESIDUAL, residuals.data());
+    if (gradients.IsIndefinite() ||
+      *std::max_element(residuals.begin(), residuals.end()) <= GoodResidual)
+    {
+      break;
+    }
+    state.Ok = state.Ok && gradients.Step();
+  }
+  // The recurrence drifts: the bound takes the residual itself.
+  w.resize(ones.size());
+  bound.Inverse.resize(ones.size());
+  bound.LargestW.resize(problem.NumberOfBands);
+  if (gradients.IsIndefinite())
+  {
+    gradients.GetIndefiniteDirection(w.data());
+    return false;
+  }
+  return state.Ok && state.ComputeResidual() &&
+    problem.Reference->GetVector(Iteration::RESIDUAL, bound.Inverse.data()) &&
+    problem.Reference->MaxNorm(Iteration::SOLUTION, bound.LargestW.data()) &&
+    problem.Reference->GetVector(Iteration::SOLUTION, w.data()) && Finish(w, bound);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+RadiosityBound RadiosityBound::Find(const RadiosityProblem& problem)
+{
+  RadiosityBound bound;
+  bound.LargestW.assign(problem.NumberOfBands, 1.0);
+  std::vector<double> w(problem.Reflectance.size(), 1.0);
+  std::vector<double> kept(w.size());
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    kept[k] = GetPlace(problem, k).Reflectance * GetPlace(problem, k).RowSum;
+  }
+  const double most = kept.empty() ? 0.0 : *std::max_element(kept.begin(), kept.end());
+  bound.Inverse = kept;
+  if (1.0 - most > SmallDominance)
+  {
+    Finish(w, bound);
+  }
+  else if (!FindW(problem, bound, w))
+  {
+    bound.Error = ExplainNoSolution(problem, FindWorst(problem, w));
+    return bound;
+  }
+  double amplification = 0.0;
+  for (int band = 0; band < problem.NumberOfBands; ++band)
+  {
+    amplification = std::max(amplification, bound.LargestW[band] * bound.LargestInverse[band]);
+  }
+  CheckViewFactors(problem, FindWorst(problem, w), amplification, bound);
+  CheckRows(problem, bound);
+  return bound;
+}
+} // namespace LightTransport

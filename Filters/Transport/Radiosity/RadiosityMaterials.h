@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What the patches of a scene are made of, read from its cell arrays and checked, and what enters
+ * through its openings: the numbers of B = E + rho H for every patch and band.
+ *
+ * A patch with a given net flux q has B = q + H (it "reflects" all and adds q, negative where heat
+ * is taken out), whatever its emissivity; that only decides how warm it becomes.
+ */
+#ifndef RadiosityMaterials_h
+#define RadiosityMaterials_h
+
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+
+namespace LightTransport
+{
+class PatchScene;
+
+struct RadiosityMaterials
+{
+  /// The input arrays of vtkRadiosity by their index.
+  enum InputArray
+  {
+    EMISSION,
+    REFLECTANCE,
+    TEMPERATURE,
+    EMISSIVITY,
+    DIRECT_IRRADIANCE,
+    BOUNDARY_CONDITION,
+    PRESCRIBED_NET_FLUX,
+    NUMBER_OF_ARRAYS
+  };
+  static const char* GetDefaultName(int array);
+
+  ///@{ Set before Read; see the properties of vtkRadiosity.
+  std::vector<double> BandLimits;
+  double BackgroundTemperature = 0.0;
+  std::vector<double> BackgroundRadiance;
+  ///@}
+
+  int NumberOfBands = 0;
+  ///@{ patches x bands
+  std::vector<double> Emission;
+  std::vector<double> Reflectance;
+  std::vector<double> DirectIrradiance;
+  ///@}
+  std::vector<double> Background; ///< irradiance of a patch that sees nothing else, of each band
+
+  ///@{ One per patch; empty in a scene without temperatures.
+  std::vector<double> Temperature; ///< as given
+  std::vector<double> Emissivity;  ///< of the first band
+  std::vector<bool> HasGivenFlux;  ///< else the temperature is given
+  ///@}
+
+  /**
+   * Fill in all of the above. `names` are those of the input arrays. Returns false, on every rank
+   * alike, with `error` naming the problem and the remedy.
+   */
+  bool Read(vtkDataObject* input, const PatchScene& scene, const std::vector<std::string>& names,
+    std::string& error);
+
+  /// The patches that send anything, one way or the other.
+  std::vector<bool> FindSenders() const;
+
+  /// Whether anything enters through openings.
+  bool HasBackground() const;
+  /// Add what enters through openings to the direct irradiance, for the sky fraction of each patch.
+  void AddBackground(const std::vector<double>& skyFractions);
+
+  bool IsThermal() const { return !this->Temperature.empty(); }
+  bool HasGivenFluxes() const;
+  /**
+   * The temperature of each patch of a thermal scene that receives this irradiance: the given one,
+   * or where the net flux is given the one at which it emits that flux and what it absorbs. Where
+   * there is none, since more is taken out than it absorbs (`impossible` counts those where that
+   * exceeds `tolerance`), 0. A patch of emissivity 0 (and net flux 0) gets the limit for small
+   * emissivities.
+   */
+  std::vector<double> ComputeTemperatures(const std::vector<double>& irradiance, double tolerance,
+    vtkIdType& impossible) const;
+
+  /**
+   * What a patch is made of, as far as points are not averaged across a change of it: 2 values per
+   * patch and band. That a patch emits, or that its net flux is given, is part of it, how much is
+   * not: temperatures, emissions and fluxes may vary from patch to patch.
+   */
+  std::vector<double> GetPointMaterials() const;
+};
+} // namespace LightTransport
+
+#endif

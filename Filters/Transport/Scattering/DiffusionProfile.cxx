@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scattering/DiffusionProfile.h"
+
+#include "Support/GaussLegendre.h"
+#include "vtkMath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LightTransport
+{
+namespace
+{
+const DiffusionProfile::Material Materials[] = {
+  { "Apple", { 2.29, 2.39, 1.97 }, { 0.003, 0.0034, 0.046 }, 1.3 },
+  { "Chicken1", { 0.15, 0.21, 0.38 }, { 0.015, 0.077, 0.19 }, 1.3 },
+  { "Chicken2", { 0.19, 0.25, 0.32 }, { 0.018, 0.088, 0.2 }, 1.3 },
+  { "Cream", { 7.38, 5.47, 3.15 }, { 0.0002, 0.0028, 0.0163 }, 1.3 },
+  { "Ketchup", { 0.18, 0.07, 0.03 }, { 0.061, 0.97, 1.45 }, 1.3 },
+  { "Marble", { 2.19, 2.62, 3 }, { 0.0021, 0.0041, 0.0071 }, 1.5 },
+  { "Potato", { 0.68, 0.7, 0.55 }, { 0.0024, 0.009, 0.12 }, 1.3 },
+  { "Skimmilk", { 0.7, 1.22, 1.9 }, { 0.0014, 0.0025, 0.0142 }, 1.3 },
+  { "Skin1", { 0.74, 0.88, 1.01 }, { 0.032, 0.17, 0.48 }, 1.3 },
+  { "Skin2", { 1.09, 1.59, 1.79 }, { 0.013, 0.07, 0.145 }, 1.3 },
+  { "Spectralon", { 11.6, 20.4, 14.9 }, { 0, 0, 0 }, 1.3 },
+  { "Wholemilk", { 2.55, 3.21, 3.77 }, { 0.0011, 0.0024, 0.014 }, 1.3 },
+};
+
+/// Spacing of the table in t, and its end: radii up to exp(30) depths.
+constexpr double TableStep = 1.0 / 32.0;
+constexpr int TableIntervals = 32 * 30;
+
+//------------------------------------------------------------------------------
+double PointSource(double depth, double sigma, double radius)
+{
+  const double distance = std::sqrt(radius * radius + depth * depth);
+  return depth * (1.0 + sigma * distance) * std::exp(-sigma * distance) /
+    (distance * distance * distance);
+}
+
+//------------------------------------------------------------------------------
+double PointSourceTail(double depth, double sigma, double radius)
+{
+  const double distance = std::sqrt(radius * radius + depth * depth);
+  return depth * std::exp(-sigma * distance) / distance;
+}
+
+//------------------------------------------------------------------------------
+/// Within half a depth, where the closed forms cancel, and few points are exact.
+void AddMomentsNearby(double depth, double sigma, double radius, double moments[3])
+{
+  static const GaussLegendre rule(10);
+  for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+  {
+    const double r = radius * rule.Nodes[k];
+    const double weighted = radius * rule.Weights[k] * r * PointSource(depth, sigma, r);
+    moments[0] += weighted;
+    moments[1] += weighted * r;
+    moments[2] += weighted * r * r;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Integral from 0 to radius of r exp(-sigma d) / d dr.
+double FirstMomentOfTail(double depth, double sigma, double radius)
+{
+  const double distance = std::sqrt(radius * radius + depth * depth);
+  const double path = radius * radius / (distance + depth);
+  const double exponent = sigma * path;
+  const double mean = exponent > 0.0 ? -std::expm1(-exponent) / exponent : 1.0;
+  return std::exp(-sigma * depth) * path * mean;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+const DiffusionProfile::Material* DiffusionProfile::FindMaterial(int number)
+{
+  const int count = static_cast<int>(sizeof(Materials) / sizeof(Materials[0]));
+  return number >= 1 && number <= count ? &Materials[number - 1] : nullptr;
+}
+
+//------------------------------------------------------------------------------
+DiffusionProfile::DiffusionProfile(double scattering, double absorption, double refractiveIndex)
+{
+  const double extinction = scattering + absorption;
+  const double internal = GetMeanInternalReflectance(refractiveIndex);
+  const double mismatch = (1.0 + internal) / (1.0 - internal);
+  this->Albedo = scattering / extinction;
+  this->DiffusionCoefficient = 1.0 / (3.0 * extinction);
+  this->TransportCoefficient = std::sqrt(3.0 * absorption * extinction);
+  this->Depths[0] = 1.0 / extinction;
+  this->Depths[1] = this->Depths[0] + 4.0 * mismatch * this->DiffusionCoefficient;
+  this->Total = this->GetTail(0.0);
+  this->TabulateSecondMoment();
+}
+
+//------------------------------------------------------------------------------
+double DiffusionProfile::Evaluate(double radius) const
+{
+  const double sigma = this->TransportCoefficient;
+  return this->Albedo / (4.0 * vtkMath::Pi()) *
+    (PointSource(this->Depths[0], sigma, radius) + PointSource(this->Depths[1], sigma, radius));
+}
+
+//------------------------------------------------------------------------------
+double DiffusionProfile::GetTail(double radius) const
+{
+  const double sigma = this->TransportCoefficient;
+  return 0.5 * this->Albedo *
+    (PointSourceTail(this->Depths[0], sigma, radius) +
+      PointSourceTail(this->Depths[1], sigma, radius));
+}
+
+//------------------------------------------------------------------------------
+void DiffusionProfile::GetMoments(double radius, double moments[3]) const
+{
+  const double sigma = this->TransportCoefficient;
+  std::fill_n(moments, 3, 0.0);
+  for (int source = 0; source < 2; ++source)
+  {
+    const double depth = this->Depths[source];
+    if (radius < 0.5 * depth)
+    {
+      AddMomentsNearby(depth, sigma, radius, moments);
+      continue;
+    }
+    // By parts: R r dr = -dT / (2 pi) with T the tail, which leaves integrals of exp(-sigma d) / d.
+    const double tail = PointSourceTail(depth, sigma, radius);
+    moments[0] += std::exp(-sigma * depth) - tail;
+    moments[1] += depth * this->InterpolateSecondMoment(source, radius) - radius * tail;
+    moments[2] += 2.0 * depth * FirstMomentOfTail(depth, sigma, radius) - radius * radius * tail;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    moments[k] *= this->Albedo / (4.0 * vtkMath::Pi());
+  }
+}
+
+//------------------------------------------------------------------------------
+void DiffusionProfile::TabulateSecondMoment()
+{
+  const GaussLegendre rule(4);
+  for (int source = 0; source < 2; ++source)
+  {
+    const double scale = this->TransportCoefficient * this->Depths[source];
+    std::vector<double>& table = this->Table[source];
+    table.assign(TableIntervals + 1, 0.0);
+    for (int i = 0; i < TableIntervals; ++i)
+    {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+      {
+        sum += rule.Weights[k] * std::exp(-scale * std::cosh((i + rule.Nodes[k]) * TableStep));
+      }
+      table[i + 1] = table[i] + TableStep * sum;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+double DiffusionProfile::InterpolateSecondMoment(int source, double radius) const
+{
+  const std::vector<double>& table = this->Table[source];
+  const double scale = this->TransportCoefficient * this->Depths[source];
+  const double position = std::asinh(radius / this->Depths[source]) / TableStep;
+  if (position >= TableIntervals)
+  {
+    return table.back();
+  }
+  const int i = static_cast<int>(position);
+  const double x = position - i;
+  const double slopes[2] = { TableStep * std::exp(-scale * std::cosh(i * TableStep)),
+    TableStep * std::exp(-scale * std::cosh((i + 1) * TableStep)) };
+  const double rise = table[i + 1] - table[i];
+  return table[i] +
+    x *
+    (slopes[0] +
+      x * (3.0 * rise - 2.0 * slopes[0] - slopes[1] + x * (slopes[0] + slopes[1] - 2.0 * rise)));
+}
+
+//------------------------------------------------------------------------------
+double DiffusionProfile::GetMeanInternalReflectance(double refractiveIndex)
+{
+  const double n = refractiveIndex;
+  return n > 1.0 ? -1.4399 / (n * n) + 0.7099 / n + 0.6681 + 0.0636 * n : 0.0;
+}
+
+//------------------------------------------------------------------------------
+double DiffusionProfile::GetMeanExternalReflectance(double refractiveIndex)
+{
+  if (refractiveIndex <= 1.0)
+  {
+    return 0.0;
+  }
+  // The reflectance changes fast at grazing angles when the index is near 1: cosine = t^4.
+  const GaussLegendre rule(64);
+  double transmitted = 0.0;
+  for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+  {
+    const double t = rule.Nodes[k];
+    const double cosine = t * t * t * t;
+    transmitted +=
+      rule.Weights[k] * 2.0 * cosine * GetTransmittance(cosine, refractiveIndex) * 4.0 * t * t * t;
+  }
+  return 1.0 - transmitted;
+}
+
+//------------------------------------------------------------------------------
+double DiffusionProfile::GetTransmittance(double cosine, double refractiveIndex)
+{
+  const double n = refractiveIndex;
+  if (!(cosine > 0.0))
+  {
+    return 0.0;
+  }
+  if (n <= 1.0)
+  {
+    return 1.0;
+  }
+  const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (n * n));
+  const double parallel = (n * cosine - inside) / (n * cosine + inside);
+  const double perpendicular = (cosine - n * inside) / (cosine + n * inside);
+  return 1.0 - 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}
+} // namespace LightTransport

@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scattering/ScatteringExchange.h"
+
+#include "Scattering/ScatteringIntegrals.h"
+#include "Scene/PatchScene.h"
+#include "Shared/Threads.h"
+#include "vtkExchangeMatrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LightTransport
+{
+namespace
+{
+using Triangle = ScatteringIntegrals::Triangle;
+
+/// Rows of a tile that one thread works on at a time.
+constexpr int RowsPerStrip = 8;
+/// Calls of the progress function; the same on all ranks.
+constexpr int NumberOfBatches = 50;
+
+///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours, of which a
+/// triangle mesh has about 40 within
+/// reach.
+constexpr double ShareOfValues = 0.4;
+constexpr double ShareOfAreas = 0.3;
+constexpr double ShareOfNeighbours = 0.3 / 40.0;
+///@}
+
+//------------------------------------------------------------------------------
+/// Patches in millimetres.
+struct Patches
+{
+  Patches(const PatchScene& scene, double scale)
+  {
+    const vtkIdType count = scene.GetNumberOfPatches();
+    this->Offsets.reserve(count + 1);
+    this->Offsets.push_back(0);
+    for (vtkIdType patch = 0; patch < count; ++patch)
+    {
+      const auto corner = [&](int k) { return scale * scene.GetCorner(patch, k); };
+      for (int k = 2; k < scene.GetNumberOfCorners(patch); ++k)
+      {
+        const Triangle triangle(corner(0), corner(k - 1), corner(k));
+        // A corner in the middle of an edge leaves one without an area.
+        if (triangle.Area > 0.0)
+        {
+          this->Triangles.push_back(triangle);
+        }
+      }
+      this->Offsets.push_back(static_cast<vtkIdType>(this->Triangles.size()));
+      this->Centroids.emplace_back(scale * scene.GetCentroid(patch));
+      this->Radii.push_back(scale * scene.GetRadius(patch));
+      this->Areas.push_back(scale * scale * scene.GetAreas()[patch]);
+      this->TotalArea += this->Areas.back();
+    }
+  }
+
+  std::vector<Triangle> Triangles;
+  std::vector<vtkIdType> Offsets;
+  std::vector<PatchScene::Vector> Centroids;
+  std::vector<double> Radii;
+  std::vector<double> Areas;
+  double TotalArea = 0.0;
+};
+
+//------------------------------------------------------------------------------
+/// What a thread leaves behind for one strip of a tile.
+struct StripSummary
+{
+  vtkIdType Links = 0;
+  vtkIdType LeftOut = 0;
+  double RowErrors[RowsPerStrip] = {};
+  double ColumnErrors[vtkExchangeMatrix::TileSize] = {};
+};
+
+//------------------------------------------------------------------------------
+/// Fills strips of tiles.
+class Filler
+{
+public:
+  Filler(const Patches& patches, const ScatteringIntegrals& integrals,
+    const std::vector<DiffusionProfile>& profiles, double tolerance, double furthest,
+    vtkExchangeMatrix* exchange)
+    : Scene(patches), Integrals(integrals), Tiles(exchange->GetTiles())
+  {
+    for (std::size_t band = 0; band < profiles.size(); ++band)
+    {
+      this->Totals[band] = profiles[band].GetTotal();
+    }
+    // A patch receives at most everything, and on a small body at most the peak from all of it.
+    const double allowed = tolerance * std::min(1.0, integrals.GetBound(0.0) * patches.TotalArea);
+    this->PerArea = ShareOfAreas * allowed / patches.TotalArea;
+    this->PerNeighbour = ShareOfNeighbours * allowed;
+    this->FindCutOff(furthest);
+  }
+
+  void operator()(vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType strip = begin; strip < end; ++strip)
+    {
+      this->FillStrip(strip);
+    }
+  }
+
+  /// The strips [first, first + number) are about to be filled.
+  void Start(vtkIdType first, vtkIdType number)
+  {
+    this->FirstStrip = first;
+    this->Strips.assign(number, StripSummary());
+  }
+
+  /// Add what the strips came to, in their order, so that the sums do not depend on threads.
+  void Finish(ScatteringExchange::Summary& summary) const
+  {
+    for (std::size_t k = 0; k < this->Strips.size(); ++k)
+    {
+      const StripSummary& strip = this->Strips[k];
+      summary.Links += strip.Links;
+      summary.LeftOut += strip.LeftOut;
+      vtkIdType firstRow;
+      const vtkExchangeMatrix::Tile& tile =
+        this->Locate(this->FirstStrip + static_cast<vtkIdType>(k), firstRow);
+      const vtkIdType count = static_cast<vtkIdType>(this->Scene.Areas.size());
+      const vtkIdType row = tile.Row * vtkExchangeMatrix::TileSize + firstRow;
+      const vtkIdType column = tile.Column * vtkExchangeMatrix::TileSize;
+      for (vtkIdType i = 0; i < std::min<vtkIdType>(RowsPerStrip, count - row); ++i)
+      {
+        summary.Errors[row + i] += strip.RowErrors[i];
+      }
+      for (vtkIdType j = 0; j < std::min<vtkIdType>(vtkExchangeMatrix::TileSize, count - column);
+           ++j)
+      {
+        summary.Errors[column + j] += strip.ColumnErrors[j];
+      }
+    }
+  }
+
+  static constexpr int StripsPerTile = vtkExchangeMatrix::TileSize / RowsPerStrip;
+
+private:
+  void FindCutOff(double furthest)
+  {
+    double begin = 0.0;
+    double end = furthest;
+    if (this->Integrals.GetBound(end) >= this->PerArea)
+    {
+      this->CutOff = end;
+      return;
+    }
+    for (int step = 0; step < 60; ++step)
+    {
+      const double middle = 0.5 * (begin + end);
+      (this->Integrals.GetBound(middle) >= this->PerArea ? begin : end) = middle;
+    }
+    this->CutOff = end;
+  }
+
+  const vtkExchangeMatrix::Tile& Locate(vtkIdType strip, vtkIdType& firstRow) const
+  {
+    firstRow = strip % StripsPerTile * RowsPerStrip;
+    return this->Tiles[strip / StripsPerTile];
+  }
+
+  void FillStrip(vtkIdType strip)
+  {
+    StripSummary& summary = this->Strips[strip - this->FirstStrip];
+    vtkIdType firstRow;
+    vtkExchangeMatrix::Tile tile = this->Locate(strip, firstRow);
+    const vtkIdType count = static_cast<vtkIdType>(this->Scene.Areas.size());
+    const vtkIdType rowOffset = tile.Row * vtkExchangeMatrix::TileSize;
+    const vtkIdType columnOffset = tile.Column * vtkExchangeMatrix::TileSize;
+    for (vtkIdType row = firstRow; row < firstRow + RowsPerStrip; ++row)
+    {
+      const vtkIdType i = rowOffset + row;
+      if (i >= count)
+      {
+        break;
+      }
+      const vtkIdType last = std::min<vtkIdType>(vtkExchangeMatrix::TileSize, count - columnOffset);
+      for (vtkIdType column = std::max<vtkIdType>(0, i - columnOffset); column < last; ++column)
+      {
+        const vtkIdType j = columnOffset + column;
+        const double error = this->FillPair(tile, row, column, i, j, summary);
+        summary.RowErrors[row - firstRow] += error;
+        summary.ColumnErrors[column] += i == j ? 0.0 : error;
+      }
+    }
+  }
+
+  /// Returns the estimated error.
+  double FillPair(vtkExchangeMatrix::Tile& tile, vtkIdType row, vtkIdType column, vtkIdType i,
+    vtkIdType j, StripSummary& summary) const
+  {
+    ScatteringIntegrals::Result result;
+    if (i == j)
+    {
+      this->IntegrateSelf(i, result);
+    }
+    else
+    {
+      const double reach = this->Scene.Radii[i] + this->Scene.Radii[j];
+      const double distance = (this->Scene.Centroids[i] - this->Scene.Centroids[j]).norm();
+      const double areas = this->Scene.Areas[i] * this->Scene.Areas[j];
+      if (distance - reach > this->CutOff)
+      {
+        ++summary.LeftOut;
+        return this->PerArea * areas;
+      }
+      ++summary.Links;
+      double tolerance = this->PerArea * areas;
+      if (distance < 2.0 * reach)
+      {
+        tolerance += this->PerNeighbour * std::min(this->Scene.Areas[i], this->Scene.Areas[j]);
+      }
+      this->IntegratePair(i, j, tolerance / areas, result);
+    }
+    for (int band = 0; band < ScatteringIntegrals::NumberOfBands; ++band)
+    {
+      vtkExchangeMatrix::SetValue(tile, static_cast<int>(row), static_cast<int>(column), band,
+        this->Totals[band] * result.Value[band]);
+    }
+    return result.Error;
+  }
+
+  void IntegratePair(vtkIdType i, vtkIdType j, double tolerancePerAreas,
+    ScatteringIntegrals::Result& result) const
+  {
+    for (vtkIdType p = this->Scene.Offsets[i]; p < this->Scene.Offsets[i + 1]; ++p)
+    {
+      const Triangle& a = this->Scene.Triangles[p];
+      for (vtkIdType q = this->Scene.Offsets[j]; q < this->Scene.Offsets[j + 1]; ++q)
+      {
+        const Triangle& b = this->Scene.Triangles[q];
+        this->Integrals.AddPair(a, b, tolerancePerAreas * a.Area * b.Area, result);
+      }
+    }
+  }
+
+  void IntegrateSelf(vtkIdType i, ScatteringIntegrals::Result& result) const
+  {
+    ScatteringIntegrals::Result pairs;
+    const double tolerance = this->PerNeighbour / this->Scene.Areas[i];
+    for (vtkIdType p = this->Scene.Offsets[i]; p < this->Scene.Offsets[i + 1]; ++p)
+    {
+      const Triangle& a = this->Scene.Triangles[p];
+      this->Integrals.AddSelf(a, result);
+      for (vtkIdType q = this->Scene.Offsets[i]; q < p; ++q)
+      {
+        const Triangle& b = this->Scene.Triangles[q];
+        this->Integrals.AddPair(a, b, tolerance * a.Area * b.Area, pairs);
+      }
+    }
+    result.Value += 2.0 * pairs.Value;
+    result.Error += 2.0 * pairs.Error;
+  }
+
+  const Patches& Scene;
+  const ScatteringIntegrals& Integrals;
+  const std::vector<vtkExchangeMatrix::Tile>& Tiles;
+  double Totals[ScatteringIntegrals::NumberOfBands];
+  double PerArea;
+  double PerNeighbour;
+  double CutOff = 0.0;
+  vtkIdType FirstStrip = 0;
+  std::vector<StripSummary> Strips;
+};
+} // namespace
+
+//------------------------------------------------------------------------------
+bool ScatteringExchange::Fill(const PatchScene& scene, double millimetersPerSceneUnit,
+  const std::vector<DiffusionProfile>& profiles, double tolerance, vtkExchangeMatrix* exchange,
+  const std::function<bool(double)>& progress, Summary& summary)
+{
+  const Patches patches(scene, millimetersPerSceneUnit);
+  // The scene's bounding box has diagonal 1.
+  const double furthest = 1.01 * millimetersPerSceneUnit;
+  const ScatteringIntegrals integrals(profiles, furthest, ShareOfValues * tolerance);
+  Filler filler(patches, integrals, profiles, tolerance, furthest, exchange);
+  summary = Summary();
+  summary.Errors.assign(patches.Areas.size(), 0.0);
+  const vtkIdType strips =
+    static_cast<vtkIdType>(exchange->GetTiles().size()) * Filler::StripsPerTile;
+  for (int batch = 0; batch < NumberOfBatches; ++batch)
+  {
+    const vtkIdType first = strips * batch / NumberOfBatches;
+    const vtkIdType last = strips * (batch + 1) / NumberOfBatches;
+    filler.Start(first, last - first);
+    Threads::For(first, last, 1, filler);
+    filler.Finish(summary);
+    if (!progress(static_cast<double>(batch + 1) / NumberOfBatches))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace LightTransport

@@ -1,0 +1,337 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scattering/ScatteringIntegrals.h"
+
+#include "Support/GaussLegendre.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace LightTransport
+{
+namespace
+{
+using Vector = ScatteringIntegrals::Vector;
+using Triangle = ScatteringIntegrals::Triangle;
+
+/// The table has 2^6 pieces per octave of squared distance: the top bits of a float are the piece,
+/// the rest is the place in it.
+constexpr int MantissaBits = 23;
+constexpr int PieceBits = 6;
+constexpr int PlaceBits = MantissaBits - PieceBits;
+
+/// Cuts after which the rules have the last word: sides are 2^-8 of what they were. Patches wider
+/// than some 300 mean free paths then get a worse error estimate, but never endless work.
+constexpr int MaximumDepth = 16;
+
+/// Of the rough value of a pair of triangles that has to be cut.
+constexpr double RoughTolerance = 0.1;
+/// Parts of pairs are left alone when their sum is below this much of the tolerance.
+constexpr double NegligiblePart = 0.01;
+
+/// Of the logarithmic range of distances that one rule takes in a triangle with itself.
+constexpr double WidestPart = 1.5;
+
+constexpr float WeightsOfThree[] = { 1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f };
+/// D. A. Dunavant, 1985: degree 4.
+constexpr double PlacesOfSix[] = { 0.445948490915965, 0.091576213509771 };
+constexpr float WeightsOfSix[] = { 0.223381589678011f, 0.223381589678011f, 0.223381589678011f,
+  0.109951743655322f, 0.109951743655322f, 0.109951743655322f };
+
+//------------------------------------------------------------------------------
+std::uint32_t BitsOf(float value)
+{
+  std::uint32_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+//------------------------------------------------------------------------------
+float FloatOf(std::uint32_t bits)
+{
+  float value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+//------------------------------------------------------------------------------
+void PlaceSix(const Triangle& triangle, Vector* points)
+{
+  for (int k = 0; k < 6; ++k)
+  {
+    const double place = PlacesOfSix[k / 3];
+    // Corner with weight 1 - 2 place, the two others with place.
+    points[k] = 3.0 * place * triangle.Centroid + (1.0 - 3.0 * place) * triangle.Corners[k % 3];
+  }
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+ScatteringIntegrals::Triangle::Triangle(const Vector& a, const Vector& b, const Vector& c)
+  : Corners{ a, b, c }, Centroid((a + b + c) / 3.0), Area(0.5 * (b - a).cross(c - a).norm())
+{
+  double largest = 0.0;
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double squared = (this->Corners[k] - this->Centroid).squaredNorm();
+    largest = std::max(largest, squared);
+    sum += squared;
+    this->Points[k] = 0.5 * (this->Centroid + this->Corners[k]);
+  }
+  this->Radius = std::sqrt(largest);
+  this->Moment = sum / 12.0;
+}
+
+//------------------------------------------------------------------------------
+ScatteringIntegrals::ScatteringIntegrals(const std::vector<DiffusionProfile>& profiles,
+  double maximumDistance, double relativeTolerance)
+  : Profiles(profiles), RelativeTolerance(relativeTolerance)
+{
+  double depth = profiles[0].GetRealDepth();
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    const double total = profiles[band].GetTotal();
+    this->Scales[band] = total > 0.0 ? 1.0 / total : 0.0;
+    depth = std::min(depth, profiles[band].GetRealDepth());
+    const double bandDepth = profiles[band].GetRealDepth();
+    this->SquaredDepths[band] = bandDepth * bandDepth;
+    this->TransportCoefficients[band] = profiles[band].GetTransportCoefficient();
+  }
+  this->SquaredDepth = depth * depth;
+  this->Tabulate(maximumDistance);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringIntegrals::Tabulate(double maximumDistance)
+{
+  const auto pieceOf = [](double value) { return BitsOf(static_cast<float>(value)) >> PlaceBits; };
+  this->FirstPiece = pieceOf(this->SquaredDepth);
+  // The table starts at the beginning of a piece, so that no piece reaches below distance zero.
+  this->SquaredDepth = FloatOf(this->FirstPiece << PlaceBits);
+  const std::uint32_t lastPiece =
+    pieceOf(1.01 * (maximumDistance * maximumDistance + this->SquaredDepth)) + 1;
+  this->Table.resize(lastPiece - this->FirstPiece + 1);
+  for (std::size_t i = 0; i < this->Table.size(); ++i)
+  {
+    const std::uint32_t bits = static_cast<std::uint32_t>(i + this->FirstPiece) << PlaceBits;
+    const double begin = FloatOf(bits);
+    const double length = FloatOf(bits + (1u << PlaceBits)) - begin;
+    for (Lane& coefficients : this->Table[i].Coefficients)
+    {
+      coefficients.setZero();
+    }
+    for (int band = 0; band < NumberOfBands; ++band)
+    {
+      double values[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        const double squared = begin + 0.5 * k * length - this->SquaredDepth;
+        // Denormal numbers would be slow, and are nothing.
+        const double value =
+          this->Scales[band] * this->Profiles[band].Evaluate(std::sqrt(std::max(0.0, squared)));
+        values[k] = value > 1e-30 ? value : 0.0;
+      }
+      this->Table[i].Coefficients[0][band] = static_cast<float>(values[0]);
+      this->Table[i].Coefficients[1][band] =
+        static_cast<float>(4.0 * values[1] - 3.0 * values[0] - values[2]);
+      this->Table[i].Coefficients[2][band] =
+        static_cast<float>(2.0 * (values[0] + values[2] - 2.0 * values[1]));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+inline ScatteringIntegrals::Lane ScatteringIntegrals::Evaluate(double squaredDistance) const
+{
+  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredDepth));
+  const Piece& piece = this->Table[(bits >> PlaceBits) - this->FirstPiece];
+  constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
+  const float place = static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits));
+  return piece.Coefficients[0] + place * (piece.Coefficients[1] + place * piece.Coefficients[2]);
+}
+
+//------------------------------------------------------------------------------
+double ScatteringIntegrals::GetBound(double distance) const
+{
+  double bound = 0.0;
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    bound =
+      std::max(bound, this->Scales[band] * this->Profiles[band].Evaluate(std::max(0.0, distance)));
+  }
+  return bound;
+}
+
+//------------------------------------------------------------------------------
+ScatteringIntegrals::Bands ScatteringIntegrals::IntegrateProduct(const Vector* a,
+  const float* weightsA, int countA, const Vector* b, const float* weightsB, int countB) const
+{
+  Lane sum = Lane::Zero();
+  for (int i = 0; i < countA; ++i)
+  {
+    Lane row = Lane::Zero();
+    for (int j = 0; j < countB; ++j)
+    {
+      row += weightsB[j] * this->Evaluate((a[i] - b[j]).squaredNorm());
+    }
+    sum += weightsA[i] * row;
+  }
+  return sum.cast<double>();
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const Goal& goal,
+  bool last, Sum& sum) const
+{
+  // The profile's logarithm changes by about 3.5 / D + sigma per length, D the distance to the
+  // source; `spread` is the distance of the points from the centroids on that scale. The factors
+  // below bound 99 of 100 errors of random pairs.
+  const double areas = a.Area * b.Area;
+  const double distance2 = (a.Centroid - b.Centroid).squaredNorm();
+  const Bands slope = 3.5 / (distance2 + this->SquaredDepths).sqrt() + this->TransportCoefficients;
+  const Bands spread2 = slope.square() * (a.Moment + b.Moment);
+  const auto accept = [&](const Bands& value, const Bands& error)
+  {
+    // Where a profile ends in underflow its parabolas may dip below 0.
+    const Bands integral = (areas * value).max(0.0);
+    const Bands allowed =
+      goal.Absolute + goal.Relative * integral + (goal.Shared * integral).sqrt();
+    const bool good = last || (areas * error <= allowed).all();
+    if (good)
+    {
+      sum.Value += integral;
+      const double worst = areas * error.maxCoeff();
+      sum.SquaredError += worst * worst;
+    }
+    return good;
+  };
+  const Bands one = this->Evaluate(distance2).cast<double>();
+  // A band for which the triangles are too large for any rule may be one for which they are too far
+  // apart to matter.
+  Bands peak = Bands::Zero();
+  const auto wide = (spread2 > 4.0).eval();
+  if (!last && wide.any())
+  {
+    const double nearest = std::max(0.0, std::sqrt(distance2) - a.Radius - b.Radius);
+    peak = this->Evaluate(nearest * nearest).cast<double>();
+    if ((wide && areas * peak > goal.Absolute).any())
+    {
+      return false;
+    }
+  }
+  if (!last && accept(one, wide.select(peak, 0.15 * spread2 * one)))
+  {
+    return true;
+  }
+  const Bands three =
+    this->IntegrateProduct(a.Points, WeightsOfThree, 3, b.Points, WeightsOfThree, 3);
+  const Bands spread = spread2.sqrt();
+  if (!last &&
+    accept(three,
+      wide.select(peak, 0.1 * spread * (three - one).abs() + 0.01 * spread2.square() * three)))
+  {
+    return true;
+  }
+  Vector pointsA[6];
+  Vector pointsB[6];
+  PlaceSix(a, pointsA);
+  PlaceSix(b, pointsB);
+  const Bands six = this->IntegrateProduct(pointsA, WeightsOfSix, 6, pointsB, WeightsOfSix, 6);
+  const Bands difference = (six - three).abs();
+  const Bands error =
+    (0.05 * spread * difference + 0.0005 * spread2.cube() * six).min(six + difference);
+  return accept(six, last ? error : Bands(wide.select(peak, error)));
+}
+
+//------------------------------------------------------------------------------
+void ScatteringIntegrals::AddParts(const Triangle& a, const Triangle& b, const Goal& goal,
+  int depth, Sum& sum) const
+{
+  if (this->TryRules(a, b, goal, depth == 0, sum))
+  {
+    return;
+  }
+  const bool cutFirst = a.Radius >= b.Radius;
+  const Triangle& whole = cutFirst ? a : b;
+  const Triangle& other = cutFirst ? b : a;
+  const Vector& p = whole.Corners[0];
+  const Vector& q = whole.Corners[1];
+  const Vector& r = whole.Corners[2];
+  const Vector pq = 0.5 * (p + q);
+  const Vector qr = 0.5 * (q + r);
+  const Vector rp = 0.5 * (r + p);
+  this->AddParts(Triangle(p, pq, rp), other, goal, depth - 1, sum);
+  this->AddParts(Triangle(pq, q, qr), other, goal, depth - 1, sum);
+  this->AddParts(Triangle(rp, qr, r), other, goal, depth - 1, sum);
+  this->AddParts(Triangle(qr, rp, pq), other, goal, depth - 1, sum);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double tolerance,
+  Result& result) const
+{
+  Goal goal;
+  goal.Relative = this->RelativeTolerance;
+  goal.Absolute = tolerance;
+  Sum sum;
+  if (!this->TryRules(a, b, goal, false, sum))
+  {
+    // A rough value first. The errors of the many parts that a fine one takes differ in sign and
+    // add up like random numbers: of a total error e, a part with the share s of the value may have
+    // e sqrt(s).
+    goal.Relative = RoughTolerance;
+    goal.Absolute = NegligiblePart * tolerance;
+    Sum rough;
+    this->AddParts(a, b, goal, MaximumDepth, rough);
+    const Bands allowed = this->RelativeTolerance * rough.Value + tolerance;
+    goal.Relative = 0.0;
+    goal.Shared =
+      allowed.square() / rough.Value.max(tolerance).max(std::numeric_limits<double>::min());
+    this->AddParts(a, b, goal, MaximumDepth, sum);
+  }
+  result.Value += sum.Value;
+  result.Error += std::sqrt(sum.SquaredError);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) const
+{
+  // Directions from a corner to the opposite edge, of height h: gamma = 1 / (h cosh t) where the
+  // edge is met h sinh(t) from the foot of the height, and the angle changes by dt / cosh t. The
+  // three corners together see all directions, up to their opposites, once. In t the integrand is
+  // smooth for the thinnest triangle and for any ratio of its size to the profile's.
+  static const GaussLegendre rule(12);
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    const Vector& apex = triangle.Corners[corner];
+    const Vector& begin = triangle.Corners[(corner + 1) % 3];
+    const Vector& end = triangle.Corners[(corner + 2) % 3];
+    const double length = (end - begin).norm();
+    const Vector axis = (end - begin) / length;
+    const double height = 2.0 * triangle.Area / length;
+    const double first = std::asinh((begin - apex).dot(axis) / height);
+    const double last = std::asinh((end - apex).dot(axis) / height);
+    const int parts = static_cast<int>(std::ceil((last - first) / WidestPart));
+    const double width = (last - first) / parts;
+    for (int part = 0; part < parts; ++part)
+    {
+      for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+      {
+        const double stretch = std::cosh(first + width * (part + rule.Nodes[k]));
+        const double reach = height * stretch;
+        const double weight = 2.0 * triangle.Area * width * rule.Weights[k] / stretch;
+        for (int band = 0; band < NumberOfBands; ++band)
+        {
+          double moments[3];
+          this->Profiles[band].GetMoments(reach, moments);
+          result.Value[band] += weight * this->Scales[band] *
+            (moments[0] - 2.0 * moments[1] / reach + moments[2] / (reach * reach));
+        }
+      }
+    }
+  }
+}
+} // namespace LightTransport

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Diffuse reflectance profiles of three bands, integrated over pairs of triangles. The profiles
+ * change over a fraction of a millimetre near by and over centimetres far away, and triangles may
+ * be much smaller or much larger than either, so:
+ *
+ * - a triangle with itself: exact, by the moments of the profile. A triangle and its copy displaced
+ * by r in direction theta overlap in a similar triangle, of area A (1 - r gamma(theta))^2, which
+ * leaves one integral, over theta;
+ * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other;
+ * where the largest is not enough the larger triangle is cut in four.
+ *
+ * All values are divided by the profiles' totals, so that one tolerance serves all bands.
+ */
+#ifndef ScatteringIntegrals_h
+#define ScatteringIntegrals_h
+
+#include "Scattering/DiffusionProfile.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace LightTransport
+{
+class ScatteringIntegrals
+{
+public:
+  static constexpr int NumberOfBands = 3;
+  using Vector = Eigen::Vector3d;
+  /// One value per band; the fourth is padding and stays 0.
+  using Bands = Eigen::Array4d;
+
+  struct Triangle
+  {
+    Triangle() = default;
+    Triangle(const Vector& a, const Vector& b, const Vector& c);
+
+    Vector Corners[3];
+    Vector Centroid;
+    double Area;
+    /// Of a sphere around the centroid that holds the triangle.
+    double Radius;
+    /// Mean squared distance from the centroid.
+    double Moment;
+    /// The points of the rule with three.
+    Vector Points[3];
+  };
+
+  struct Result
+  {
+    Bands Value = Bands::Zero();
+    /// Estimate of the error of the worst band.
+    double Error = 0.0;
+  };
+
+  /**
+   * `profiles` has one profile per band, `maximumDistance` is the longest distance that will be
+   * asked for. Of each integral an error of `relativeTolerance` times its value is allowed.
+   */
+  ScatteringIntegrals(const std::vector<DiffusionProfile>& profiles, double maximumDistance,
+    double relativeTolerance);
+
+  /// Largest of all bands' R_d(distance) / total: an upper bound, as profiles fall with distance.
+  double GetBound(double distance) const;
+
+  /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
+  void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
+
+  /// Add the integral over twice the same triangle, which must have an area.
+  void AddSelf(const Triangle& triangle, Result& result) const;
+
+private:
+  using Lane = Eigen::Array4f;
+
+  /// A piece of the tabulated profiles: a parabola in its local coordinate, all bands at a time.
+  struct Piece
+  {
+    Lane Coefficients[3];
+  };
+
+  /// What the error of a part of an integral may be: Absolute + Relative v + sqrt(Shared v), v its
+  /// value.
+  struct Goal
+  {
+    double Absolute = 0.0;
+    double Relative = 0.0;
+    Bands Shared = Bands::Zero();
+  };
+
+  struct Sum
+  {
+    Bands Value = Bands::Zero();
+    double SquaredError = 0.0;
+  };
+
+  Lane Evaluate(double squaredDistance) const;
+  Bands IntegrateProduct(const Vector* a, const float* weightsA, int countA, const Vector* b,
+    const float* weightsB, int countB) const;
+  bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
+  void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
+  void Tabulate(double maximumDistance);
+
+  std::vector<DiffusionProfile> Profiles;
+  double Scales[NumberOfBands];
+  double RelativeTolerance;
+  /// Smallest depth of all sources, squared.
+  double SquaredDepth = 0.0;
+  ///@{ Per band; the padding is flat.
+  Bands SquaredDepths = Bands::Constant(std::numeric_limits<double>::infinity());
+  Bands TransportCoefficients = Bands::Zero();
+  ///@}
+  std::vector<Piece> Table;
+  std::uint32_t FirstPiece = 0;
+};
+} // namespace LightTransport
+
+#endif

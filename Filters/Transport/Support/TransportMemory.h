@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * How much memory is there, asked before it is taken: a system that overcommits grants any amount
+ * and ends the process later.
+ */
+#ifndef TransportMemory_h
+#define TransportMemory_h
+
+#include <vtksys/SystemInformation.hxx>
+
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+namespace LightTransport
+{
+namespace TransportMemory
+{
+/// Bytes of main memory that nobody uses.
+inline double GetAvailableBytes()
+{
+  vtksys::SystemInformation system;
+  system.RunMemoryCheck();
+  return 1024.0 * 1024.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
+}
+
+/// A number of bytes for messages.
+inline std::string Format(double bytes)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << bytes / 1e9 << " GB";
+  return text.str();
+}
+} // namespace TransportMemory
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The exchange between the patches of two nodes of a scene's tree with nothing between them, a
+ * block at a time: what cannot face each other (boxes and cones of normals) costs nothing, far
+ * blocks take one product of Gauss rules for all their pairs in vector instructions, near pairs go
+ * one by one (PolygonExchange). The rule of each block is the cheapest whose error bound keeps
+ * the tolerance.
+ */
+#ifndef OpenExchange_h
+#define OpenExchange_h
+
+#include "Scene/PatchScene.h"
+#include "ViewFactors/PolygonExchange.h"
+
+#include <memory>
+
+namespace LightTransport
+{
+class OpenExchange
+{
+public:
+  /// Pairs, each counted once. Examined = BackFacing + Facing.
+  struct Counters
+  {
+    double Examined = 0.0;
+    double BackFacing = 0.0; ///< of which no exchange: back to front, or in one plane
+    double Facing = 0.0;
+    double Rules = 0.0;    ///< facing pairs by Gauss rules
+    double Contours = 0.0; ///< facing pairs by contour integrals
+  };
+
+  /// `tolerance`: of the sum of the absolute errors of the view factors of a row.
+  OpenExchange(const PatchScene& scene, double tolerance);
+  ~OpenExchange();
+
+  /// Whether any patch of one node may face any of the other; false is certain.
+  bool MayFace(int nodeI, int nodeJ) const;
+
+  /// A bound of the kernel cos cos / (pi r^2) between the points of two nodes; infinite where they
+  /// may touch, 0 where they certainly do not face each other.
+  double GetKernelBound(int nodeI, int nodeJ) const;
+
+  /**
+   * The exchange of all pairs of two nodes of at most PatchTree::BlockSize patches:
+   * values[(i - first of I) * stride + (j - first of J)], in scene units (lengths where the scene's
+   * diagonal is 1). Where the nodes are the same only pairs i < j are written. `values` must be
+   * zero before. Bounds of the errors are added to errorsI[i - first of I] and errorsJ[j - first of
+   * J]. May be called from several threads.
+   */
+  void Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI, double* errorsJ,
+    Counters& counters) const;
+
+  /// The exchange of one pair in double precision.
+  PolygonExchange::Estimate Compute(vtkIdType i, vtkIdType j) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Self;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,383 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFactors/PairVisibility.h"
+
+#include "Geometry/PatchSampler.h"
+#include "Scene/PatchScene.h"
+#include "vtkMath.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace LightTransport
+{
+namespace
+{
+using PolygonExchange::GetMiddle;
+using PolygonExchange::Polygon;
+using PolygonExchange::Vector;
+using ShadowRaster::Flux;
+
+// Into how many parts the sides of the outer polygon's triangles are cut, one grid after the other.
+constexpr int Cuts[] = { 1, 2, 3, 4, 6, 8, 12, 16, 24, 32 };
+// Points times triangles after which no finer grid is tried: some ten milliseconds.
+constexpr double MaximumWork = 1e6;
+// The raster's own error at one point, measured: root mean square for one shadow edge across it.
+constexpr double RasterError = 0.004;
+// Of the raster's lines to the longest edge, where length and width of the polygon are the same.
+constexpr double Slant = 0.38;
+// The largest error of the first look's rule for one shadow edge across the pair, and the part of
+// the exchange that belongs to the rim.
+constexpr double FirstError = 0.02;
+constexpr double RimPart = 0.25;
+// Of the first look's error what a grid is usually off by, times the square of its cuts.
+constexpr double UsualPart = 0.8;
+// A share that is not 0 or 1 stays this far from both.
+constexpr double LeastShare = 1e-9;
+// Heights closer to a plane than this part of the distance are on it.
+constexpr double OnPlane = 1e-12;
+
+//------------------------------------------------------------------------------
+double GetExtent(const Polygon& polygon)
+{
+  const Vector middle = GetMiddle(polygon);
+  double squared = 0.0;
+  for (int corner = 0; corner < polygon.Count; ++corner)
+  {
+    squared = std::max(squared, (polygon.Corners[corner] - middle).squaredNorm());
+  }
+  return std::sqrt(squared);
+}
+
+//------------------------------------------------------------------------------
+enum class Side
+{
+  Front,
+  Behind,
+  Both
+};
+Side FindSide(const PatchScene& scene, vtkIdType patch, const Polygon& plane)
+{
+  const Vector& origin = plane.Corners[0];
+  const double on = OnPlane * ((scene.GetCentroid(patch) - origin).norm() + scene.GetRadius(patch));
+  bool front = false;
+  bool behind = false;
+  for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
+  {
+    const double height = (scene.GetCorner(patch, corner) - origin).dot(plane.Normal);
+    front = front || height > on;
+    behind = behind || height < on;
+  }
+  return front && behind ? Side::Both : (front ? Side::Front : Side::Behind);
+}
+
+//------------------------------------------------------------------------------
+// A point of a grid of similar triangles: three symmetric points of each (degree 2).
+template <typename Visit>
+void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts, const Visit& visit)
+{
+  constexpr double near = 1.0 / 6.0;
+  constexpr double far = 2.0 / 3.0;
+  for (int i = 0; i < cuts; ++i)
+  {
+    for (int j = 0; j < cuts - i; ++j)
+    {
+      const Vector corner = origin + i * u + j * v;
+      visit(Vector(corner + near * u + near * v));
+      visit(Vector(corner + far * u + near * v));
+      visit(Vector(corner + near * u + far * v));
+      if (i + j + 1 < cuts)
+      {
+        const Vector opposite = corner + u + v;
+        visit(Vector(opposite - near * u - near * v));
+        visit(Vector(opposite - far * u - near * v));
+        visit(Vector(opposite - near * u - far * v));
+      }
+    }
+  }
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool PairVisibility::SetPair(const Polygon& a, const Polygon& b, const PatchScene& scene,
+  const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching)
+{
+  this->Touching = touching;
+  this->Outer = a;
+  this->Inner = b;
+  this->Key = key;
+  this->NumberOfPoints = 0;
+  if (!this->SelectOccluders(scene, occluders))
+  {
+    return false;
+  }
+  this->ChooseOuter(scene);
+  this->SetFrame();
+  this->AddTarget();
+  this->AddTriangles(scene);
+  return this->Triangles.Count > 0;
+}
+
+//------------------------------------------------------------------------------
+bool PairVisibility::SelectOccluders(const PatchScene& scene,
+  const std::vector<vtkIdType>& occluders)
+{
+  this->Occluders.clear();
+  for (const vtkIdType patch : occluders)
+  {
+    const Side outer = FindSide(scene, patch, this->Outer);
+    const Side inner = outer == Side::Behind ? outer : FindSide(scene, patch, this->Inner);
+    if (inner != Side::Behind)
+    {
+      this->Occluders.push_back({ patch, outer == Side::Both || inner == Side::Both, 0.0 });
+    }
+  }
+  return !this->Occluders.empty();
+}
+
+//------------------------------------------------------------------------------
+// Seen from the outer polygon, occluders at the fraction t of the way to the inner one let shadows
+// move (1 - t) / t times as far as the point.
+void PairVisibility::ChooseOuter(const PatchScene& scene)
+{
+  const Vector middle = GetMiddle(this->Outer);
+  const Vector axis = GetMiddle(this->Inner) - middle;
+  double sum = 0.0;
+  for (const Occluder& occluder : this->Occluders)
+  {
+    const double position =
+      (scene.GetCentroid(occluder.Patch) - middle).dot(axis) / axis.squaredNorm();
+    sum += std::min(1.0, std::max(0.0, position));
+  }
+  const double position = sum / static_cast<double>(this->Occluders.size());
+  if (GetExtent(this->Outer) * (1.0 - position) > GetExtent(this->Inner) * position)
+  {
+    std::swap(this->Outer, this->Inner);
+  }
+}
+
+//------------------------------------------------------------------------------
+void PairVisibility::SetFrame()
+{
+  this->Origin = GetMiddle(this->Inner);
+  double longest = 0.0;
+  for (int corner = 0; corner < this->Inner.Count; ++corner)
+  {
+    const Vector edge =
+      this->Inner.Corners[(corner + 1) % this->Inner.Count] - this->Inner.Corners[corner];
+    if (edge.squaredNorm() > longest)
+    {
+      longest = edge.squaredNorm();
+      this->AxisW = edge;
+    }
+  }
+  this->AxisH = this->Inner.Normal;
+  // Aslant to the edges: a shadow's edge along the lines would cover or free a whole line at once.
+  const Vector across = this->AxisH.cross(this->AxisW).normalized();
+  double width = 0.0;
+  for (int corner = 0; corner < this->Inner.Count; ++corner)
+  {
+    width = std::max(width, std::abs(across.dot(this->Inner.Corners[corner] - this->Origin)));
+  }
+  this->AxisW += Slant * 2.0 * width * across;
+  this->AxisU = this->AxisW.cross(this->AxisH).normalized();
+  this->AxisW = this->AxisH.cross(this->AxisU);
+  this->Normal[0] = this->Outer.Normal.dot(this->AxisU);
+  this->Normal[1] = this->Outer.Normal.dot(this->AxisW);
+  this->Normal[2] = this->Outer.Normal.dot(this->AxisH);
+}
+
+//------------------------------------------------------------------------------
+void PairVisibility::AddTarget()
+{
+  this->Target.Edges.clear();
+  this->Target.Begin = 0.0;
+  this->Target.End = 0.0;
+  for (int corner = 0; corner < this->Inner.Count; ++corner)
+  {
+    const Vector begin = this->Inner.Corners[corner] - this->Origin;
+    const Vector end = this->Inner.Corners[(corner + 1) % this->Inner.Count] - this->Origin;
+    const double u = begin.dot(this->AxisU);
+    const double run = end.dot(this->AxisU) - u;
+    this->Target.Begin = std::min(this->Target.Begin, u);
+    this->Target.End = std::max(this->Target.End, u);
+    // An edge along the lines bounds none of them.
+    if (std::abs(run) > OnPlane * (end - begin).norm())
+    {
+      const double w = begin.dot(this->AxisW);
+      const double slope = (end.dot(this->AxisW) - w) / run;
+      // Counter-clockwise: an edge that runs towards larger u is a lower one.
+      this->Target.Edges.push_back({ w - slope * u, slope, run > 0.0 });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+template <typename GetCorner>
+void PairVisibility::AddTriangles(int count, const GetCorner& getCorner)
+{
+  double corners[PolygonExchange::MaximumCorners + 2][3];
+  for (int corner = 0; corner < count; ++corner)
+  {
+    const Vector offset = getCorner(corner) - this->Origin;
+    corners[corner][0] = offset.dot(this->AxisU);
+    corners[corner][1] = offset.dot(this->AxisW);
+    corners[corner][2] = offset.dot(this->AxisH);
+  }
+  for (int corner = 1; corner + 1 < count; ++corner)
+  {
+    this->Triangles.Add(corners[0], corners[corner], corners[corner + 1]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void PairVisibility::AddTriangles(const PatchScene& scene)
+{
+  const Vector middle = GetMiddle(this->Outer);
+  const Vector axis = (this->Origin - middle).normalized();
+  for (Occluder& occluder : this->Occluders)
+  {
+    const Vector offset = scene.GetCentroid(occluder.Patch) - middle;
+    const double length = std::max(offset.norm(), std::numeric_limits<double>::min());
+    const double radius = std::sqrt(scene.GetAreas()[occluder.Patch] *
+      std::abs(offset.dot(scene.GetNormal(occluder.Patch))) / length);
+    const double along = std::max(offset.dot(axis), 1e-3 * length);
+    occluder.Rank = (offset.cross(axis).norm() - radius) / along;
+  }
+  std::sort(this->Occluders.begin(), this->Occluders.end(),
+    [](const Occluder& a, const Occluder& b)
+    { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Patch < b.Patch); });
+  this->Triangles.Clear();
+  Polygon cut;
+  for (const Occluder& occluder : this->Occluders)
+  {
+    if (!occluder.IsCut)
+    {
+      this->AddTriangles(scene.GetNumberOfCorners(occluder.Patch),
+        [&](int corner) { return scene.GetCorner(occluder.Patch, corner); });
+      continue;
+    }
+    PolygonExchange::MakePolygon(scene, occluder.Patch, cut);
+    if (PolygonExchange::Clip(cut, this->Outer.Corners[0], this->Outer.Normal) &&
+      PolygonExchange::Clip(cut, this->Inner.Corners[0], this->Inner.Normal))
+    {
+      this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+Flux PairVisibility::See(const Vector& place)
+{
+  const PatchSampler sampler(this->Key);
+  const int index = this->NumberOfPoints++;
+  const Vector offset = place - this->Origin;
+  const double point[3] = { offset.dot(this->AxisU), offset.dot(this->AxisW),
+    offset.dot(this->AxisH) };
+  const double shift[2] = { sampler.Get(index, 0), sampler.Get(index, 1) };
+  return ShadowRaster::See(this->Target, this->Triangles, point, this->Normal, shift);
+}
+
+//------------------------------------------------------------------------------
+// The visible part of the exchange by one grid.
+double PairVisibility::SeeFromGrid(int cuts)
+{
+  Flux total;
+  for (int corner = 1; corner + 1 < this->Outer.Count; ++corner)
+  {
+    const Vector& origin = this->Outer.Corners[0];
+    const Vector u = (this->Outer.Corners[corner] - origin) / cuts;
+    const Vector v = (this->Outer.Corners[corner + 1] - origin) / cuts;
+    // Three points for each triangle, which is half of a parallelogram.
+    const double area = u.cross(v).norm() / 6.0;
+    VisitGrid(origin, u, v, cuts,
+      [&](const Vector& place)
+      {
+        const Flux flux = this->See(place);
+        total.Visible += area * flux.Visible;
+        total.Open += area * flux.Open;
+      });
+  }
+  if (this->Touching <= 0.0 || total.Visible <= 0.0)
+  {
+    return total.GetShare();
+  }
+  const double spacing = (this->Target.End - this->Target.Begin) / ShadowRaster::Lines;
+  const double blocked = spacing / vtkMath::Pi() * (total.Open - total.Visible);
+  // Neither visible nor hidden for certain unless all samples are.
+  return total.Visible < total.Open
+    ? std::min(1.0 - LeastShare, std::max(LeastShare, 1.0 - blocked / this->Touching))
+    : 1.0;
+}
+
+//------------------------------------------------------------------------------
+// The points of a grid lie inside: what only the rim sees shows at the corners and between them.
+double PairVisibility::GetRimDifference(double share)
+{
+  double difference = 0.0;
+  for (int corner = 0; corner < this->Outer.Count; ++corner)
+  {
+    const Vector& begin = this->Outer.Corners[corner];
+    const Vector& end = this->Outer.Corners[(corner + 1) % this->Outer.Count];
+    for (const Vector& place : { begin, Vector(0.5 * (begin + end)) })
+    {
+      difference = std::max(difference, std::abs(this->See(place).GetShare(share) - share));
+    }
+  }
+  return difference;
+}
+
+//------------------------------------------------------------------------------
+PairVisibility::Share PairVisibility::Look()
+{
+  Share share;
+  share.Value = this->SeeFromGrid(Cuts[0]);
+  if (share.Value > 0.0 && share.Value < 1.0)
+  {
+    share.Error = FirstError;
+    return share;
+  }
+  share.Error = RimPart * this->GetRimDifference(share.Value);
+  return share;
+}
+
+//------------------------------------------------------------------------------
+// Grids are combined by their numbers of points. The error is that of the latest grid against all
+// before, which the new one has reduced.
+PairVisibility::Share PairVisibility::Integrate(double tolerance)
+{
+  Share share;
+  double sum = 0.0;
+  double weights = 0.0;
+  double previous = 0.0;
+  double rim = -1.0; // not known yet
+  for (const int cuts : Cuts)
+  {
+    const double latest = this->SeeFromGrid(cuts);
+    const double weight = cuts * cuts;
+    const double change = weights > 0.0 ? std::abs(latest - sum / weights) : 1.0;
+    sum += weight * latest;
+    weights += weight;
+    share.Value = sum / weights;
+    // Two grids may agree by luck: never less than what they usually are off by.
+    double usual = UsualPart * FirstError / weight +
+      RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
+    if (share.Value <= 0.0 || share.Value >= 1.0)
+    {
+      rim = rim < 0.0 ? this->GetRimDifference(share.Value) : rim;
+      usual = RimPart * rim / weight;
+    }
+    share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
+    previous = weights > weight ? change : 0.0;
+    const double work = static_cast<double>(this->NumberOfPoints) * (this->Triangles.Count + 8);
+    if (share.Error <= tolerance || (work > MaximumWork && weights > weight))
+    {
+      break;
+    }
+  }
+  return share;
+}
+} // namespace LightTransport

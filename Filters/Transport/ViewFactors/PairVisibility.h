@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What part of the exchange between two planar convex polygons a few occluders let through.
+ *
+ * The exchange is an integral over both polygons. From a point of the *outer* one an occluder
+ * throws a convex shadow onto the plane of the *inner* one, and what the shadows leave of the inner
+ * polygon is found for hundreds of samples at once (ShadowRaster). Over the outer polygon that
+ * is a continuous function: a symmetric rule on a grid of triangles, refined until it settles.
+ * Every point moves the raster a little (low-discrepancy shifts), so that its spacing averages out.
+ *
+ * The outer polygon is the one that the occluders are far from: seen from there shadows move least.
+ *
+ * One object per thread: it keeps its buffers from pair to pair.
+ */
+#ifndef PairVisibility_h
+#define PairVisibility_h
+
+#include "ViewFactors/PolygonExchange.h"
+#include "ViewFactors/ShadowRaster.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace LightTransport
+{
+class PairVisibility
+{
+public:
+  using Polygon = PolygonExchange::Polygon;
+  using Vector = PolygonExchange::Vector;
+
+  /// The visible part of the exchange, 0 to 1, and an estimate of its absolute error.
+  struct Share
+  {
+    double Value = 1.0;
+    double Error = 0.0;
+  };
+
+  /**
+   * Begin with a pair, each polygon in front of the plane of the other (PolygonExchange::Clip),
+   * and the patches that may come between them. Equal keys give equal samples. Returns false where
+   * none of the patches has a part in front of both planes: nothing is between.
+   * `touching` is the exchange with nothing in between of two polygons that share a corner: next to
+   * it the grid does not resolve what they exchange, but nothing stands there either, so what is
+   * blocked is subtracted from it.
+   */
+  bool SetPair(const Polygon& a, const Polygon& b, const PatchScene& scene,
+    const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching = 0.0);
+
+  /// A first look from a few points and, where they agree that the pair is visible or that it is
+  /// hidden, from the corners and the middles of the edges. An error of 0 says that all agree.
+  Share Look();
+
+  /// Integrate until the estimated error is below `tolerance`, or the work is used up.
+  Share Integrate(double tolerance);
+
+private:
+  bool SelectOccluders(const PatchScene& scene, const std::vector<vtkIdType>& occluders);
+  void ChooseOuter(const PatchScene& scene);
+  void SetFrame();
+  void AddTarget();
+  void AddTriangles(const PatchScene& scene);
+  template <typename GetCorner>
+  void AddTriangles(int count, const GetCorner& getCorner);
+  ShadowRaster::Flux See(const Vector& point);
+  double SeeFromGrid(int cuts);
+  double GetRimDifference(double share);
+
+  Polygon Outer, Inner;
+  std::uint64_t Key = 0;
+  double Touching = 0.0;
+  int NumberOfPoints = 0;
+
+  /// What is between: a patch, whether a plane cuts it, and where it comes in the order (first what
+  /// hides much, so that a hidden polygon is soon known to be hidden).
+  struct Occluder
+  {
+    vtkIdType Patch;
+    bool IsCut;
+    double Rank;
+  };
+  std::vector<Occluder> Occluders;
+
+  // The inner polygon's frame.
+  Vector Origin, AxisU, AxisW, AxisH;
+  double Normal[3] = {};
+  ShadowRaster::Target Target;
+  ShadowRaster::Triangles Triangles;
+};
+} // namespace LightTransport
+
+#endif

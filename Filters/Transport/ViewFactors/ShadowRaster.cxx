@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFactors/ShadowRaster.h"
+
+#include "Support/InstructionSets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace LightTransport
+{
+namespace
+{
+using namespace ShadowRaster;
+
+constexpr int Batch = 8;
+// Further out than any sample: an edge that does not bound a shadow on this side.
+constexpr float Far = 1e20f;
+// Slopes of an edge's line below this part of its other coefficients count as parallel to the
+// raster's lines.
+constexpr double Parallel = 1e-7;
+
+// The chords of the target along the lines: sample b of line k is at w = Start + (b + jitter) *
+// Step, so a position w is sample (w - Start) / Step - jitter = w * Scale + Offset.
+struct Grid
+{
+  float U[Lines];
+  float Start[Lines]; ///< of sample 0, jitter included
+  float Step[Lines];
+  float Scale[Lines];
+  float ScaledU[Lines];
+  float Offset[Lines];
+};
+
+// Edges of a batch of triangles: on line k the shadow begins behind all lower and ends before all
+// upper positions Position * Scale + Slope * ScaledU + Offset.
+struct Bounds
+{
+  float Lower[3][Batch], LowerSlope[3][Batch];
+  float Upper[3][Batch], UpperSlope[3][Batch];
+};
+
+//------------------------------------------------------------------------------
+LT_INLINE void MakeGrid(const Target& target, const double shift[2], Grid& grid,
+  std::uint32_t* visible)
+{
+  const double width = (target.End - target.Begin) / Lines;
+  float lower[Lines], upper[Lines];
+  for (int k = 0; k < Lines; ++k)
+  {
+    grid.U[k] = static_cast<float>(target.Begin + (k + shift[0]) * width);
+    lower[k] = -Far;
+    upper[k] = Far;
+  }
+  for (const Target::Edge& edge : target.Edges)
+  {
+    const auto position = static_cast<float>(edge.Position);
+    const auto slope = static_cast<float>(edge.Slope);
+    float* const bound = edge.IsLower ? lower : upper;
+    const float sign = edge.IsLower ? 1.0f : -1.0f;
+    for (int k = 0; k < Lines; ++k)
+    {
+      bound[k] = sign * std::max(sign * bound[k], sign * (position + slope * grid.U[k]));
+    }
+  }
+  for (int k = 0; k < Lines; ++k)
+  {
+    // The golden ratio spreads the samples of successive lines evenly over their spacing.
+    float jitter = static_cast<float>(shift[1]) + 0.61803399f * k;
+    jitter -= static_cast<float>(static_cast<int>(jitter));
+    const float length = std::max(upper[k] - lower[k], 0.0f);
+    grid.Step[k] = length / Bits;
+    grid.Scale[k] = length > 0.0f ? Bits / length : 0.0f;
+    grid.Start[k] = lower[k] + jitter * grid.Step[k];
+    grid.ScaledU[k] = grid.U[k] * grid.Scale[k];
+    grid.Offset[k] = -lower[k] * grid.Scale[k] - jitter;
+    visible[k] = length > 0.0f ? ~0u : 0u;
+  }
+}
+
+//------------------------------------------------------------------------------
+// The planes through the point and the edges of each triangle, cut with the target's plane.
+LT_INLINE void MakeBounds(const Triangles& triangles, int first, const double point[3],
+  Bounds& bounds)
+{
+  double r[3][3][Batch];
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double* values = &triangles.Corner[corner][axis][first];
+      for (int k = 0; k < Batch; ++k)
+      {
+        r[corner][axis][k] = values[k] - point[axis];
+      }
+    }
+  }
+  // One volume for all edges: from the triangle's own plane rounding decides its sign, and three
+  // signs that differ would bound no more than a half-plane.
+  double volume[Batch];
+  for (int edge = 0; edge < 3; ++edge)
+  {
+    const auto& a = r[edge];
+    const auto& b = r[(edge + 1) % 3];
+    for (int k = 0; k < Batch; ++k)
+    {
+      const double nu = a[1][k] * b[2][k] - a[2][k] * b[1][k];
+      const double nw = a[2][k] * b[0][k] - a[0][k] * b[2][k];
+      const double nh = a[0][k] * b[1][k] - a[1][k] * b[0][k];
+      if (edge == 0)
+      {
+        volume[k] = nu * r[2][0][k] + nw * r[2][1][k] + nh * r[2][2][k];
+      }
+      const double constant = -(nu * point[0] + nw * point[1] + nh * point[2]);
+      // Inside: sign * (constant + nu * u + nw * w) > 0, where the sign is that of the volume. An
+      // edge along the lines takes its direction from nu, which neighbors have with opposite signs.
+      const double least = Parallel * (std::abs(nu) + std::abs(nh)) + 1e-300;
+      const double divisor = std::abs(nw) > least ? nw : (nu < 0.0 ? -least : least);
+      const double inverse = -1.0 / divisor;
+      const bool isLower = (divisor > 0.0) == (volume[k] > 0.0);
+      const auto position = static_cast<float>(constant * inverse);
+      const auto slope = static_cast<float>(nu * inverse);
+      bounds.Lower[edge][k] = isLower ? position : -Far;
+      bounds.LowerSlope[edge][k] = isLower ? slope : 0.0f;
+      bounds.Upper[edge][k] = isLower ? Far : position;
+      bounds.UpperSlope[edge][k] = isLower ? 0.0f : slope;
+      // A triangle seen from its own plane throws no shadow.
+      if (!(std::abs(volume[k]) > 0.0))
+      {
+        bounds.Lower[edge][k] = Far;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// The first `count` bits, 0 to 32.
+LT_INLINE std::uint32_t GetFirstBits(std::int32_t count)
+{
+  const std::uint32_t bits = 0xFFFFFFFFu >> ((32 - count) & 31);
+  return count > 0 ? bits : 0u;
+}
+
+//------------------------------------------------------------------------------
+LT_INLINE void Cover(const Bounds& bounds, int triangle, const Grid& grid, std::uint32_t* visible)
+{
+  for (int k = 0; k < Lines; ++k)
+  {
+    float begin = 0.0f;
+    float end = Bits;
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const float lower = bounds.Lower[edge][triangle] * grid.Scale[k] +
+        bounds.LowerSlope[edge][triangle] * grid.ScaledU[k] + grid.Offset[k];
+      const float upper = bounds.Upper[edge][triangle] * grid.Scale[k] +
+        bounds.UpperSlope[edge][triangle] * grid.ScaledU[k] + grid.Offset[k];
+      begin = lower > begin ? lower : begin;
+      end = upper < end ? upper : end;
+    }
+    // Samples from the first at or behind `begin` to the last before `end`.
+    begin = begin < Bits ? begin : Bits;
+    end = end > 0.0f ? end : 0.0f;
+    const std::int32_t first = Bits - static_cast<std::int32_t>(Bits - begin);
+    const std::int32_t last = Bits - static_cast<std::int32_t>(Bits - end);
+    visible[k] &= ~(GetFirstBits(last) & ~GetFirstBits(first));
+  }
+}
+
+//------------------------------------------------------------------------------
+LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const double point[3],
+  const double normal[3])
+{
+  constexpr int group = 2; // samples that share a weight
+  const auto pu = static_cast<float>(point[0]);
+  const auto pw = static_cast<float>(point[1]);
+  const auto ph = static_cast<float>(point[2]);
+  const auto nu = static_cast<float>(normal[0]);
+  const auto nw = static_cast<float>(normal[1]);
+  const auto nh = static_cast<float>(normal[2]);
+  float open[Lines] = {};
+  float seen[Lines] = {};
+  for (int first = 0; first < Bits; first += group)
+  {
+    for (int k = 0; k < Lines; ++k)
+    {
+      const float u = grid.U[k] - pu;
+      const float w = grid.Start[k] + (first + 0.5f * (group - 1)) * grid.Step[k] - pw;
+      const float inverse = 1.0f / (u * u + w * w + ph * ph);
+      const float cosine = std::max(u * nu + w * nw - ph * nh, 0.0f);
+      const float factor = grid.Step[k] * inverse * inverse;
+      const float weight = cosine * factor;
+      // The weight changes along the line; no sample of the group weighs less than nothing.
+      const float most = weight / (group - 1);
+      const float slope = 0.5f * grid.Step[k] * factor * (nw - 4.0f * w * cosine * inverse);
+      const auto bits = static_cast<std::int32_t>(visible[k] >> first);
+      const std::int32_t low = bits & 1;
+      const std::int32_t high = bits >> 1 & 1;
+      open[k] += weight * group;
+      seen[k] += weight * static_cast<float>(low + high) +
+        std::max(-most, std::min(most, slope)) * static_cast<float>(high - low);
+    }
+  }
+  // The cosine at the target is the height over the distance: the height is the same everywhere.
+  Flux flux;
+  for (int k = 0; k < Lines; ++k)
+  {
+    flux.Open += point[2] * open[k];
+    flux.Visible += point[2] * seen[k];
+  }
+  return flux;
+}
+} // namespace
+
+namespace ShadowRaster
+{
+//------------------------------------------------------------------------------
+void Triangles::Add(const double* a, const double* b, const double* c)
+{
+  const double* const corners[3] = { a, b, c };
+  const auto size = static_cast<std::size_t>(this->Count + Batch);
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      // Whole batches are read: what is behind the last triangle counts for nothing.
+      auto& values = this->Corner[corner][axis];
+      if (values.size() < size)
+      {
+        values.resize(2 * size, 0.0);
+      }
+      values[this->Count] = corners[corner][axis];
+    }
+  }
+  ++this->Count;
+}
+
+//------------------------------------------------------------------------------
+LT_CLONES Flux See(const Target& target, const Triangles& triangles, const double point[3],
+  const double normal[3], const double shift[2])
+{
+  Grid grid;
+  std::uint32_t visible[Lines];
+  MakeGrid(target, shift, grid, visible);
+  for (int first = 0; first < triangles.Count; first += Batch)
+  {
+    Bounds bounds;
+    MakeBounds(triangles, first, point, bounds);
+    const int count = std::min(Batch, triangles.Count - first);
+    for (int k = 0; k < count; ++k)
+    {
+      Cover(bounds, k, grid, visible);
+    }
+    std::uint32_t any = 0;
+    for (int k = 0; k < Lines; ++k)
+    {
+      any |= visible[k];
+    }
+    if (any == 0)
+    {
+      break;
+    }
+  }
+  return Weigh(grid, visible, point, normal);
+}
+} // namespace ShadowRaster
+} // namespace LightTransport

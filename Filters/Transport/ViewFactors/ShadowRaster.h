@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What a point sees of a planar convex target past a number of triangles: the target is covered
+ * with Lines parallel lines of Bits samples each; the shadow that a triangle throws on a line is an
+ * interval, so a triangle costs a few vector instructions for all samples together.
+ *
+ * Coordinates (u, w, h) are those of the target: it lies in the plane h = 0 and looks towards h >
+ * 0; lines run along w.
+ */
+#ifndef ShadowRaster_h
+#define ShadowRaster_h
+
+#include <vector>
+
+namespace LightTransport
+{
+namespace ShadowRaster
+{
+constexpr int Lines = 16;
+constexpr int Bits = 32;
+
+/// The target: for each u the points from the largest lower to the smallest upper edge.
+struct Target
+{
+  struct Edge
+  {
+    double Position, Slope; ///< w = Position + Slope * u
+    bool IsLower;
+  };
+  std::vector<Edge> Edges;
+  double Begin = 0.0; ///< range of u
+  double End = 0.0;
+};
+
+/// Triangles strictly between the point's plane and the target's, one array per coordinate of each
+/// corner.
+struct Triangles
+{
+  std::vector<double> Corner[3][3];
+  int Count = 0;
+
+  void Clear() { this->Count = 0; }
+  void Add(const double* a, const double* b, const double* c);
+};
+
+/// Integrals over the target of what the point receives, in a unit that belongs to the target.
+struct Flux
+{
+  double Visible = 0.0;
+  double Open = 0.0;
+
+  /// The visible part; `other` where there is no flux at all.
+  double GetShare(double other = 1.0) const
+  {
+    return this->Open > 0.0 ? this->Visible / this->Open : other;
+  }
+};
+
+/**
+ * The flux at a point (u, w, h) with a normal. `shift` (0 to 1 each) moves lines, and samples along
+ * them, within their spacing: over many points the samples fill the target evenly.
+ */
+Flux See(const Target& target, const Triangles& triangles, const double point[3],
+  const double normal[3], const double shift[2]);
+} // namespace ShadowRaster
+} // namespace LightTransport
+
+#endif

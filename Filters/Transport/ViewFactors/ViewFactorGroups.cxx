@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFactors/ViewFactorGroups.h"
+
+#include "Scene/PatchScene.h"
+#include "Shared/Threads.h"
+#include "vtkCPULinkOperator.h"
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkSMPThreadLocal.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace LightTransport
+{
+namespace
+{
+constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+// Integers beyond this are not all doubles.
+constexpr double LargestInteger = 9007199254740992.0;
+
+const char* const GroupColumn = "Group";
+const char* const AreaColumn = "Area";
+const char* const SkyColumn = "Sky";
+const char* const BackFaceColumn = "BackFace";
+
+//------------------------------------------------------------------------------
+struct Blocks
+{
+  std::vector<std::string> Names;
+  std::vector<double> OfLeaves; // for each leaf that is not empty the number of its block
+};
+
+//------------------------------------------------------------------------------
+std::string GetBlockName(vtkDataObjectTreeIterator* node, std::size_t number)
+{
+  const bool named =
+    node->HasCurrentMetaData() && node->GetCurrentMetaData()->Has(vtkCompositeDataSet::NAME());
+  const char* name = named ? node->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME()) : nullptr;
+  return name && *name ? name : "Block " + std::to_string(number);
+}
+
+//------------------------------------------------------------------------------
+// Empty blocks count, so that the ranks, each of which has other blocks, count alike.
+Blocks ListBlocks(vtkDataObject* input)
+{
+  auto* tree = vtkDataObjectTree::SafeDownCast(input);
+  if (!tree)
+  {
+    return { { "All" }, { 0.0 } };
+  }
+  Blocks blocks;
+  unsigned int lastPiece = 0;
+  if (vtkPartitionedDataSet::SafeDownCast(tree))
+  {
+    blocks.Names.emplace_back("All");
+    lastPiece = std::numeric_limits<unsigned int>::max();
+  }
+  vtkSmartPointer<vtkDataObjectTreeIterator> node;
+  node.TakeReference(tree->NewTreeIterator());
+  node->VisitOnlyLeavesOff();
+  node->SkipEmptyNodesOff();
+  for (node->InitTraversal(); !node->IsDoneWithTraversal(); node->GoToNextItem())
+  {
+    vtkDataObject* data = node->GetCurrentDataObject();
+    auto* pieces = vtkPartitionedDataSet::SafeDownCast(data);
+    const bool isLeaf = !vtkCompositeDataSet::SafeDownCast(data);
+    if ((pieces || isLeaf) && node->GetCurrentFlatIndex() > lastPiece)
+    {
+      blocks.Names.push_back(GetBlockName(node, blocks.Names.size()));
+    }
+    if (pieces)
+    {
+      lastPiece = node->GetCurrentFlatIndex() + pieces->GetNumberOfPartitions();
+    }
+    if (isLeaf && data)
+    {
+      blocks.OfLeaves.push_back(static_cast<double>(blocks.Names.size() - 1));
+    }
+  }
+  return blocks;
+}
+
+//------------------------------------------------------------------------------
+// Groups in the order of their ids; getName(id) where the name has not been given away.
+template <typename Function>
+void SortGroups(const std::vector<double>& ids, Function&& getName,
+  ViewFactorGroups::Groups& groups)
+{
+  std::map<double, int> known;
+  for (const double id : ids)
+  {
+    known.emplace(id, 0);
+  }
+  std::set<std::string> taken{ GroupColumn, AreaColumn, SkyColumn, BackFaceColumn };
+  groups.Names.clear();
+  for (auto& group : known)
+  {
+    group.second = static_cast<int>(groups.Names.size());
+    const std::string name = getName(group.first);
+    std::string unique = name;
+    for (int count = 2; !taken.insert(unique).second; ++count)
+    {
+      unique = name + " (" + std::to_string(count) + ")";
+    }
+    groups.Names.push_back(unique);
+  }
+  groups.OfPatches.resize(ids.size());
+  std::transform(ids.begin(), ids.end(), groups.OfPatches.begin(),
+    [&](double id) { return known[id]; });
+}
+
+//------------------------------------------------------------------------------
+// The exchange between groups, each pair of patches once: in one or the other order of its groups.
+struct GroupSums
+{
+  const std::vector<vtkExchangeMatrix::Tile>& Tiles;
+  const std::vector<int>& Groups;
+  int NumberOfGroups;
+  vtkSMPThreadLocal<std::vector<double>> Local;
+  std::vector<double> Total;
+
+  void Initialize()
+  {
+    this->Local.Local().assign(
+      static_cast<std::size_t>(this->NumberOfGroups) * this->NumberOfGroups, 0.0);
+  }
+
+  void operator()(vtkIdType begin, vtkIdType end)
+  {
+    std::vector<double>& sums = this->Local.Local();
+    const auto patches = static_cast<vtkIdType>(this->Groups.size());
+    for (vtkIdType index = begin; index < end; ++index)
+    {
+      const vtkExchangeMatrix::Tile& tile = this->Tiles[index];
+      const vtkIdType rows = std::min(N, patches - tile.Row * N);
+      const vtkIdType columns = std::min(N, patches - tile.Column * N);
+      const int* groups = this->Groups.data() + tile.Column * N;
+      for (vtkIdType row = 0; tile.Values && row < rows; ++row)
+      {
+        const float* values = tile.Values + row * N;
+        const vtkIdType group = this->Groups[tile.Row * N + row];
+        double* target = sums.data() + group * this->NumberOfGroups;
+        vtkIdType column = 0;
+        if (tile.Row == tile.Column)
+        {
+          target[groups[row]] += 0.5 * values[row];
+          column = row + 1;
+        }
+        for (; column < columns; ++column)
+        {
+          target[groups[column]] += values[column];
+        }
+      }
+    }
+  }
+
+  void Reduce()
+  {
+    for (const std::vector<double>& sums : this->Local)
+    {
+      std::transform(sums.begin(), sums.end(), this->Total.begin(), this->Total.begin(),
+        std::plus<double>());
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+// What the patches of each group have together.
+template <typename Function>
+std::vector<double> SumPatches(const ViewFactorGroups::Groups& groups, Function&& getValue)
+{
+  std::vector<double> sums(groups.Names.size(), 0.0);
+  for (std::size_t patch = 0; patch < groups.OfPatches.size(); ++patch)
+  {
+    sums[groups.OfPatches[patch]] += getValue(patch);
+  }
+  return sums;
+}
+
+//------------------------------------------------------------------------------
+// A column of getValue(row).
+template <typename Function>
+void AddColumn(vtkTable* table, const std::string& name, Function&& getValue)
+{
+  vtkNew<vtkDoubleArray> column;
+  column->SetName(name.c_str());
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    column->InsertNextValue(getValue(row));
+  }
+  table->AddColumn(column);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool ViewFactorGroups::Gather(const PatchScene& scene, vtkDataObject* input,
+  const std::string& arrayName, Groups& groups, std::string& error)
+{
+  std::vector<double> ids;
+  int components = 0;
+  if (!scene.GatherCellArray(input, arrayName, false, ids, components, error))
+  {
+    return false;
+  }
+  if (ids.empty())
+  {
+    const Blocks blocks = ListBlocks(input);
+    ids = scene.GatherBlockValues(blocks.OfLeaves);
+    SortGroups(
+      ids,
+      [&](double id)
+      {
+        const auto block = static_cast<std::size_t>(id);
+        return block < blocks.Names.size() ? blocks.Names[block] : "Block " + std::to_string(block);
+      },
+      groups);
+  }
+  else
+  {
+    const bool integers = components == 1 &&
+      std::all_of(ids.begin(), ids.end(),
+        [](double id) { return std::floor(id) == id && std::abs(id) <= LargestInteger; });
+    if (!integers)
+    {
+      error = "The cell array \"" + arrayName +
+        "\" numbers the groups of view factors: it must have one component and integer values.";
+      return false;
+    }
+    SortGroups(
+      ids, [](double id) { return std::to_string(static_cast<long long>(id)); }, groups);
+  }
+  if (groups.Names.size() > MaximumNumberOfGroups)
+  {
+    error = "There are " + std::to_string(groups.Names.size()) +
+      " groups for the table of view factors, but at most " +
+      std::to_string(MaximumNumberOfGroups) + " make sense: give a cell array \"" + arrayName +
+      "\" with fewer values.";
+    return false;
+  }
+  return true;
+}
+
+namespace
+{
+//------------------------------------------------------------------------------
+// Exchange between groups, each pair of patches counted once, from tiles.
+bool SumTiles(const ViewFactorsResult& result, const ViewFactorGroups::Groups& groups,
+  vtkMultiProcessController* controller, std::vector<double>& exchange)
+{
+  const std::size_t count = groups.Names.size();
+  const std::vector<vtkExchangeMatrix::Tile>& tiles = result.Exchange->GetTiles();
+  GroupSums sums{ tiles, groups.OfPatches, static_cast<int>(count), {},
+    std::vector<double>(count * count, 0.0) };
+  Threads::For(0, static_cast<vtkIdType>(tiles.size()), 0, sums);
+  exchange = sums.Total;
+  return result.Exchange->GetNumberOfParts() == 1 ||
+    controller->AllReduce(sums.Total.data(), exchange.data(),
+      static_cast<vtkIdType>(exchange.size()), vtkCommunicator::SUM_OP) != 0;
+}
+
+//------------------------------------------------------------------------------
+// The same from products with links between clusters, one for each group.
+bool SumProducts(const ViewFactorsResult& result, const ViewFactorGroups::Groups& groups,
+  vtkMultiProcessController* controller, std::vector<double>& exchange)
+{
+  const std::size_t count = groups.Names.size();
+  exchange.assign(count * count, 0.0);
+  auto links = vtkCPULinkOperator::NewFor(result.Hierarchy);
+  links->SetController(controller);
+  std::vector<double> values(groups.OfPatches.size());
+  bool good = links->Initialize(result.Hierarchy, 1);
+  for (std::size_t group = 0; good && group < count; ++group)
+  {
+    std::transform(groups.OfPatches.begin(), groups.OfPatches.end(), values.begin(),
+      [&](int other) { return other == static_cast<int>(group) ? 0.5 : 0.0; });
+    good = links->SetVector(0, values.data()) && links->Multiply(1, 0) &&
+      links->GetVector(1, values.data());
+    for (std::size_t patch = 0; good && patch < values.size(); ++patch)
+    {
+      exchange[groups.OfPatches[patch] * count + group] += values[patch];
+    }
+  }
+  return good;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool ViewFactorGroups::FillTable(const ViewFactorsResult& result, const Groups& groups,
+  double scale, vtkMultiProcessController* controller, vtkTable* table)
+{
+  const std::size_t count = groups.Names.size();
+  std::vector<double> exchange;
+  if (!(result.Hierarchy ? SumProducts(result, groups, controller, exchange)
+                         : SumTiles(result, groups, controller, exchange)))
+  {
+    return false;
+  }
+  const std::vector<double>& areas = result.GetExchange()->GetAreas();
+  const std::vector<double> groupAreas =
+    SumPatches(groups, [&](std::size_t patch) { return areas[patch]; });
+  table->Initialize();
+  vtkNew<vtkStringArray> names;
+  names->SetName(GroupColumn);
+  for (const std::string& name : groups.Names)
+  {
+    names->InsertNextValue(name);
+  }
+  table->AddColumn(names);
+  AddColumn(table, AreaColumn, [&](vtkIdType row) { return groupAreas[row] * scale * scale; });
+  for (std::size_t to = 0; to < count; ++to)
+  {
+    AddColumn(table, groups.Names[to],
+      [&](vtkIdType from)
+      { return (exchange[from * count + to] + exchange[to * count + from]) / groupAreas[from]; });
+  }
+  const auto addFractions = [&](const char* name, const std::vector<double>& fractions)
+  {
+    const std::vector<double> parts =
+      SumPatches(groups, [&](std::size_t patch) { return areas[patch] * fractions[patch]; });
+    AddColumn(table, name, [&](vtkIdType row) { return parts[row] / groupAreas[row]; });
+  };
+  addFractions(SkyColumn, result.SkyFractions);
+  addFractions(BackFaceColumn, result.BackFaceFractions);
+  return true;
+}
+} // namespace LightTransport

@@ -1,0 +1,597 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFactors/ViewFactorsFile.h"
+
+#include "Support/TransportMemory.h"
+
+#include <vtksys/SystemInformation.hxx>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <new>
+#include <system_error>
+
+namespace LightTransport
+{
+namespace
+{
+using Count = std::uint64_t;
+using Tile = vtkExchangeMatrix::Tile;
+
+constexpr int N = vtkExchangeMatrix::TileSize;
+constexpr std::size_t LineLength = 40;
+constexpr char Format[] = "vtkLightTransport view factors ";
+constexpr char Version[] = "2";
+constexpr Count ByteOrder = 0x0102030405060708;
+constexpr Count SwappedByteOrder = 0x0807060504030201;
+
+/// More than anybody needs; a file that wants more is damaged.
+constexpr Count MaximumSummaries = 1000;
+constexpr Count MaximumNameLength = 1000;
+
+constexpr char Again[] = " Compute the view factors again and save them, or take another copy.";
+
+struct Header
+{
+  char Line[LineLength];
+  Count Order;
+  Count TileSize;
+  Count Fingerprint;
+  double Tolerance;
+  Count NumberOfPatches;
+  Count NumberOfSummaries;
+  Count NumberOfTiles;
+};
+static_assert(sizeof(Header) == LineLength + 7 * sizeof(Count), "a header without gaps");
+
+struct TileName
+{
+  Count Row;
+  Count Column;
+};
+constexpr Count BytesPerTile = sizeof(TileName) + sizeof(float) * N * N;
+
+/// One value for each patch.
+using Row = std::vector<double> ViewFactorsResult::*;
+constexpr Row Rows[] = { &ViewFactorsResult::RawRowSums, &ViewFactorsResult::RowSums,
+  &ViewFactorsResult::RowErrors, &ViewFactorsResult::SkyFractions,
+  &ViewFactorsResult::BackFaceFractions };
+/// Beside the rows: areas and remainders.
+constexpr Count BytesPerPatch = sizeof(double) * (2 + std::size(Rows));
+/// The largest remainder of a row, relative to its area.
+constexpr double LargestRemainder = 1e-6;
+
+//------------------------------------------------------------------------------
+std::string MakeLine()
+{
+  std::string line = std::string(Format) + Version;
+  line.resize(LineLength - 1, ' ');
+  return line + '\n';
+}
+
+//------------------------------------------------------------------------------
+// What streams do not tell; `good` is whether all went well.
+std::error_code GetSystemError(bool good = false)
+{
+  const int code = errno == 0 ? EIO : errno;
+  return { good ? 0 : code, std::generic_category() };
+}
+
+//------------------------------------------------------------------------------
+// A hash of 64-bit words (in the manner of FNV-1a, with a shift that brings high bits down). Each
+// step is a one-to-one map, so that a change within one word can never go unnoticed.
+class Checksum
+{
+public:
+  void Add(const void* data, std::size_t bytes)
+  {
+    const auto* next = static_cast<const char*>(data);
+    for (; bytes >= sizeof(Count); bytes -= sizeof(Count), next += sizeof(Count))
+    {
+      this->AddWord(next, sizeof(Count));
+    }
+    if (bytes > 0)
+    {
+      this->AddWord(next, bytes);
+    }
+  }
+
+  Count Get() const { return this->State; }
+
+private:
+  void AddWord(const char* data, std::size_t bytes)
+  {
+    Count word = 0;
+    std::memcpy(&word, data, bytes);
+    this->State = (this->State ^ word) * 0x100000001b3;
+    this->State ^= this->State >> 32;
+  }
+
+  Count State = 0xcbf29ce484222325;
+};
+
+//------------------------------------------------------------------------------
+// No value may be infinite, not a number, or below `lowest`.
+template <typename Value>
+bool AreUsable(const Value* values, std::size_t count, double lowest)
+{
+  return std::all_of(values, values + count,
+    [lowest](Value value)
+    { return value >= lowest && value <= std::numeric_limits<Value>::max(); });
+}
+
+//------------------------------------------------------------------------------
+bool AreUsable(const std::vector<double>& values, Row row)
+{
+  const bool fractions =
+    row == &ViewFactorsResult::SkyFractions || row == &ViewFactorsResult::BackFaceFractions;
+  const double lowest = fractions ? std::numeric_limits<double>::lowest() : 0.0;
+  return AreUsable(values.data(), values.size(), lowest);
+}
+
+//------------------------------------------------------------------------------
+bool AreRemainders(const std::vector<double>& remainders, const std::vector<double>& areas)
+{
+  bool good = remainders.empty() || remainders.size() == areas.size();
+  for (std::size_t row = 0; good && row < remainders.size(); ++row)
+  {
+    good = std::abs(remainders[row]) <= LargestRemainder * areas[row];
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// What the link operators count on: padding is zero, tiles of the diagonal are symmetric.
+bool IsUsable(const Tile& tile, vtkIdType numberOfPatches)
+{
+  const vtkIdType rows = numberOfPatches - tile.Row * N;
+  const vtkIdType columns = numberOfPatches - tile.Column * N;
+  for (int i = 0; i < N; ++i)
+  {
+    const float* row = tile.Values + i * N;
+    const vtkIdType used = i < rows ? std::min<vtkIdType>(columns, N) : 0;
+    if (!AreUsable(row, N, 0.0) ||
+      std::any_of(row + used, row + N, [](float value) { return value != 0.0f; }))
+    {
+      return false;
+    }
+    for (int j = 0; tile.Row == tile.Column && j < i; ++j)
+    {
+      if (row[j] != tile.Values[j * N + i])
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+class Writer
+{
+public:
+  explicit Writer(const std::filesystem::path& path)
+    : Stream(path, std::ios::binary | std::ios::trunc)
+  {
+  }
+
+  bool Write(const ViewFactorsResult& result)
+  {
+    this->PutHeader(result);
+    this->PutValues(result.Exchange->GetAreas());
+    for (Row row : Rows)
+    {
+      this->PutValues(result.*row);
+    }
+    std::vector<double> remainders = result.Exchange->GetRemainders();
+    remainders.resize(result.Exchange->GetAreas().size(), 0.0);
+    this->PutValues(remainders);
+    for (const auto& [name, value] : result.Summaries)
+    {
+      const Count length = name.size();
+      this->Put(&length, sizeof(length));
+      this->Put(name.data(), name.size());
+      this->Put(&value, sizeof(value));
+    }
+    for (const Tile& tile : result.Exchange->GetTiles())
+    {
+      if (tile.Values && this->Stream)
+      {
+        const TileName name{ static_cast<Count>(tile.Row), static_cast<Count>(tile.Column) };
+        this->Put(&name, sizeof(name));
+        this->Put(tile.Values, sizeof(float) * N * N);
+      }
+    }
+    const Count sum = this->Sum.Get();
+    this->Put(&sum, sizeof(sum));
+    this->Stream.close();
+    return !this->Stream.fail();
+  }
+
+private:
+  void Put(const void* data, std::size_t bytes)
+  {
+    this->Sum.Add(data, bytes);
+    this->Stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+  }
+
+  void PutValues(const std::vector<double>& values)
+  {
+    this->Put(values.data(), values.size() * sizeof(double));
+  }
+
+  void PutHeader(const ViewFactorsResult& result)
+  {
+    Header header;
+    MakeLine().copy(header.Line, LineLength);
+    header.Order = ByteOrder;
+    header.TileSize = N;
+    header.Fingerprint = result.Fingerprint;
+    header.Tolerance = result.Tolerance;
+    header.NumberOfPatches = static_cast<Count>(result.Exchange->GetNumberOfPatches());
+    header.NumberOfSummaries = result.Summaries.size();
+    header.NumberOfTiles = static_cast<Count>(result.Exchange->GetNumberOfStoredTiles());
+    this->Put(&header, sizeof(header));
+  }
+
+  std::ofstream Stream;
+  Checksum Sum;
+};
+
+//------------------------------------------------------------------------------
+// Reads one file from its beginning to its end; each step returns false after setting Error.
+class Reader
+{
+public:
+  ViewFactorsResult Result;
+  std::string Error;
+
+  bool Read(const std::string& fileName)
+  {
+    return this->Open(fileName) && this->GetHeader() && this->CheckSizes() && this->GetRows() &&
+      this->GetSummaries() && this->MakeMatrix() && this->GetTiles() && this->GetChecksum();
+  }
+
+private:
+  bool Fail(const std::string& problem)
+  {
+    this->Error = problem;
+    return false;
+  }
+
+  bool FailDamaged() { return this->Fail(std::string("it is damaged.") + Again); }
+
+  bool FailTooShort() { return this->Fail(std::string("it has been cut short.") + Again); }
+
+  bool Get(void* data, Count bytes)
+  {
+    if (bytes > this->Remaining)
+    {
+      return this->FailTooShort();
+    }
+    errno = 0;
+    if (!this->Stream.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes)))
+    {
+      return this->Fail("reading fails (" + GetSystemError().message() + ")." + Again);
+    }
+    this->Sum.Add(data, static_cast<std::size_t>(bytes));
+    this->Remaining -= bytes;
+    return true;
+  }
+
+  bool GetValues(std::vector<double>& values)
+  {
+    values.resize(static_cast<std::size_t>(this->Head.NumberOfPatches));
+    return this->Get(values.data(), this->Head.NumberOfPatches * sizeof(double));
+  }
+
+  bool Open(const std::string& fileName);
+  bool GetHeader();
+  bool CheckSizes();
+  bool GetRows();
+  bool GetSummaries();
+  bool MakeMatrix();
+  bool GetTiles();
+  bool GetChecksum();
+
+  std::ifstream Stream;
+  Count Remaining = 0;
+  Checksum Sum;
+  Header Head;
+  std::vector<double> Areas;
+  std::vector<double> Remainders;
+};
+
+//------------------------------------------------------------------------------
+bool Reader::Open(const std::string& fileName)
+{
+  // Nothing but a file has a length to check all sizes against.
+  const std::filesystem::path path = std::filesystem::u8path(fileName);
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem))
+  {
+    return this->Fail("there is no such file. Check the name and the folder.");
+  }
+  this->Remaining = std::filesystem::file_size(path, problem);
+  if (problem)
+  {
+    return this->Fail("its length is not known (" + problem.message() + ").");
+  }
+  errno = 0;
+  this->Stream.open(path, std::ios::binary);
+  if (!this->Stream)
+  {
+    return this->Fail(
+      "it cannot be opened (" + GetSystemError().message() + "). Check its permissions.");
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool Reader::GetHeader()
+{
+  const std::string line = MakeLine();
+  const Count start = std::min<Count>(this->Remaining, sizeof(Header));
+  this->Head = {};
+  if (!this->Get(&this->Head, start))
+  {
+    return false;
+  }
+  if (line.compare(0, sizeof(Format) - 1, this->Head.Line, sizeof(Format) - 1) != 0)
+  {
+    return this->Fail("it is not a file of view factors. Check the name.");
+  }
+  if (start < sizeof(Header))
+  {
+    return this->FailTooShort();
+  }
+  if (this->Head.Order == SwappedByteOrder)
+  {
+    return this->Fail("it comes from a machine with the other order of bytes. Compute the view "
+                      "factors on this one.");
+  }
+  if (line.compare(0, LineLength, this->Head.Line, LineLength) != 0 || this->Head.TileSize != N)
+  {
+    return this->Fail(std::string("its format is not version ") + Version +
+      ", the one that this version of vtkLightTransport reads. Compute the view factors again and "
+      "save them.");
+  }
+  const bool good = this->Head.Order == ByteOrder && AreUsable(&this->Head.Tolerance, 1, 0.0);
+  return good || this->FailDamaged();
+}
+
+//------------------------------------------------------------------------------
+// Before anything is allocated: the file is as long as what it announces, and there is the memory.
+bool Reader::CheckSizes()
+{
+  const Count patches = this->Head.NumberOfPatches;
+  const Count tiles = this->Head.NumberOfTiles;
+  if (patches > this->Remaining / BytesPerPatch || tiles > this->Remaining / BytesPerTile ||
+    patches > static_cast<Count>(VTK_ID_MAX))
+  {
+    return this->FailTooShort();
+  }
+  if (this->Head.NumberOfSummaries > MaximumSummaries)
+  {
+    return this->FailDamaged();
+  }
+  const double bytes = static_cast<double>(patches * BytesPerPatch) +
+    vtkExchangeMatrix::GetEstimatedSparseBytes(static_cast<vtkIdType>(patches), 1,
+      static_cast<vtkIdType>(tiles));
+  const double available = TransportMemory::GetAvailableBytes();
+  return bytes <= available ||
+    this->Fail("it needs " + TransportMemory::Format(bytes) + " of memory and " +
+      TransportMemory::Format(available) + " are free. Load it on a machine with more memory.");
+}
+
+//------------------------------------------------------------------------------
+bool Reader::GetRows()
+{
+  bool good = this->GetValues(this->Areas);
+  bool usable = good && AreUsable(this->Areas.data(), this->Areas.size(), 0.0);
+  for (Row row : Rows)
+  {
+    good = good && this->GetValues(this->Result.*row);
+    usable = usable && good && AreUsable(this->Result.*row, row);
+  }
+  good = good && this->GetValues(this->Remainders);
+  usable = usable && good && AreRemainders(this->Remainders, this->Areas);
+  if (good && !usable)
+  {
+    return this->Fail(
+      std::string("it holds areas or sums that are negative or not finite.") + Again);
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+bool Reader::GetSummaries()
+{
+  for (Count k = 0; k < this->Head.NumberOfSummaries; ++k)
+  {
+    Count length = 0;
+    if (!this->Get(&length, sizeof(length)))
+    {
+      return false;
+    }
+    if (length > MaximumNameLength)
+    {
+      return this->FailDamaged();
+    }
+    this->Result.Summaries.emplace_back(std::string(static_cast<std::size_t>(length), ' '), 0.0);
+    auto& [name, value] = this->Result.Summaries.back();
+    if (!this->Get(name.data(), length) || !this->Get(&value, sizeof(value)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool Reader::MakeMatrix()
+{
+  const Count expected = this->Head.NumberOfTiles * BytesPerTile + sizeof(Count);
+  if (this->Remaining < expected)
+  {
+    return this->FailTooShort();
+  }
+  if (this->Remaining > expected)
+  {
+    return this->Fail(std::string("something follows behind its end.") + Again);
+  }
+  this->Result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
+  this->Result.Exchange->AllocateSparse(this->Areas, 1);
+  if (std::any_of(this->Remainders.begin(), this->Remainders.end(),
+        [](double remainder) { return remainder != 0.0; }))
+  {
+    this->Result.Exchange->SetRemainders(this->Remainders);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool Reader::GetTiles()
+{
+  vtkExchangeMatrix* exchange = this->Result.Exchange;
+  const auto rows = static_cast<Count>(exchange->GetNumberOfTileRows());
+  vtkIdType previous = -1;
+  for (Count k = 0; k < this->Head.NumberOfTiles; ++k)
+  {
+    TileName name;
+    if (!this->Get(&name, sizeof(name)))
+    {
+      return false;
+    }
+    const bool inside = name.Row <= name.Column && name.Column < rows;
+    const vtkIdType index = inside ? exchange->GetTileIndex(static_cast<vtkIdType>(name.Row),
+                                       static_cast<vtkIdType>(name.Column))
+                                   : -1;
+    if (index <= previous)
+    {
+      return this->Fail(std::string("it names a block of view factors that cannot be.") + Again);
+    }
+    previous = index;
+    Tile& tile = exchange->GetTiles()[index];
+    if (!exchange->AllocateTile(tile))
+    {
+      return this->Fail("there is not enough memory. Load it on a machine with more.");
+    }
+    if (!this->Get(tile.Values, sizeof(float) * N * N))
+    {
+      return false;
+    }
+    if (!IsUsable(tile, exchange->GetNumberOfPatches()))
+    {
+      return this->Fail(std::string("it holds view factors that cannot be (negative, not finite, "
+                                    "or not reciprocal).") +
+        Again);
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool Reader::GetChecksum()
+{
+  const Count expected = this->Sum.Get();
+  Count sum = 0;
+  if (!this->Get(&sum, sizeof(sum)))
+  {
+    return false;
+  }
+  this->Result.Fingerprint = this->Head.Fingerprint;
+  this->Result.Tolerance = this->Head.Tolerance;
+  return sum == expected ||
+    this->Fail(std::string("it is damaged: its checksum is wrong.") + Again);
+}
+
+//------------------------------------------------------------------------------
+// What Read would refuse is not written.
+bool CanBeWritten(const ViewFactorsResult& result)
+{
+  const vtkExchangeMatrix* exchange = result.Exchange;
+  if (!exchange || exchange->GetNumberOfKernels() != 1 || exchange->GetNumberOfParts() != 1 ||
+    !AreUsable(&result.Tolerance, 1, 0.0))
+  {
+    return false;
+  }
+  const std::vector<double>& areas = exchange->GetAreas();
+  bool good =
+    AreUsable(areas.data(), areas.size(), 0.0) && AreRemainders(exchange->GetRemainders(), areas);
+  for (Row row : Rows)
+  {
+    good = good && (result.*row).size() == areas.size() && AreUsable(result.*row, row);
+  }
+  good = good && result.Summaries.size() <= MaximumSummaries &&
+    std::all_of(result.Summaries.begin(), result.Summaries.end(),
+      [](const auto& summary) { return summary.first.size() <= MaximumNameLength; });
+  const vtkIdType patches = exchange->GetNumberOfPatches();
+  return good &&
+    std::all_of(exchange->GetTiles().begin(), exchange->GetTiles().end(),
+      [patches](const Tile& tile) { return !tile.Values || IsUsable(tile, patches); });
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool ViewFactorsFile::Write(const std::string& fileName, const ViewFactorsResult& result,
+  std::string& error)
+{
+  if (!CanBeWritten(result))
+  {
+    error = "Nothing is written to \"" + fileName +
+      "\": the view factors are not complete, or negative, or not finite. Compute them again, in "
+      "one process.";
+    return false;
+  }
+  namespace fs = std::filesystem;
+  const fs::path path = fs::u8path(fileName);
+  const fs::path temporary = fs::u8path(
+    fileName + "." + std::to_string(vtksys::SystemInformation().GetProcessId()) + ".part");
+  errno = 0;
+  std::error_code problem = GetSystemError(Writer(temporary).Write(result));
+  if (!problem)
+  {
+    fs::rename(temporary, path, problem);
+  }
+  if (!problem)
+  {
+    return true;
+  }
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  error = "\"" + fileName + "\" cannot be written (" + problem.message() +
+    "). Its folder must exist, let you write, and have room for " +
+    TransportMemory::Format(result.Exchange->GetNumberOfBytes()) + ".";
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool ViewFactorsFile::Read(const std::string& fileName, ViewFactorsResult& result,
+  std::string& error)
+{
+  Reader reader;
+  bool good = false;
+  try
+  {
+    good = reader.Read(fileName);
+  }
+  catch (const std::bad_alloc&)
+  {
+    reader.Error = "there is not enough memory. Load it on a machine with more.";
+  }
+  if (!good)
+  {
+    error = "No view factors can be read from \"" + fileName + "\": " + reader.Error;
+    return false;
+  }
+  result = std::move(reader.Result);
+  return true;
+}
+} // namespace LightTransport

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The product with a vtkExchangeHierarchy: up-sweep, gather and down-sweep, with the tables of
+ * HierarchyLayout.
+ *
+ * OpenGL 3.2 does not let a texture be read while it is drawn into: what a sweep draws for one
+ * level of the tree is drawn beside and copied in. Gathering sums pieces of rows, and the
+ * down-sweep adds them up, compensated.
+ */
+#ifndef HierarchicalProductGL_h
+#define HierarchicalProductGL_h
+
+#include "Products/HierarchyLayout.h"
+#include "Products/ProductGL.h"
+
+namespace LightTransport
+{
+class HierarchicalProductGL : public ProductGL
+{
+public:
+  HierarchicalProductGL(FloatTextures& engine, const Layout& layout);
+
+  bool Initialize(vtkExchangeHierarchy* hierarchy, std::string& reason);
+  bool Draw(Group& target, const Group& source) override;
+  int GetNumberOfLinkTextures() const override { return static_cast<int>(this->Links.size()); }
+
+private:
+  using Range = HierarchyLayout::Range;
+  using Tile = HierarchyLayout::Tile;
+
+  bool Allocate(const HierarchyLayout& tables);
+  void Upload(const HierarchyLayout& tables);
+  void UploadTable(const Group& table, const std::vector<float>& texels);
+  void UploadLinks(const HierarchyLayout& tables);
+
+  vtkShaderProgram* Use(const char* name, const char* body, const std::string& extra = "");
+  bool SweepUp(const Group& source);
+  bool GatherLinks();
+  bool SweepDown(const Group& target);
+  vtkShaderProgram* UseSums(bool ofPatches);
+  void DrawBeside(const Range& range, const Group& target, int line);
+
+  std::vector<Range> Levels; ///< of nodes
+  Range Patches{};
+  int PieceLines = 0;
+  std::vector<Tile> Tiles;
+  std::vector<Group> Links; ///< of each tile
+  Group Children;
+  Group Rows;
+  Group Lines;
+  Group Sent;   ///< by slots
+  Group Parts;  ///< sums by pieces, then what nodes receive
+  Group Beside; ///< a level of either
+};
+} // namespace LightTransport
+
+#endif

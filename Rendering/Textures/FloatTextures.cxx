@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Textures/FloatTextures.h"
+
+#include "Context/LightTransportOpenGL.h"
+#include "vtkFloatTexturesCommonFS.h"
+#include "vtkFloatTexturesVS.h"
+
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLQuadHelper.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkShaderProgram.h"
+
+#include <vtksys/SystemInformation.hxx>
+
+#include <algorithm>
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+FloatTextures::Session::Session(vtkOpenGLRenderWindow* window)
+  : Context(window), State(window->GetState()), Viewport(this->State), ColorMask(this->State),
+    Blend(this->State, GL_BLEND), CullFace(this->State, GL_CULL_FACE),
+    DepthTest(this->State, GL_DEPTH_TEST), ScissorTest(this->State, GL_SCISSOR_TEST),
+    StencilTest(this->State, GL_STENCIL_TEST)
+{
+  std::string ignored;
+  FloatTextures::CheckErrors(ignored);
+  this->State->PushFramebufferBindings();
+  for (unsigned int name :
+    { GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST })
+  {
+    this->State->vtkglDisable(name);
+  }
+  this->State->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+//------------------------------------------------------------------------------
+FloatTextures::Session::~Session()
+{
+  this->State->PopFramebufferBindings();
+}
+
+//------------------------------------------------------------------------------
+FloatTextures::FloatTextures(vtkOpenGLRenderWindow* window)
+  : Window(window), Framebuffer(vtkSmartPointer<vtkOpenGLFramebufferObject>::New())
+{
+  const Session session(window);
+  this->Framebuffer->SetContext(window);
+  const Group witness = this->Allocate(1, 1, 1);
+  this->Witness = witness.empty() ? nullptr : witness[0];
+}
+
+//------------------------------------------------------------------------------
+FloatTextures::~FloatTextures()
+{
+  if (this->IsAlive())
+  {
+    const OpenGLContextGuard guard(this->Window);
+    this->Framebuffer->ReleaseGraphicsResources(this->Window);
+    this->Quads.clear();
+    this->Witness = nullptr;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool FloatTextures::IsAlive() const
+{
+  return this->Window && this->Witness && this->Witness->GetHandle() != 0;
+}
+
+//------------------------------------------------------------------------------
+std::string FloatTextures::GetDeviceName() const
+{
+  return this->Window->GetState()->GetRenderer();
+}
+
+//------------------------------------------------------------------------------
+int FloatTextures::GetMaximumTextureSize() const
+{
+  return vtkTextureObject::GetMaximumTextureSize(this->Window);
+}
+
+//------------------------------------------------------------------------------
+int FloatTextures::GetMaximumGroupSize() const
+{
+  int attachments = 0;
+  int buffers = 0;
+  glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &attachments);
+  glGetIntegerv(GL_MAX_DRAW_BUFFERS, &buffers);
+  return std::min(attachments, buffers);
+}
+
+//------------------------------------------------------------------------------
+double FloatTextures::GetAvailableBytes() const
+{
+  if (!vtkOpenGLDeviceIsHardware(this->Window->GetState()->GetRenderer()))
+  {
+    vtksys::SystemInformation system;
+    system.RunMemoryCheck();
+    return 1048576.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
+  }
+  // GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, in KiB; an error where the extension is
+  // missing.
+  GLint kibibytes = -1;
+  glGetIntegerv(0x9049, &kibibytes);
+  std::string ignored;
+  return FloatTextures::CheckErrors(ignored) ? 1024.0 * kibibytes : -1.0;
+}
+
+//------------------------------------------------------------------------------
+FloatTextures::Group FloatTextures::Allocate(std::size_t count, int width, int height)
+{
+  Group group;
+  for (std::size_t index = 0; index < count; ++index)
+  {
+    auto texture = vtkSmartPointer<vtkTextureObject>::New();
+    texture->SetContext(this->Window);
+    texture->SetWrapS(vtkTextureObject::ClampToEdge);
+    texture->SetWrapT(vtkTextureObject::ClampToEdge);
+    texture->Allocate2D(static_cast<unsigned int>(width), static_cast<unsigned int>(height), 4,
+      VTK_FLOAT);
+    std::string ignored;
+    if (!FloatTextures::CheckErrors(ignored))
+    {
+      return {};
+    }
+    group.push_back(texture);
+  }
+  return group;
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Upload(vtkTextureObject* texture, const int region[4], int rowLength,
+  const float* rgba)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  texture->Activate();
+  state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  state->vtkglPixelStorei(GL_UNPACK_ROW_LENGTH, rowLength);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, region[0], region[1], region[2], region[3], GL_RGBA, GL_FLOAT,
+    rgba);
+  state->vtkglPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  texture->Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Attach(const Group& group)
+{
+  this->Framebuffer->Bind();
+  const auto before = static_cast<unsigned int>(this->Framebuffer->GetNumberOfColorAttachments());
+  for (unsigned int index = static_cast<unsigned int>(group.size()); index < before; ++index)
+  {
+    this->Framebuffer->RemoveColorAttachment(index);
+  }
+  for (unsigned int index = 0; index < group.size(); ++index)
+  {
+    this->Framebuffer->AddColorAttachment(index, group[index]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Clear(const Group& group)
+{
+  this->Bind(group);
+  const float zeros[4] = {};
+  for (int index = 0; index < static_cast<int>(group.size()); ++index)
+  {
+    glClearBufferfv(GL_COLOR, index, zeros);
+  }
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Copy(const Group& target, int line, const Group& source, const int region[4])
+{
+  this->Attach(source);
+  for (std::size_t index = 0; index < source.size(); ++index)
+  {
+    this->Framebuffer->ActivateReadBuffer(static_cast<unsigned int>(index));
+    // vtkTextureObject::CopyFromFrameBuffer makes another texture, of 8 bits a value.
+    target[index]->Activate();
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region[0], line, region[0], region[1], region[2],
+      region[3]);
+    target[index]->Deactivate();
+  }
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Download(const Group& group, std::size_t index, int width, int height,
+  float* rgba)
+{
+  this->Attach(group);
+  this->Framebuffer->ActivateReadBuffer(static_cast<unsigned int>(index));
+  this->Window->GetState()->vtkglPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba);
+  this->Window->GetState()->vtkglPixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+//------------------------------------------------------------------------------
+vtkShaderProgram* FloatTextures::Use(const std::string& name, const char* body,
+  const std::string& defines)
+{
+  auto& quad = this->Quads[name];
+  if (!quad)
+  {
+    std::string source = vtkFloatTexturesCommonFS;
+    vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Define", defines);
+    source += body;
+    quad =
+      std::make_unique<vtkOpenGLQuadHelper>(this->Window, vtkFloatTexturesVS, source.c_str(), "");
+  }
+  this->CurrentQuad = quad.get();
+  vtkShaderProgram* program = quad->Program;
+  if (program)
+  {
+    this->Window->GetShaderCache()->ReadyShaderProgram(program);
+  }
+  return program && program->GetCompiled() ? program : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::SetTextures(vtkShaderProgram* program, const char* name, const Group& group)
+{
+  std::vector<int> units;
+  for (vtkTextureObject* texture : group)
+  {
+    texture->Activate();
+    this->ActiveTextures.push_back(texture);
+    units.push_back(texture->GetTextureUnit());
+  }
+  program->SetUniform1iv(name, static_cast<int>(units.size()), units.data());
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Draw(const Group& target, const int region[4])
+{
+  this->Bind(target);
+  this->Window->GetState()->vtkglViewport(region[0], region[1], region[2], region[3]);
+  this->CurrentQuad->Render();
+  this->ReleaseTextures();
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Bind(const Group& target)
+{
+  this->Attach(target);
+  this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(target.size()));
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::ReleaseTextures()
+{
+  for (vtkTextureObject* texture : this->ActiveTextures)
+  {
+    texture->Deactivate();
+  }
+  this->ActiveTextures.clear();
+}
+
+//------------------------------------------------------------------------------
+bool FloatTextures::CheckErrors(std::string& text)
+{
+  unsigned int code = glGetError();
+  if (code == GL_NO_ERROR)
+  {
+    return true;
+  }
+  text = code == GL_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(code);
+  // A context that has been lost may report errors for ever.
+  for (int count = 0; count < 100 && code != GL_NO_ERROR; ++count)
+  {
+    code = glGetError();
+  }
+  return false;
+}
+} // namespace LightTransport

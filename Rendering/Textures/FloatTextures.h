@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Computing with fragment shaders over RGBA32F textures in the context of one window: textures,
+ * programs, and quads drawn with the former by the latter. All work happens while a
+ * FloatTextures::Session lives.
+ */
+#ifndef FloatTextures_h
+#define FloatTextures_h
+
+#include "Context/OpenGLContextGuard.h"
+#include "vtkOpenGLState.h"
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+#include "vtkWeakPointer.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace LightTransport
+{
+class FloatTextures
+{
+public:
+  /// Textures of one size that are read and written together.
+  using Group = std::vector<vtkSmartPointer<vtkTextureObject>>;
+
+  static constexpr int BytesPerTexel = 4 * sizeof(float);
+  /// No texture for large tables has more: drivers refuse huge ones long before the memory is full.
+  /// Also what single precision counts exactly.
+  static constexpr vtkIdType MaximumTexels = vtkIdType(1) << 24;
+
+  static constexpr int DivideUp(vtkIdType dividend, vtkIdType divisor)
+  {
+    return static_cast<int>((dividend + divisor - 1) / divisor);
+  }
+
+  /// Makes the context current and sets the state that computing needs; the destructor puts
+  /// everything back.
+  class Session
+  {
+  public:
+    explicit Session(vtkOpenGLRenderWindow* window);
+    ~Session();
+    Session(const Session&) = delete;
+    void operator=(const Session&) = delete;
+
+  private:
+    OpenGLContextGuard Context;
+    vtkOpenGLState* State;
+    vtkOpenGLState::ScopedglViewport Viewport;
+    vtkOpenGLState::ScopedglColorMask ColorMask;
+    vtkOpenGLState::ScopedglEnableDisable Blend;
+    vtkOpenGLState::ScopedglEnableDisable CullFace;
+    vtkOpenGLState::ScopedglEnableDisable DepthTest;
+    vtkOpenGLState::ScopedglEnableDisable ScissorTest;
+    vtkOpenGLState::ScopedglEnableDisable StencilTest;
+  };
+
+  explicit FloatTextures(vtkOpenGLRenderWindow* window);
+  /// Within the life of the context, or after it; not within a session.
+  ~FloatTextures();
+  FloatTextures(const FloatTextures&) = delete;
+  void operator=(const FloatTextures&) = delete;
+
+  /// False after the window has gone or has released its resources: nothing is left then.
+  bool IsAlive() const;
+
+  vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
+
+  /// The renderer's own name, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+  std::string GetDeviceName() const;
+
+  /// Width and height that the context offers.
+  int GetMaximumTextureSize() const;
+
+  /// Most textures in a group.
+  int GetMaximumGroupSize() const;
+
+  /**
+   * Bytes that can still be allocated: the GPU's, where its driver tells, or the machine's for
+   * software renderers. Negative where nobody knows.
+   */
+  double GetAvailableBytes() const;
+
+  /// Empty when the memory is not there.
+  Group Allocate(std::size_t count, int width, int height);
+
+  /// Set all texels of a group to zero.
+  void Clear(const Group& group);
+
+  /// Write a region (x, y, width, height) of a texture; `rowLength` texels lie between the starts
+  /// of two rows of `rgba`.
+  void Upload(vtkTextureObject* texture, const int region[4], int rowLength, const float* rgba);
+
+  /// Copy a region (x, y, width, height) to (x, line) between groups of as many textures.
+  void Copy(const Group& target, int line, const Group& source, const int region[4]);
+
+  /// Read the left lower width x height texels of one texture of a group.
+  void Download(const Group& group, std::size_t index, int width, int height, float* rgba);
+
+  ///@{
+  /**
+   * Draw: Use a program (compiled at the first use of a name; the common part is put before
+   * `body`), set its textures and uniforms, then Draw into a region (x, y, width, height) of a
+   * group. Use returns nullptr when the program does not compile.
+   */
+  vtkShaderProgram* Use(const std::string& name, const char* body, const std::string& defines);
+  void SetTextures(vtkShaderProgram* program, const char* name, const Group& group);
+  void Draw(const Group& target, const int region[4]);
+  ///@}
+
+  ///@{
+  /// For programs that draw something else than quads: write into a group from now on; let go of
+  /// the textures of SetTextures.
+  void Bind(const Group& target);
+  void ReleaseTextures();
+  ///@}
+
+  /// True when OpenGL has reported no error since the last call; `text` otherwise names it.
+  static bool CheckErrors(std::string& text);
+
+private:
+  void Attach(const Group& group);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  vtkSmartPointer<vtkTextureObject> Witness;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> Framebuffer;
+  std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> Quads;
+  vtkOpenGLQuadHelper* CurrentQuad = nullptr;
+  std::vector<vtkTextureObject*> ActiveTextures;
+};
+} // namespace LightTransport
+
+#endif
