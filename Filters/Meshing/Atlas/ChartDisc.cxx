@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/ChartDisc.h"
 
-#include "Common/IndexSets.h"
+#include "Shared/DisjointSets.h"
 
 #include <algorithm>
 #include <limits>
@@ -40,8 +40,8 @@ int ChartDisc::GetOppositeEdge(int face, int edge) const
 void ChartDisc::NumberPoints()
 {
   const std::size_t size = this->Faces.size();
-  IndexSets corners(3 * size);
-  IndexSets components(size);
+  DisjointSets corners(3 * size);
+  DisjointSets components(size);
   int sides = 0;
   for (std::size_t i = 0; i < size; ++i)
   {

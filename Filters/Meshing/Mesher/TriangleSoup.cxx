@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/TriangleSoup.h"
 
-#include "Common/IndexSets.h"
 #include "Common/MeshingRun.h"
+#include "Shared/DisjointSets.h"
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -454,7 +454,7 @@ void TriangleSoup::MarkEdgesToSplit()
 // Orienting starts at an arbitrary triangle, which may be the only wrong one.
 void TriangleSoup::TurnComponentsToMajority(const std::vector<bool>& reversed)
 {
-  IndexSets components(this->Points.size());
+  DisjointSets components(this->Points.size());
   for (const Triangle& triangle : this->Triangles)
   {
     components.Join(triangle[0], triangle[1]);

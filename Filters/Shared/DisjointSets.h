@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Disjoint sets of indices.
-#ifndef IndexSets_h
-#define IndexSets_h
+/// Disjoint sets of the indices 0 to size - 1 (union and find).
+#ifndef DisjointSets_h
+#define DisjointSets_h
 
 #include <cstddef>
 #include <numeric>
@@ -10,10 +10,10 @@
 
 namespace LightTransport
 {
-class IndexSets
+class DisjointSets
 {
 public:
-  explicit IndexSets(std::size_t size) : Parents(size)
+  explicit DisjointSets(std::size_t size) : Parents(size)
   {
     std::iota(this->Parents.begin(), this->Parents.end(), 0);
   }

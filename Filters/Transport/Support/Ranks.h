@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The processes that share a scene, as far as private code needs them: how many there are, sums and
+ * maxima over all of them, and that all of them agree on an outcome. All but the numbers are
+ * collective; with one process (or no controller) they do nothing.
+ */
+#ifndef Ranks_h
+#define Ranks_h
+
+#include "Shared/Outcome.h"
+#include "vtkCommunicator.h"
+#include "vtkMultiProcessController.h"
+#include "vtkType.h"
+
+#include <numeric>
+#include <vector>
+
+namespace LightTransport
+{
+class Ranks
+{
+public:
+  Ranks() = default;
+  /// `controller` may be nullptr; it must outlive this.
+  explicit Ranks(vtkMultiProcessController* controller) : Controller(controller) {}
+
+  vtkMultiProcessController* GetController() const { return this->Controller; }
+  int GetNumber() const { return this->Controller ? this->Controller->GetNumberOfProcesses() : 1; }
+  /// The number of this process.
+  int GetMine() const { return this->Controller ? this->Controller->GetLocalProcessId() : 0; }
+  bool AreSeveral() const { return this->GetNumber() > 1; }
+
+  ///@{ Replace values by their sum, or the value by the largest. False when the ranks could not be
+  /// reached.
+  template <typename T>
+  bool Sum(T* values, std::size_t count) const
+  {
+    return this->Reduce(values, count, vtkCommunicator::SUM_OP);
+  }
+  template <typename T>
+  bool Sum(std::vector<T>& values) const
+  {
+    return this->Sum(values.data(), values.size());
+  }
+  template <typename T>
+  T GetLargest(T value) const
+  {
+    this->Reduce(&value, 1, vtkCommunicator::MAX_OP);
+    return value;
+  }
+  ///@}
+
+  /// The values of all ranks, one rank after the other.
+  template <typename T>
+  std::vector<T> Gather(const std::vector<T>& mine) const;
+
+  /// Done where all ranks are; else the failure of the lowest rank that has one, or the abort.
+  Outcome Agree(const Outcome& mine) const;
+
+private:
+  template <typename T>
+  bool Reduce(T* values, std::size_t count, int operation) const;
+
+  vtkMultiProcessController* Controller = nullptr;
+};
+
+//------------------------------------------------------------------------------
+template <typename T>
+bool Ranks::Reduce(T* values, std::size_t count, int operation) const
+{
+  if (!this->AreSeveral())
+  {
+    return true;
+  }
+  const std::vector<T> mine(values, values + count);
+  return this->Controller->AllReduce(mine.data(), values, static_cast<vtkIdType>(count),
+           operation) != 0;
+}
+
+//------------------------------------------------------------------------------
+template <typename T>
+std::vector<T> Ranks::Gather(const std::vector<T>& mine) const
+{
+  if (!this->AreSeveral())
+  {
+    return mine;
+  }
+  const int ranks = this->GetNumber();
+  const auto length = static_cast<vtkIdType>(mine.size());
+  std::vector<vtkIdType> lengths(ranks), offsets(ranks);
+  this->Controller->AllGather(&length, lengths.data(), 1);
+  std::partial_sum(lengths.begin(), lengths.end() - 1, offsets.begin() + 1);
+  std::vector<T> all(offsets.back() + lengths.back());
+  this->Controller->AllGatherV(mine.data(), all.data(), length, lengths.data(), offsets.data());
+  return all;
+}
+} // namespace LightTransport
+
+#endif
