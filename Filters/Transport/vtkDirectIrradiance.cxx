@@ -4,8 +4,8 @@
 
 #include "Geometry/PatchSampler.h"
 #include "Geometry/SceneRayCaster.h"
-#include "Scattering/DiffusionProfile.h"
 #include "Scene/PatchScene.h"
+#include "Shared/Fresnel.h"
 #include "Shared/Threads.h"
 #include "vtkCommunicator.h"
 #include "vtkDataArray.h"
@@ -246,7 +246,7 @@ bool vtkDirectIrradiance::Internals::LightPatch(const Light& light, const PatchP
     smallest = std::min(smallest, strength);
     largest = std::max(largest, strength);
     sum.Add(light.Color, strength / count,
-      DiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
+      Fresnel::GetTransmittance(cosine, this->RefractiveIndex));
   }
   // A narrow shadow or light along an edge misses all points, but hardly all corners.
   const int corners = refined ? 0 : this->Scene.GetNumberOfCorners(patch);
@@ -301,7 +301,7 @@ void vtkDirectIrradiance::Internals::AddEnvironment(const PatchPoints& points, v
     {
       double radiance[Bands];
       this->Surroundings.Evaluate(direction, radiance);
-      sum.Add(radiance, weight, DiffusionProfile::GetTransmittance(cosine, this->RefractiveIndex));
+      sum.Add(radiance, weight, Fresnel::GetTransmittance(cosine, this->RefractiveIndex));
     }
   }
   this->Rays[patch] += this->EnvironmentSamples;

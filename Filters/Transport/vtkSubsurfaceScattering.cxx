@@ -5,6 +5,7 @@
 #include "Scattering/DiffusionProfile.h"
 #include "Scattering/ScatteringExchange.h"
 #include "Scene/PatchScene.h"
+#include "Shared/Fresnel.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -210,7 +211,7 @@ bool vtkSubsurfaceScattering::FindOptics(Optics& optics)
     return false;
   }
   optics.Entering = this->Incidence == INCIDENCE_DIFFUSE
-    ? 1.0 - DiffusionProfile::GetMeanExternalReflectance(optics.RefractiveIndex)
+    ? 1.0 - Fresnel::GetMeanExternalReflectance(optics.RefractiveIndex)
     : 1.0;
   return true;
 }

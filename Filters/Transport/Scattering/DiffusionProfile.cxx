@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/DiffusionProfile.h"
 
-#include "Support/GaussLegendre.h"
+#include "Shared/Fresnel.h"
+#include "Shared/GaussLegendre.h"
 #include "vtkMath.h"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ const DiffusionProfile::Material* DiffusionProfile::FindMaterial(int number)
 DiffusionProfile::DiffusionProfile(double scattering, double absorption, double refractiveIndex)
 {
   const double extinction = scattering + absorption;
-  const double internal = GetMeanInternalReflectance(refractiveIndex);
+  const double internal = Fresnel::GetMeanInternalReflectance(refractiveIndex);
   const double mismatch = (1.0 + internal) / (1.0 - internal);
   this->Albedo = scattering / extinction;
   this->DiffusionCoefficient = 1.0 / (3.0 * extinction);
@@ -177,50 +178,5 @@ double DiffusionProfile::InterpolateSecondMoment(int source, double radius) cons
     x *
     (slopes[0] +
       x * (3.0 * rise - 2.0 * slopes[0] - slopes[1] + x * (slopes[0] + slopes[1] - 2.0 * rise)));
-}
-
-//------------------------------------------------------------------------------
-double DiffusionProfile::GetMeanInternalReflectance(double refractiveIndex)
-{
-  const double n = refractiveIndex;
-  return n > 1.0 ? -1.4399 / (n * n) + 0.7099 / n + 0.6681 + 0.0636 * n : 0.0;
-}
-
-//------------------------------------------------------------------------------
-double DiffusionProfile::GetMeanExternalReflectance(double refractiveIndex)
-{
-  if (refractiveIndex <= 1.0)
-  {
-    return 0.0;
-  }
-  // The reflectance changes fast at grazing angles when the index is near 1: cosine = t^4.
-  const GaussLegendre rule(64);
-  double transmitted = 0.0;
-  for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
-  {
-    const double t = rule.Nodes[k];
-    const double cosine = t * t * t * t;
-    transmitted +=
-      rule.Weights[k] * 2.0 * cosine * GetTransmittance(cosine, refractiveIndex) * 4.0 * t * t * t;
-  }
-  return 1.0 - transmitted;
-}
-
-//------------------------------------------------------------------------------
-double DiffusionProfile::GetTransmittance(double cosine, double refractiveIndex)
-{
-  const double n = refractiveIndex;
-  if (!(cosine > 0.0))
-  {
-    return 0.0;
-  }
-  if (n <= 1.0)
-  {
-    return 1.0;
-  }
-  const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (n * n));
-  const double parallel = (n * cosine - inside) / (n * cosine + inside);
-  const double perpendicular = (cosine - n * inside) / (cosine + n * inside);
-  return 1.0 - 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 } // namespace LightTransport

@@ -4,8 +4,7 @@
  * Diffuse reflectance of a semi-infinite translucent medium in one band: how much of the light that
  * enters at one point leaves per unit area at distance r. The classical dipole (H. W. Jensen et
  * al., "A Practical Model for Subsurface Light Transport", SIGGRAPH 2001, with the correction of
- * the first term made in C. Donner and H. W. Jensen, 2005), and the Fresnel quantities that belong
- * to it. Lengths in millimetres.
+ * the first term made in C. Donner and H. W. Jensen, 2005). Lengths in millimetres.
  */
 #ifndef DiffusionProfile_h
 #define DiffusionProfile_h
@@ -58,20 +57,6 @@ public:
   double GetRealDepth() const { return this->Depths[0]; }
   double GetVirtualDepth() const { return this->Depths[1]; }
   ///@}
-
-  /**
-   * Mean Fresnel reflectance of diffuse light that meets the surface from inside, F_dr: polynomial
-   * of W. G. Egan and T. W. Hilgeman, "Optical Properties of Inhomogeneous Materials", 1979;
-   * exactly 0 for an index of 1.
-   */
-  static double GetMeanInternalReflectance(double refractiveIndex);
-
-  /// Mean Fresnel reflectance of diffuse light from outside, by quadrature.
-  static double GetMeanExternalReflectance(double refractiveIndex);
-
-  /// Part of unpolarised light from outside that enters, at an angle of incidence given by its
-  /// cosine.
-  static double GetTransmittance(double cosine, double refractiveIndex);
 
 private:
   void TabulateSecondMoment();

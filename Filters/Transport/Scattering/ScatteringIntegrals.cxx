@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringIntegrals.h"
 
-#include "Support/GaussLegendre.h"
+#include "Shared/GaussLegendre.h"
 
 #include <algorithm>
 #include <cmath>

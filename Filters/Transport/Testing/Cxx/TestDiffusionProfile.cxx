@@ -4,6 +4,7 @@
 // against exact integrals, tails and moments against quadrature.
 #include "LightTransportTesting.h"
 #include "Scattering/DiffusionProfile.h"
+#include "Shared/Fresnel.h"
 #include "vtkSubsurfaceScattering.h"
 
 #include <cstring>
@@ -176,20 +177,22 @@ void TestFresnel()
   for (const auto& mean : Means)
   {
     const std::string what = "index " + std::to_string(mean[0]);
-    Check(std::abs(DiffusionProfile::GetMeanInternalReflectance(mean[0]) - mean[1]) < 5.1e-7,
+    Check(std::abs(Fresnel::GetMeanInternalReflectance(mean[0]) - mean[1]) < 5.1e-7,
       what + " internal");
-    Check(std::abs(DiffusionProfile::GetMeanExternalReflectance(mean[0]) - mean[2]) < 5.1e-7,
+    Check(std::abs(Fresnel::GetMeanExternalReflectance(mean[0]) - mean[2]) < 5.1e-7,
       what + " external");
   }
-  Check(DiffusionProfile::GetMeanInternalReflectance(1.0) == 0.0, "index 1 internal");
-  Check(DiffusionProfile::GetMeanExternalReflectance(1.0) == 0.0, "index 1 external");
-  Check(DiffusionProfile::GetTransmittance(0.3, 1.0) == 1.0, "index 1 transmits all");
-  CheckClose(DiffusionProfile::GetTransmittance(1.0, 1.5), 0.96, 1e-14, "normal incidence");
+  Check(Fresnel::GetMeanInternalReflectance(1.0) == 0.0, "index 1 internal");
+  Check(Fresnel::GetMeanExternalReflectance(1.0) == 0.0, "index 1 external");
+  Check(Fresnel::GetTransmittance(0.3, 1.0) == 1.0, "index 1 transmits all");
+  Check(Fresnel::GetReflectance(0.3, 1.0) == 0.0, "index 1 reflects nothing");
+  Check(Fresnel::GetReflectance(0.0, 1.5) == 1.0, "light along the surface is reflected");
+  CheckClose(Fresnel::GetTransmittance(1.0, 1.5), 0.96, 1e-14, "normal incidence");
   // Brewster's angle: only the perpendicular half is reflected.
   const double brewster = std::cos(std::atan(1.5));
   const double reflected = (1.0 - 1.5 * 1.5) / (1.0 + 1.5 * 1.5);
-  CheckClose(DiffusionProfile::GetTransmittance(brewster, 1.5), 1.0 - 0.5 * reflected * reflected,
-    1e-14, "Brewster's angle");
+  CheckClose(Fresnel::GetTransmittance(brewster, 1.5), 1.0 - 0.5 * reflected * reflected, 1e-14,
+    "Brewster's angle");
   const DiffusionProfile matched(1.0, 0.0, 1.0);
   CheckClose(matched.GetVirtualDepth(), 7.0 / 3.0, 1e-14, "virtual depth at index 1");
 }

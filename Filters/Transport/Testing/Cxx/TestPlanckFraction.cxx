@@ -3,7 +3,7 @@
 // Shares of black body radiation against integrals with 30 digits, quadrature, and each other.
 #include "LightTransportTesting.h"
 #include "Radiosity/PlanckFraction.h"
-#include "Support/GaussLegendre.h"
+#include "Shared/GaussLegendre.h"
 
 #include <limits>
 

@@ -5,7 +5,7 @@
 // of which every single factor is known, with and without a wall between them, and closed scenes.
 // Wherever a whole row is known, Tolerance must bound the sum of the absolute errors in it, and
 // ViewFactorError must cover that sum.
-#include "Support/GaussLegendre.h"
+#include "Shared/GaussLegendre.h"
 #include "ViewFactorTesting.h"
 
 #include <algorithm>
