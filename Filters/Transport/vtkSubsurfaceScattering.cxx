@@ -4,6 +4,7 @@
 
 #include "Scattering/DiffusionProfile.h"
 #include "Scattering/ScatteringExchange.h"
+#include "Scattering/ScatteringMaterials.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Fresnel.h"
 #include "vtkCommunicator.h"
@@ -114,7 +115,7 @@ vtkSubsurfaceScattering::~vtkSubsurfaceScattering() = default;
 bool vtkSubsurfaceScattering::GetMaterialProperties(int material, double scattering[3],
   double absorption[3], double& refractiveIndex)
 {
-  const DiffusionProfile::Material* found = DiffusionProfile::FindMaterial(material);
+  const ScatteringMaterial* found = ScatteringMaterials::Find(material);
   if (!found)
   {
     return false;
@@ -132,7 +133,7 @@ const char* vtkSubsurfaceScattering::GetMaterialName(int material)
   {
     return "Custom";
   }
-  const DiffusionProfile::Material* found = DiffusionProfile::FindMaterial(material);
+  const ScatteringMaterial* found = ScatteringMaterials::Find(material);
   return found ? found->Name : nullptr;
 }
 

@@ -16,21 +16,6 @@ namespace LightTransport
 class DiffusionProfile
 {
 public:
-  /// A preset: coefficients of red, green and blue.
-  struct Material
-  {
-    const char* Name;
-    double Scattering[3];
-    double Absorption[3];
-    double RefractiveIndex;
-  };
-
-  /**
-   * The measured materials by number, 1 to 12 (0 is a custom material: nullptr, as for any other
-   * number). Jensen et al. 2001, table 1; refractive indices from the same place.
-   */
-  static const Material* FindMaterial(int number);
-
   /**
    * Reduced scattering and absorption coefficients (per mm; not negative, not both zero) and the
    * refractive index relative to the outside (at least 1).
