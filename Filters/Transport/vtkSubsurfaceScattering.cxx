@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubsurfaceScattering.h"
 
-#include "Scattering/DiffusionProfile.h"
-#include "Scattering/ScatteringExchange.h"
+#include "Scattering/ScatteringAssembly.h"
 #include "Scattering/ScatteringMaterials.h"
+#include "Scattering/ScatteringModels.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Fresnel.h"
 #include "vtkCommunicator.h"
@@ -296,16 +296,22 @@ bool vtkSubsurfaceScattering::MakeLinks(const Optics& optics)
   {
     return false;
   }
-  std::vector<DiffusionProfile> profiles;
+  std::vector<ScatteringMedium> media;
   for (int band = 0; band < Bands; ++band)
   {
-    profiles.emplace_back(optics.Scattering[band], optics.Absorption[band], optics.RefractiveIndex);
+    media.push_back({ optics.Scattering[band], optics.Absorption[band], optics.RefractiveIndex });
+  }
+  ScatteringProfiles profiles;
+  if (Outcome made = ScatteringModels::MakeProfiles(this->Model, media, profiles); !made)
+  {
+    vtkErrorMacro(<< made.GetMessage());
+    return false;
   }
   this->SetProgressStage(0.0, 0.95);
-  ScatteringExchange::Summary summary;
-  if (!ScatteringExchange::Fill(
-        self.Scene, scale, profiles, this->LinkTolerance, exchange,
-        [this](double fraction) { return this->ReportProgress(fraction); }, summary))
+  const Monitor monitor([this](double fraction) { return this->ReportProgress(fraction); });
+  ScatteringAssembly::Summary summary;
+  if (!ScatteringAssembly::Fill(self.Scene, scale, profiles, this->LinkTolerance, exchange, monitor,
+        summary))
   {
     return false;
   }

@@ -34,6 +34,23 @@ constexpr double NegligiblePart = 0.01;
 /// Of the logarithmic range of distances that one rule takes in a triangle with itself.
 constexpr double WidestPart = 1.5;
 
+/// Above the longest distance, for rounding.
+constexpr double Margin = 1.01;
+/// What is smaller counts as nothing: denormal numbers would be slow.
+constexpr double SmallestValue = 1e-30;
+
+///@{ The logarithm of a profile changes by about SlopeNearby / sqrt(r^2 + scale^2) + decay per
+/// length: by 3 near a point source, and there is a margin. The distance of the points from the
+/// centroids on that scale is the spread s of a pair. Each rule's error is estimated from its value
+/// v and its difference from the rule before; these factors bound 99 of 100 errors of random pairs.
+constexpr double SlopeNearby = 3.5;
+constexpr double ErrorOfOne = 0.15;               // s^2 v1
+constexpr double ErrorOfThree[] = { 0.1, 0.01 };  // s |v3 - v1| and s^4 v3
+constexpr double ErrorOfSix[] = { 0.05, 0.0005 }; // s |v6 - v3| and s^6 v6
+/// Of s^2; beyond it no rule is good.
+constexpr double WidestSpread2 = 4.0;
+///@}
+
 constexpr float WeightsOfThree[] = { 1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f };
 /// D. A. Dunavant, 1985: degree 4.
 constexpr double PlacesOfSix[] = { 0.445948490915965, 0.091576213509771 };
@@ -86,21 +103,21 @@ ScatteringIntegrals::Triangle::Triangle(const Vector& a, const Vector& b, const 
 }
 
 //------------------------------------------------------------------------------
-ScatteringIntegrals::ScatteringIntegrals(const std::vector<DiffusionProfile>& profiles,
-  double maximumDistance, double relativeTolerance)
+ScatteringIntegrals::ScatteringIntegrals(const ScatteringProfiles& profiles, double maximumDistance,
+  double relativeTolerance)
   : Profiles(profiles), RelativeTolerance(relativeTolerance)
 {
-  double depth = profiles[0].GetRealDepth();
+  double smallest = profiles[0]->GetSmallestScale();
   for (int band = 0; band < NumberOfBands; ++band)
   {
-    const double total = profiles[band].GetTotal();
-    this->Scales[band] = total > 0.0 ? 1.0 / total : 0.0;
-    depth = std::min(depth, profiles[band].GetRealDepth());
-    const double bandDepth = profiles[band].GetRealDepth();
-    this->SquaredDepths[band] = bandDepth * bandDepth;
-    this->TransportCoefficients[band] = profiles[band].GetTransportCoefficient();
+    const double total = profiles[band]->GetTotal();
+    const double scale = profiles[band]->GetSmallestScale();
+    this->InverseTotals[band] = total > 0.0 ? 1.0 / total : 0.0;
+    this->SquaredScales[band] = scale * scale;
+    this->Decays[band] = profiles[band]->GetDecay();
+    smallest = std::min(smallest, scale);
   }
-  this->SquaredDepth = depth * depth;
+  this->SquaredScale = smallest * smallest;
   this->Tabulate(maximumDistance);
 }
 
@@ -108,11 +125,11 @@ ScatteringIntegrals::ScatteringIntegrals(const std::vector<DiffusionProfile>& pr
 void ScatteringIntegrals::Tabulate(double maximumDistance)
 {
   const auto pieceOf = [](double value) { return BitsOf(static_cast<float>(value)) >> PlaceBits; };
-  this->FirstPiece = pieceOf(this->SquaredDepth);
+  this->FirstPiece = pieceOf(this->SquaredScale);
   // The table starts at the beginning of a piece, so that no piece reaches below distance zero.
-  this->SquaredDepth = FloatOf(this->FirstPiece << PlaceBits);
+  this->SquaredScale = FloatOf(this->FirstPiece << PlaceBits);
   const std::uint32_t lastPiece =
-    pieceOf(1.01 * (maximumDistance * maximumDistance + this->SquaredDepth)) + 1;
+    pieceOf(Margin * (maximumDistance * maximumDistance + this->SquaredScale)) + 1;
   this->Table.resize(lastPiece - this->FirstPiece + 1);
   for (std::size_t i = 0; i < this->Table.size(); ++i)
   {
@@ -128,11 +145,10 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
       double values[3];
       for (int k = 0; k < 3; ++k)
       {
-        const double squared = begin + 0.5 * k * length - this->SquaredDepth;
-        // Denormal numbers would be slow, and are nothing.
-        const double value =
-          this->Scales[band] * this->Profiles[band].Evaluate(std::sqrt(std::max(0.0, squared)));
-        values[k] = value > 1e-30 ? value : 0.0;
+        const double squared = begin + 0.5 * k * length - this->SquaredScale;
+        const double value = this->InverseTotals[band] *
+          this->Profiles[band]->Evaluate(std::sqrt(std::max(0.0, squared)));
+        values[k] = value > SmallestValue ? value : 0.0;
       }
       this->Table[i].Coefficients[0][band] = static_cast<float>(values[0]);
       this->Table[i].Coefficients[1][band] =
@@ -146,7 +162,7 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
 //------------------------------------------------------------------------------
 inline ScatteringIntegrals::Lane ScatteringIntegrals::Evaluate(double squaredDistance) const
 {
-  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredDepth));
+  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredScale));
   const Piece& piece = this->Table[(bits >> PlaceBits) - this->FirstPiece];
   constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
   const float place = static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits));
@@ -159,8 +175,8 @@ double ScatteringIntegrals::GetBound(double distance) const
   double bound = 0.0;
   for (int band = 0; band < NumberOfBands; ++band)
   {
-    bound =
-      std::max(bound, this->Scales[band] * this->Profiles[band].Evaluate(std::max(0.0, distance)));
+    bound = std::max(bound,
+      this->InverseTotals[band] * this->Profiles[band]->Evaluate(std::max(0.0, distance)));
   }
   return bound;
 }
@@ -186,12 +202,9 @@ ScatteringIntegrals::Bands ScatteringIntegrals::IntegrateProduct(const Vector* a
 bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const Goal& goal,
   bool last, Sum& sum) const
 {
-  // The profile's logarithm changes by about 3.5 / D + sigma per length, D the distance to the
-  // source; `spread` is the distance of the points from the centroids on that scale. The factors
-  // below bound 99 of 100 errors of random pairs.
   const double areas = a.Area * b.Area;
   const double distance2 = (a.Centroid - b.Centroid).squaredNorm();
-  const Bands slope = 3.5 / (distance2 + this->SquaredDepths).sqrt() + this->TransportCoefficients;
+  const Bands slope = SlopeNearby / (distance2 + this->SquaredScales).sqrt() + this->Decays;
   const Bands spread2 = slope.square() * (a.Moment + b.Moment);
   const auto accept = [&](const Bands& value, const Bands& error)
   {
@@ -212,7 +225,7 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
   // A band for which the triangles are too large for any rule may be one for which they are too far
   // apart to matter.
   Bands peak = Bands::Zero();
-  const auto wide = (spread2 > 4.0).eval();
+  const auto wide = (spread2 > WidestSpread2).eval();
   if (!last && wide.any())
   {
     const double nearest = std::max(0.0, std::sqrt(distance2) - a.Radius - b.Radius);
@@ -222,7 +235,7 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
       return false;
     }
   }
-  if (!last && accept(one, wide.select(peak, 0.15 * spread2 * one)))
+  if (!last && accept(one, wide.select(peak, ErrorOfOne * spread2 * one)))
   {
     return true;
   }
@@ -231,7 +244,9 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
   const Bands spread = spread2.sqrt();
   if (!last &&
     accept(three,
-      wide.select(peak, 0.1 * spread * (three - one).abs() + 0.01 * spread2.square() * three)))
+      wide.select(peak,
+        ErrorOfThree[0] * spread * (three - one).abs() +
+          ErrorOfThree[1] * spread2.square() * three)))
   {
     return true;
   }
@@ -241,8 +256,8 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
   PlaceSix(b, pointsB);
   const Bands six = this->IntegrateProduct(pointsA, WeightsOfSix, 6, pointsB, WeightsOfSix, 6);
   const Bands difference = (six - three).abs();
-  const Bands error =
-    (0.05 * spread * difference + 0.0005 * spread2.cube() * six).min(six + difference);
+  const Bands error = (ErrorOfSix[0] * spread * difference + ErrorOfSix[1] * spread2.cube() * six)
+                        .min(six + difference);
   return accept(six, last ? error : Bands(wide.select(peak, error)));
 }
 
@@ -326,8 +341,8 @@ void ScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) cons
         for (int band = 0; band < NumberOfBands; ++band)
         {
           double moments[3];
-          this->Profiles[band].GetMoments(reach, moments);
-          result.Value[band] += weight * this->Scales[band] *
+          this->Profiles[band]->GetMoments(reach, moments);
+          result.Value[band] += weight * this->InverseTotals[band] *
             (moments[0] - 2.0 * moments[1] / reach + moments[2] / (reach * reach));
         }
       }

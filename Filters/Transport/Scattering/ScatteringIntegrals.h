@@ -16,7 +16,7 @@
 #ifndef ScatteringIntegrals_h
 #define ScatteringIntegrals_h
 
-#include "Scattering/DiffusionProfile.h"
+#include "Scattering/ScatteringProfile.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -59,10 +59,11 @@ public:
   };
 
   /**
-   * `profiles` has one profile per band, `maximumDistance` is the longest distance that will be
-   * asked for. Of each integral an error of `relativeTolerance` times its value is allowed.
+   * `profiles` has one profile per band and must outlive this, `maximumDistance` is the longest
+   * distance that will be asked for. Of each integral an error of `relativeTolerance` times its
+   * value is allowed.
    */
-  ScatteringIntegrals(const std::vector<DiffusionProfile>& profiles, double maximumDistance,
+  ScatteringIntegrals(const ScatteringProfiles& profiles, double maximumDistance,
     double relativeTolerance);
 
   /// Largest of all bands' R_d(distance) / total: an upper bound, as profiles fall with distance.
@@ -105,14 +106,14 @@ private:
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
   void Tabulate(double maximumDistance);
 
-  std::vector<DiffusionProfile> Profiles;
-  double Scales[NumberOfBands];
+  const ScatteringProfiles& Profiles;
+  double InverseTotals[NumberOfBands];
   double RelativeTolerance;
-  /// Smallest depth of all sources, squared.
-  double SquaredDepth = 0.0;
+  /// Smallest scale of all profiles, squared.
+  double SquaredScale = 0.0;
   ///@{ Per band; the padding is flat.
-  Bands SquaredDepths = Bands::Constant(std::numeric_limits<double>::infinity());
-  Bands TransportCoefficients = Bands::Zero();
+  Bands SquaredScales = Bands::Constant(std::numeric_limits<double>::infinity());
+  Bands Decays = Bands::Zero();
   ///@}
   std::vector<Piece> Table;
   std::uint32_t FirstPiece = 0;

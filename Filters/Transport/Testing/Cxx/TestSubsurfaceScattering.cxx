@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spheres in uniform light against their exact value, and the properties of the filter.
 #include "LightTransportTesting.h"
-#include "Scattering/DiffusionProfile.h"
+#include "Scattering/DipoleProfile.h"
 #include "vtkDirectIrradiance.h"
 #include "vtkLight.h"
 #include "vtkPLYReader.h"
@@ -104,7 +104,7 @@ double GetMean(vtkSubsurfaceScattering* filter, int band)
 /// 1 gives exactly the profile's total less its tail beyond the diameter.
 double GetExact(int band, double radius)
 {
-  const DiffusionProfile profile(Scattering[band], Absorption[band], 1.3);
+  const DipoleProfile profile({ Scattering[band], Absorption[band], 1.3 });
   return profile.GetTotal() - profile.GetTail(2.0 * radius);
 }
 
@@ -369,7 +369,7 @@ void TestBunny(const char* fileName)
       double s[3], a[3], index;
       vtkSubsurfaceScattering::GetMaterialProperties(vtkSubsurfaceScattering::MATERIAL_MARBLE, s, a,
         index);
-      const DiffusionProfile profile(s[band], a[band], index);
+      const DipoleProfile profile({ s[band], a[band], index });
       const double ratio = leaving->GetComponent(0, band) / entering->GetComponent(0, band);
       const std::string what = "bunny lit from " + std::to_string(side) + " z, band " +
         std::to_string(band) + ", leaving / entering " + std::to_string(ratio);

@@ -3,6 +3,7 @@
 // The profile integrated over pairs of triangles and over one triangle twice, against brute force,
 // for triangles from much smaller to much larger than the mean free path.
 #include "LightTransportTesting.h"
+#include "Scattering/DipoleProfile.h"
 #include "Scattering/ScatteringIntegrals.h"
 
 using namespace LightTransport;
@@ -18,9 +19,16 @@ using Result3 = ScatteringIntegrals::Result;
 constexpr double Tolerance = 4e-5;
 
 //------------------------------------------------------------------------------
-std::vector<DiffusionProfile> MakeProfiles()
+ScatteringProfiles MakeProfiles()
 {
-  return { { 2.19, 0.0021, 1.5 }, { 2.62, 0.0041, 1.5 }, { 1.0, 1.0, 1.3 } };
+  const ScatteringMedium media[] = { { 2.19, 0.0021, 1.5 }, { 2.62, 0.0041, 1.5 },
+    { 1.0, 1.0, 1.3 } };
+  ScatteringProfiles profiles;
+  for (const ScatteringMedium& medium : media)
+  {
+    profiles.push_back(std::make_unique<DipoleProfile>(medium));
+  }
+  return profiles;
 }
 
 //------------------------------------------------------------------------------
@@ -46,7 +54,8 @@ std::vector<Vector> GetCentroids(const Triangle& triangle, int cuts)
 
 //------------------------------------------------------------------------------
 /// All pairs of small triangles by their centroids.
-double SumCentroids(const DiffusionProfile& profile, const Triangle& a, const Triangle& b, int cuts)
+double SumCentroids(const ScatteringProfile& profile, const Triangle& a, const Triangle& b,
+  int cuts)
 {
   const std::vector<Vector> from = GetCentroids(a, cuts);
   const std::vector<Vector> to = GetCentroids(b, cuts);
@@ -64,7 +73,7 @@ double SumCentroids(const DiffusionProfile& profile, const Triangle& a, const Tr
 //------------------------------------------------------------------------------
 /// Mean of the profile over both triangles, over its total; the error falls with the square of the
 /// number of cuts, which extrapolation removes.
-double BruteForce(const DiffusionProfile& profile, const Triangle& a, const Triangle& b, int cuts)
+double BruteForce(const ScatteringProfile& profile, const Triangle& a, const Triangle& b, int cuts)
 {
   const double coarse = SumCentroids(profile, a, b, cuts / 2);
   const double fine = SumCentroids(profile, a, b, cuts);
@@ -91,7 +100,7 @@ const Case Cases[] = { { "coplanar edge", { Side, Origin, { 0.6, -0.8, 0.0 } } }
 //------------------------------------------------------------------------------
 void TestPairs()
 {
-  const std::vector<DiffusionProfile> profiles = MakeProfiles();
+  const ScatteringProfiles profiles = MakeProfiles();
   for (const double size : { 0.003, 0.05, 0.5, 3.0 })
   {
     const ScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
@@ -109,7 +118,7 @@ void TestPairs()
       {
         const std::string what = std::string(other.Name) + ", size " + std::to_string(size) +
           ", band " + std::to_string(band);
-        const double expected = BruteForce(profiles[band], first, second, size > 1.0 ? 48 : 16);
+        const double expected = BruteForce(*profiles[band], first, second, size > 1.0 ? 48 : 16);
         Check(std::abs(result.Value[band] - expected) <= 2e-4 * expected + 10.0 * tolerance, what);
         Check(std::abs(mirrored.Value[band] - expected) <= 2e-4 * expected + 10.0 * tolerance,
           what + " mirrored");
@@ -124,7 +133,7 @@ void TestPairs()
 /// The four quarters of a triangle: with themselves and with each other they make the whole.
 void TestSelf()
 {
-  const std::vector<DiffusionProfile> profiles = MakeProfiles();
+  const ScatteringProfiles profiles = MakeProfiles();
   for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0 })
   {
     const ScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
@@ -153,7 +162,7 @@ void TestSelf()
     }
     if (size < 1.0)
     {
-      CheckClose(self.Value[0], BruteForce(profiles[0], whole, whole, 16), 1e-3,
+      CheckClose(self.Value[0], BruteForce(*profiles[0], whole, whole, 16), 1e-3,
         "self against brute force, size " + std::to_string(size));
     }
   }
@@ -164,7 +173,7 @@ void TestSelf()
 /// edge, 2 int R r^2 dr.
 void TestWidePatch()
 {
-  const std::vector<DiffusionProfile> profiles = MakeProfiles();
+  const ScatteringProfiles profiles = MakeProfiles();
   const double size = 3000.0;
   const ScatteringIntegrals integrals(profiles, size, Tolerance);
   const Triangle patch(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
@@ -178,9 +187,9 @@ void TestWidePatch()
   for (int band = 0; band < 3; ++band)
   {
     double moments[3];
-    profiles[band].GetMoments(1e4, moments);
+    profiles[band]->GetMoments(1e4, moments);
     // A convex body and its copy displaced by r overlap in A - r P / pi on average over directions.
-    const double crossing = 2.0 * perimeter * moments[1] / profiles[band].GetTotal();
+    const double crossing = 2.0 * perimeter * moments[1] / profiles[band]->GetTotal();
     CheckClose(patch.Area - self.Value[band], crossing, 2e-2,
       "crossing the edges, band " + std::to_string(band));
   }
@@ -188,7 +197,7 @@ void TestWidePatch()
 } // namespace
 
 //------------------------------------------------------------------------------
-int TestScatteringExchange(int, char*[])
+int TestScatteringIntegrals(int, char*[])
 {
   TestPairs();
   TestSelf();

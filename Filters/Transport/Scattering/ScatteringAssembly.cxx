@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Scattering/ScatteringExchange.h"
+#include "Scattering/ScatteringAssembly.h"
 
 #include "Scattering/ScatteringIntegrals.h"
 #include "Scene/PatchScene.h"
@@ -18,22 +18,28 @@ using Triangle = ScatteringIntegrals::Triangle;
 
 /// Rows of a tile that one thread works on at a time.
 constexpr int RowsPerStrip = 8;
-/// Calls of the progress function; the same on all ranks.
+/// Calls of the monitor; the same on all ranks.
 constexpr int NumberOfBatches = 50;
 
 ///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours, of which a
 /// triangle mesh has about 40 within
-/// reach.
+/// reach: NeighbourReach times the sum of both radii.
 constexpr double ShareOfValues = 0.4;
 constexpr double ShareOfAreas = 0.3;
 constexpr double ShareOfNeighbours = 0.3 / 40.0;
+constexpr double NeighbourReach = 2.0;
 ///@}
+
+/// Above the longest distance in the scene.
+constexpr double RoundingMargin = 1.01;
+/// Halvings of the longest distance in the search for the one beyond which pairs are left out.
+constexpr int CutOffSteps = 60;
 
 //------------------------------------------------------------------------------
 /// Patches in millimetres.
-struct Patches
+struct Body
 {
-  Patches(const PatchScene& scene, double scale)
+  Body(const PatchScene& scene, double scale)
   {
     const vtkIdType count = scene.GetNumberOfPatches();
     this->Offsets.reserve(count + 1);
@@ -78,21 +84,21 @@ struct StripSummary
 
 //------------------------------------------------------------------------------
 /// Fills strips of tiles.
-class Filler
+class StripFiller
 {
 public:
-  Filler(const Patches& patches, const ScatteringIntegrals& integrals,
-    const std::vector<DiffusionProfile>& profiles, double tolerance, double furthest,
+  StripFiller(const Body& body, const ScatteringIntegrals& integrals,
+    const ScatteringProfiles& profiles, double tolerance, double furthest,
     vtkExchangeMatrix* exchange)
-    : Scene(patches), Integrals(integrals), Tiles(exchange->GetTiles())
+    : Patches(body), Integrals(integrals), Tiles(exchange->GetTiles())
   {
     for (std::size_t band = 0; band < profiles.size(); ++band)
     {
-      this->Totals[band] = profiles[band].GetTotal();
+      this->Totals[band] = profiles[band]->GetTotal();
     }
     // A patch receives at most everything, and on a small body at most the peak from all of it.
-    const double allowed = tolerance * std::min(1.0, integrals.GetBound(0.0) * patches.TotalArea);
-    this->PerArea = ShareOfAreas * allowed / patches.TotalArea;
+    const double allowed = tolerance * std::min(1.0, integrals.GetBound(0.0) * body.TotalArea);
+    this->PerArea = ShareOfAreas * allowed / body.TotalArea;
     this->PerNeighbour = ShareOfNeighbours * allowed;
     this->FindCutOff(furthest);
   }
@@ -113,7 +119,7 @@ public:
   }
 
   /// Add what the strips came to, in their order, so that the sums do not depend on threads.
-  void Finish(ScatteringExchange::Summary& summary) const
+  void Finish(ScatteringAssembly::Summary& summary) const
   {
     for (std::size_t k = 0; k < this->Strips.size(); ++k)
     {
@@ -123,7 +129,7 @@ public:
       vtkIdType firstRow;
       const vtkExchangeMatrix::Tile& tile =
         this->Locate(this->FirstStrip + static_cast<vtkIdType>(k), firstRow);
-      const vtkIdType count = static_cast<vtkIdType>(this->Scene.Areas.size());
+      const vtkIdType count = static_cast<vtkIdType>(this->Patches.Areas.size());
       const vtkIdType row = tile.Row * vtkExchangeMatrix::TileSize + firstRow;
       const vtkIdType column = tile.Column * vtkExchangeMatrix::TileSize;
       for (vtkIdType i = 0; i < std::min<vtkIdType>(RowsPerStrip, count - row); ++i)
@@ -150,7 +156,7 @@ private:
       this->CutOff = end;
       return;
     }
-    for (int step = 0; step < 60; ++step)
+    for (int step = 0; step < CutOffSteps; ++step)
     {
       const double middle = 0.5 * (begin + end);
       (this->Integrals.GetBound(middle) >= this->PerArea ? begin : end) = middle;
@@ -169,7 +175,7 @@ private:
     StripSummary& summary = this->Strips[strip - this->FirstStrip];
     vtkIdType firstRow;
     vtkExchangeMatrix::Tile tile = this->Locate(strip, firstRow);
-    const vtkIdType count = static_cast<vtkIdType>(this->Scene.Areas.size());
+    const vtkIdType count = static_cast<vtkIdType>(this->Patches.Areas.size());
     const vtkIdType rowOffset = tile.Row * vtkExchangeMatrix::TileSize;
     const vtkIdType columnOffset = tile.Column * vtkExchangeMatrix::TileSize;
     for (vtkIdType row = firstRow; row < firstRow + RowsPerStrip; ++row)
@@ -201,9 +207,9 @@ private:
     }
     else
     {
-      const double reach = this->Scene.Radii[i] + this->Scene.Radii[j];
-      const double distance = (this->Scene.Centroids[i] - this->Scene.Centroids[j]).norm();
-      const double areas = this->Scene.Areas[i] * this->Scene.Areas[j];
+      const double reach = this->Patches.Radii[i] + this->Patches.Radii[j];
+      const double distance = (this->Patches.Centroids[i] - this->Patches.Centroids[j]).norm();
+      const double areas = this->Patches.Areas[i] * this->Patches.Areas[j];
       if (distance - reach > this->CutOff)
       {
         ++summary.LeftOut;
@@ -211,9 +217,9 @@ private:
       }
       ++summary.Links;
       double tolerance = this->PerArea * areas;
-      if (distance < 2.0 * reach)
+      if (distance < NeighbourReach * reach)
       {
-        tolerance += this->PerNeighbour * std::min(this->Scene.Areas[i], this->Scene.Areas[j]);
+        tolerance += this->PerNeighbour * std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
       }
       this->IntegratePair(i, j, tolerance / areas, result);
     }
@@ -228,12 +234,12 @@ private:
   void IntegratePair(vtkIdType i, vtkIdType j, double tolerancePerAreas,
     ScatteringIntegrals::Result& result) const
   {
-    for (vtkIdType p = this->Scene.Offsets[i]; p < this->Scene.Offsets[i + 1]; ++p)
+    for (vtkIdType p = this->Patches.Offsets[i]; p < this->Patches.Offsets[i + 1]; ++p)
     {
-      const Triangle& a = this->Scene.Triangles[p];
-      for (vtkIdType q = this->Scene.Offsets[j]; q < this->Scene.Offsets[j + 1]; ++q)
+      const Triangle& a = this->Patches.Triangles[p];
+      for (vtkIdType q = this->Patches.Offsets[j]; q < this->Patches.Offsets[j + 1]; ++q)
       {
-        const Triangle& b = this->Scene.Triangles[q];
+        const Triangle& b = this->Patches.Triangles[q];
         this->Integrals.AddPair(a, b, tolerancePerAreas * a.Area * b.Area, result);
       }
     }
@@ -242,14 +248,14 @@ private:
   void IntegrateSelf(vtkIdType i, ScatteringIntegrals::Result& result) const
   {
     ScatteringIntegrals::Result pairs;
-    const double tolerance = this->PerNeighbour / this->Scene.Areas[i];
-    for (vtkIdType p = this->Scene.Offsets[i]; p < this->Scene.Offsets[i + 1]; ++p)
+    const double tolerance = this->PerNeighbour / this->Patches.Areas[i];
+    for (vtkIdType p = this->Patches.Offsets[i]; p < this->Patches.Offsets[i + 1]; ++p)
     {
-      const Triangle& a = this->Scene.Triangles[p];
+      const Triangle& a = this->Patches.Triangles[p];
       this->Integrals.AddSelf(a, result);
-      for (vtkIdType q = this->Scene.Offsets[i]; q < p; ++q)
+      for (vtkIdType q = this->Patches.Offsets[i]; q < p; ++q)
       {
-        const Triangle& b = this->Scene.Triangles[q];
+        const Triangle& b = this->Patches.Triangles[q];
         this->Integrals.AddPair(a, b, tolerance * a.Area * b.Area, pairs);
       }
     }
@@ -257,7 +263,7 @@ private:
     result.Error += 2.0 * pairs.Error;
   }
 
-  const Patches& Scene;
+  const Body& Patches;
   const ScatteringIntegrals& Integrals;
   const std::vector<vtkExchangeMatrix::Tile>& Tiles;
   double Totals[ScatteringIntegrals::NumberOfBands];
@@ -270,19 +276,19 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-bool ScatteringExchange::Fill(const PatchScene& scene, double millimetersPerSceneUnit,
-  const std::vector<DiffusionProfile>& profiles, double tolerance, vtkExchangeMatrix* exchange,
-  const std::function<bool(double)>& progress, Summary& summary)
+Outcome ScatteringAssembly::Fill(const PatchScene& scene, double millimetersPerSceneUnit,
+  const ScatteringProfiles& profiles, double tolerance, vtkExchangeMatrix* exchange,
+  const Monitor& monitor, Summary& summary)
 {
-  const Patches patches(scene, millimetersPerSceneUnit);
+  const Body body(scene, millimetersPerSceneUnit);
   // The scene's bounding box has diagonal 1.
-  const double furthest = 1.01 * millimetersPerSceneUnit;
+  const double furthest = RoundingMargin * millimetersPerSceneUnit;
   const ScatteringIntegrals integrals(profiles, furthest, ShareOfValues * tolerance);
-  Filler filler(patches, integrals, profiles, tolerance, furthest, exchange);
+  StripFiller filler(body, integrals, profiles, tolerance, furthest, exchange);
   summary = Summary();
-  summary.Errors.assign(patches.Areas.size(), 0.0);
+  summary.Errors.assign(body.Areas.size(), 0.0);
   const vtkIdType strips =
-    static_cast<vtkIdType>(exchange->GetTiles().size()) * Filler::StripsPerTile;
+    static_cast<vtkIdType>(exchange->GetTiles().size()) * StripFiller::StripsPerTile;
   for (int batch = 0; batch < NumberOfBatches; ++batch)
   {
     const vtkIdType first = strips * batch / NumberOfBatches;
@@ -290,11 +296,11 @@ bool ScatteringExchange::Fill(const PatchScene& scene, double millimetersPerScen
     filler.Start(first, last - first);
     Threads::For(first, last, 1, filler);
     filler.Finish(summary);
-    if (!progress(static_cast<double>(batch + 1) / NumberOfBatches))
+    if (Outcome goesOn = monitor.Check(static_cast<double>(batch + 1) / NumberOfBatches); !goesOn)
     {
-      return false;
+      return goesOn;
     }
   }
-  return true;
+  return Outcome::Done();
 }
 } // namespace LightTransport

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The models of scattering that are a profile of distance. A new one is a file with a class behind
+ * ScatteringProfile, and a line in the table of ScatteringModels.cxx. (A model that is none, such
+ * as photons that walk through the mesh, makes its links in another way and has no line here.)
+ */
+#ifndef ScatteringModels_h
+#define ScatteringModels_h
+
+#include "Scattering/ScatteringMedium.h"
+#include "Scattering/ScatteringProfile.h"
+#include "Shared/Outcome.h"
+
+#include <memory>
+#include <vector>
+
+namespace LightTransport
+{
+struct ScatteringModel
+{
+  /// In vtkSubsurfaceScattering::ModelType.
+  int Number;
+  const char* Name;
+  std::unique_ptr<const ScatteringProfile> (*MakeProfile)(const ScatteringMedium& medium);
+};
+
+namespace ScatteringModels
+{
+const std::vector<ScatteringModel>& GetAll();
+
+/// nullptr for a number that no profile has.
+const ScatteringModel* Find(int number);
+
+/// One profile for each band. Fails for a number that no profile has.
+Outcome MakeProfiles(int number, const std::vector<ScatteringMedium>& bands,
+  ScatteringProfiles& profiles);
+} // namespace ScatteringModels
+} // namespace LightTransport
+
+#endif
