@@ -27,13 +27,15 @@ public:
   static Outcome Done() { return Outcome(State::Done, {}); }
   static Outcome Aborted() { return Outcome(State::Aborted, {}); }
   static Outcome Failed(std::string message) { return Outcome(State::Failed, std::move(message)); }
+  /// A failure that has been reported where it happened, as VTK's own classes do.
+  static Outcome FailedAsReported() { return Failed({}); }
   /// Done, or aborted where something that reports progress said that it is to stop.
   static Outcome DoneUnlessAborted(bool goesOn) { return goesOn ? Done() : Aborted(); }
 
   explicit operator bool() const { return this->Which == State::Done; }
   bool IsAborted() const { return this->Which == State::Aborted; }
   bool HasFailed() const { return this->Which == State::Failed; }
-  /// Of a failure; may be empty where the problem has been reported already.
+  /// Of a failure; empty where it has been reported already.
   const std::string& GetMessage() const { return this->Message; }
 
 private:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDenseLinkOperator.h"
 
-#include "Links/LinkKernels.h"
+#include "Links/TileKernels.h"
 #include "Shared/Threads.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkObjectFactory.h"
@@ -100,11 +100,11 @@ struct TileProducts
     const vtkIdType column = tile.Column * N;
     if (row == column)
     {
-      LinkKernels::MultiplyTileRows(values, bands, this->Stride, x + row, y + row);
+      TileKernels::MultiplyTileRows(values, bands, this->Stride, x + row, y + row);
     }
     else
     {
-      LinkKernels::MultiplyTile(values, bands, this->Stride, x + row, x + column, y + row,
+      TileKernels::MultiplyTile(values, bands, this->Stride, x + row, x + column, y + row,
         y + column);
     }
   }
@@ -160,7 +160,7 @@ struct RowOfTiles
     for (int kernel = 0; kernel < kernels; ++kernel)
     {
       const auto multiply =
-        transposed ? LinkKernels::MultiplyTileColumns : LinkKernels::MultiplyTileRows;
+        transposed ? TileKernels::MultiplyTileColumns : TileKernels::MultiplyTileRows;
       multiply(values + kernel * N * N, bands, N, x + kernel * N, y + kernel * N);
     }
   }
@@ -279,7 +279,7 @@ void vtkDenseLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 //------------------------------------------------------------------------------
 const char* vtkDenseLinkOperator::GetInstructionSet()
 {
-  return LinkKernels::GetInstructionSet();
+  return TileKernels::GetInstructionSet();
 }
 
 //------------------------------------------------------------------------------

@@ -106,22 +106,17 @@ protected:
   vtkDirectIrradiance();
   ~vtkDirectIrradiance() override;
 
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  std::unique_ptr<LightTransport::TransportRun> MakeRun(
+    const LightTransport::RunPorts& ports) override;
 
 private:
   vtkDirectIrradiance(const vtkDirectIrradiance&) = delete;
   void operator=(const vtkDirectIrradiance&) = delete;
 
-  struct Internals;
+  class Run;
+  struct LightList;
 
-  bool ReadLights();
-  bool ReadEnvironment();
-  bool ComputeIrradiance();
-  void WriteResults(vtkDataObject* input, vtkDataObject* output, double seconds);
-
-  std::unique_ptr<Internals> Self;
-
+  std::unique_ptr<LightList> Lights;
   vtkImageData* Environment = nullptr;
   int EnvironmentSamples = 256;
   int ShadowSamples = 16;

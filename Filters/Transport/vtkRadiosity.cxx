@@ -2,18 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiosity.h"
 
+#include "Links/LinkOperators.h"
 #include "Radiosity/ProgressiveRadiosity.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolvers.h"
-#include "Scene/PatchScene.h"
+#include "Run/TransportRun.h"
+#include "Scene/CellArrays.h"
+#include "Scene/SceneOutput.h"
+#include "Scene/SmoothPoints.h"
+#include "Shared/ArrayNames.h"
+#include "Shared/FieldValues.h"
+#include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/ViewFactorStore.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDataObject.h"
 #include "vtkDeviceShooter.h"
 #include "vtkDoubleArray.h"
-#include "vtkExchangeMatrix.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -24,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 using namespace LightTransport;
 
@@ -46,22 +52,47 @@ constexpr double CoarsestLinks = 0.1;
 // The stages of a run as fractions of its progress.
 constexpr double CoarseDone = 0.3;
 constexpr double CoarseSolved = 0.35;
-constexpr double ViewFactorsDone = 0.8;
+constexpr double LinksDone = 0.8;
 constexpr double SolverDone = 0.98;
 
 //------------------------------------------------------------------------------
 // The largest error of a row sum. A row that has been closed is as good as its sum.
-double GetRowSumError(vtkViewFactors* viewFactors)
+double GetRowSumError(const Links& links)
 {
-  const std::vector<double>& errors = viewFactors->GetRowErrors();
-  const std::vector<double>& sums = viewFactors->GetRowSums();
   double largest = DoublePrecision;
-  for (std::size_t row = 0; row < errors.size(); ++row)
+  for (std::size_t row = 0; row < links.RowErrors.size(); ++row)
   {
-    const double gap = viewFactors->HasClosedRows() ? std::abs(1.0 - sums[row]) : errors[row];
-    largest = std::max(largest, std::min(errors[row], gap));
+    const double error = links.RowErrors[row];
+    const double gap = links.AreRowsClosed ? std::abs(1.0 - links.RowSums[row]) : error;
+    largest = std::max(largest, std::min(error, gap));
   }
   return largest;
+}
+
+//------------------------------------------------------------------------------
+// The largest radiosity of each patch over its bands; nothing counts as so dark that row sums,
+// which rows are closed by, are less well known than to the coarse tolerance.
+std::vector<double> FindBrightness(const std::vector<double>& radiosity,
+  const std::vector<double>& areas)
+{
+  const std::size_t bands = radiosity.size() / areas.size();
+  std::vector<double> brightness(areas.size(), 0.0);
+  for (std::size_t k = 0; k < radiosity.size(); ++k)
+  {
+    brightness[k / bands] = std::max(brightness[k / bands], std::abs(radiosity[k]));
+  }
+  double squared = 0.0;
+  for (std::size_t patch = 0; patch < areas.size(); ++patch)
+  {
+    squared += areas[patch] * brightness[patch] * brightness[patch];
+  }
+  const double darkest =
+    std::sqrt(squared / std::accumulate(areas.begin(), areas.end(), 0.0)) / CoarseLinks;
+  for (double& value : brightness)
+  {
+    value = std::max(value, darkest);
+  }
+  return brightness;
 }
 
 //------------------------------------------------------------------------------
@@ -82,21 +113,460 @@ void PrintValues(ostream& os, const std::vector<double>& values)
 } // namespace
 
 //------------------------------------------------------------------------------
-struct vtkRadiosity::Problem
+class vtkRadiosity::Run : public TransportRun
 {
+public:
+  Run(vtkRadiosity* self, const RunPorts& ports) : TransportRun(ports), Self(self) {}
+
+protected:
+  Outcome Check() override;
+  Outcome Gather() override;
+  Outcome Read() override;
+  Outcome Link() override;
+  Outcome Compute() override;
+  void Write() override;
+
+private:
+  bool ShootsOnDevice() const;
+  bool IsHierarchical() const;
+  Outcome CheckSolver() const;
+
+  Outcome UpdateLinks(double linkTolerance, const Monitor& monitor);
+  Outcome LinkByBrightness();
+
+  RadiosityProblem DescribeEquation() const;
+  void RecordConvergence(RadiosityProblem& equation, double begin, const Monitor& monitor);
+  Outcome Solve(const Monitor& monitor);
+  Outcome Shoot(const Monitor& monitor);
+  Outcome CheckSolution() const;
+  bool Finish();
+
+  void WriteThermal(const std::vector<double>& flux, const SceneOutput& output);
+  void WriteSummaries() const;
+
+  vtkRadiosity* Self;
   RadiosityMaterials Materials;
-  const std::vector<double>* Areas = nullptr; // in the exchange matrix's unit
-  std::vector<double> Irradiance;             // patches x bands
+  const LightTransport::Links* Links = nullptr; // null where the solver needs none
+  LightTransport::Links BrightLinks;            // serve this run's light alone
+  vtkSmartPointer<vtkCPULinkOperator> Reference;
   RadiositySolution Solution;
+  std::vector<double> Irradiance; // patches x bands
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double SolverSeconds = 0.0;
-  bool IsTrial = false; // only to know where light is: nothing to tell users
-  int Shots = 0;        // of the solver that keeps no view factors
+  int Shots = 0; // of the solver that needs no links
 };
 
 //------------------------------------------------------------------------------
-vtkRadiosity::vtkRadiosity()
+// Southwell on OpenGL finds what patches see while it goes, and keeps no links.
+bool vtkRadiosity::Run::ShootsOnDevice() const
+{
+  return this->Self->Solver == SOLVER_SOUTHWELL && this->Self->Device == DEVICE_OPENGL;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::Check()
+{
+  const vtkViewFactors* given = this->ShootsOnDevice() ? nullptr : this->Self->ViewFactors;
+  const bool givenHierarchical = given && given->LinksClusters();
+  const int method = this->Self->LinkMethod;
+  if (given && method != LINK_METHOD_AUTO &&
+    givenHierarchical != (method == LINK_METHOD_HIERARCHICAL))
+  {
+    return Outcome::Failed(
+      std::string("LinkMethod is not what the given view factors are: set it to Auto, or switch "
+                  "Hierarchical of vtkViewFactors ") +
+      (givenHierarchical ? "off." : "on."));
+  }
+  if (this->Self->Solver == SOLVER_GAUSS_SEIDEL &&
+    (givenHierarchical || method == LINK_METHOD_HIERARCHICAL))
+  {
+    return Outcome::Failed(
+      "GaussSeidel needs a link for each pair of patches: set LinkMethod to Dense, or "
+      "use ConjugateGradient, Chebyshev, Jacobi or Southwell.");
+  }
+  return this->CheckSolver();
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::CheckSolver() const
+{
+  const int solver = this->Self->Solver;
+  if (!RadiositySolvers::IsSequential(solver) || this->ShootsOnDevice())
+  {
+    return LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Self->Device), this->AllRanks);
+  }
+  if (this->Self->Device == DEVICE_OPENGL || this->AllRanks.AreSeveral())
+  {
+    return Outcome::Failed(std::string(RadiositySolvers::GetName(solver)) +
+      " goes from patch to patch and runs on the CPU of one process: set Device to Auto or CPU on "
+      "one process, or use Jacobi, Chebyshev or ConjugateGradient.");
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// The number of patches decides how they are linked, which decides on their order.
+Outcome vtkRadiosity::Run::Gather()
+{
+  Outcome gathered = this->TransportRun::Gather();
+  if (gathered && !this->ShootsOnDevice() && this->IsHierarchical())
+  {
+    const vtkViewFactors* given = this->Self->ViewFactors;
+    gathered = this->GatherForClusters(given ? given->ClusterTree : this->Self->ClusterTree);
+  }
+  return gathered;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::Run::IsHierarchical() const
+{
+  if (this->Self->ViewFactors)
+  {
+    return this->Self->ViewFactors->LinksClusters();
+  }
+  return this->Self->LinkMethod == LINK_METHOD_HIERARCHICAL ||
+    (this->Self->LinkMethod == LINK_METHOD_AUTO &&
+      this->Scene.GetNumberOfPatches() > MostDensePatches &&
+      this->Self->Solver != SOLVER_GAUSS_SEIDEL);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::Read()
+{
+  std::vector<std::string> names;
+  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  {
+    names.push_back(this->GetArrayName(array, RadiosityMaterials::GetDefaultName(array)));
+  }
+  this->Materials.BandLimits = this->Self->BandLimits;
+  this->Materials.BackgroundTemperature = this->Self->BackgroundTemperature;
+  this->Materials.BackgroundRadiance = this->Self->BackgroundRadiances;
+  std::string error;
+  const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
+  return this->Materials.Read(arrays, this->Scene, names, error) ? Outcome::Done()
+                                                                 : Outcome::Failed(error);
+}
+
+//------------------------------------------------------------------------------
+// What enters through openings falls on the patches as the light of lamps does. Of it the first
+// links tell all: those for the light that there is know no row sums.
+Outcome vtkRadiosity::Run::Link()
+{
+  if (this->ShootsOnDevice())
+  {
+    return Outcome::Done();
+  }
+  const bool isBright =
+    this->Self->RefineByBrightness && !this->Self->ViewFactors && this->IsHierarchical();
+  const double tolerance = this->Self->LinkTolerance;
+  const double coarse = std::max(std::min(CoarseLinks * tolerance, CoarsestLinks), tolerance);
+  const bool isCoarse = isBright && !this->Materials.HasBackground();
+  Outcome linked = this->UpdateLinks(isCoarse ? coarse : tolerance,
+    this->Progress.GetMonitor().GetStage(0.0, isBright ? CoarseDone : LinksDone));
+  if (linked && this->Materials.HasBackground())
+  {
+    this->Materials.AddBackground(this->Links->SkyFractions);
+  }
+  return linked && isBright ? this->LinkByBrightness() : linked;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const Monitor& monitor)
+{
+  vtkViewFactors* given = this->Self->ViewFactors;
+  ViewFactorStore& store = given ? *given->Store : *this->Self->OwnViewFactors;
+  const bool needsAll = given || this->Self->EnforceClosure || this->Materials.HasBackground();
+  const ViewFactorSettings own{ this->Self->ViewFactorTolerance, this->Self->EnforceClosure,
+    this->IsHierarchical(), linkTolerance };
+  this->Links = &store.GetLinks();
+  return store.Update(this->Scene, given ? given->GetSettings() : own,
+    needsAll ? std::vector<bool>() : this->Materials.FindSenders(), this->AllRanks, monitor);
+}
+
+//------------------------------------------------------------------------------
+// A trial with the first links shows where light is; nothing of it is told to users.
+Outcome vtkRadiosity::Run::LinkByBrightness()
+{
+  const Monitor monitor = this->Progress.GetMonitor();
+  const bool isKnown = this->Solve(monitor.GetStage(CoarseDone, CoarseSolved)) &&
+    this->Solution.Error.empty() && this->Finish();
+  if (this->Solution.Status == RadiosityStatus::Aborted)
+  {
+    return Outcome::Aborted();
+  }
+  const Monitor second = monitor.GetStage(CoarseSolved, LinksDone);
+  if (!isKnown)
+  {
+    return this->UpdateLinks(this->Self->LinkTolerance, second);
+  }
+  const HierarchicalViewFactors builder(this->Self->LinkTolerance,
+    FindBrightness(this->Solution.Radiosity, this->Scene.GetAreas()));
+  this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
+  this->Links = &this->BrightLinks;
+  return builder.Build(this->Scene, this->AllRanks, second, this->BrightLinks);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::Compute()
+{
+  const Monitor monitor = this->Progress.GetMonitor();
+  Outcome solved = this->ShootsOnDevice() ? this->Shoot(monitor.GetStage(0.0, SolverDone))
+                                          : this->Solve(monitor.GetStage(LinksDone, SolverDone));
+  solved = solved ? this->CheckSolution() : solved;
+  return solved && this->Links && !this->Finish() ? Outcome::FailedAsReported() : solved;
+}
+
+//------------------------------------------------------------------------------
+// Done says that there is a solution, whatever it is worth.
+Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
+  vtkExchange* exchange = this->Links->GetExchange();
+  const LinkDevice device = RadiositySolvers::IsSequential(this->Self->Solver)
+    ? LinkDevice::CPU
+    : static_cast<LinkDevice>(this->Self->Device);
+  vtkSmartPointer<vtkLinkOperator> links;
+  Outcome made = LinkOperators::Make(device, exchange, this->Materials.NumberOfBands,
+    this->AllRanks, links, this->DeviceExplanation);
+  if (!made)
+  {
+    return made;
+  }
+  this->Reference =
+    LinkOperators::MakeOnCPU(exchange, this->Materials.NumberOfBands, this->AllRanks);
+  if (!this->Reference)
+  {
+    return Outcome::FailedAsReported();
+  }
+  RadiosityProblem equation = this->DescribeEquation();
+  equation.Operator = links;
+  equation.Reference = this->Reference;
+  equation.Areas = &exchange->GetAreas();
+  equation.RowSums = &this->Links->RowSums;
+  equation.RowSumError = GetRowSumError(*this->Links);
+  equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
+  this->RecordConvergence(equation, begin, monitor);
+
+  this->Solution = RadiositySolvers::Solve(equation);
+  this->DeviceUsed = links->GetDeviceName();
+  this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// The other way to solve: an iteration is a shot here, and shots bring the irradiance.
+Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
+  auto shooter = vtkSmartPointer<vtkDeviceShooter>::Take(vtkDeviceShooter::New());
+  std::string reason = "no loaded module shoots on it.";
+  if (!shooter || !shooter->Open(reason))
+  {
+    return Outcome::Failed("Device is OpenGL, but " + reason + " Or set Device to Auto or CPU.");
+  }
+  if (this->Materials.HasBackground())
+  {
+    return Outcome::Failed(
+      "Southwell on OpenGL computes no sky fractions, which a background needs: set "
+      "Device to Auto or CPU, or use another solver.");
+  }
+  RadiosityProblem equation = this->DescribeEquation();
+  const vtkIdType patches = equation.NumberOfPatches;
+  equation.MaximumNumberOfIterations = static_cast<int>(
+    std::min<vtkIdType>(VTK_INT_MAX, patches * this->Self->MaximumNumberOfIterations));
+  this->RecordConvergence(equation, begin, monitor);
+
+  this->Solution = ProgressiveRadiosity::Solve(shooter, this->Scene, equation, this->Irradiance);
+  this->Shots = this->Solution.NumberOfIterations;
+  this->Solution.NumberOfIterations = static_cast<int>((this->Shots + patches - 1) / patches);
+  this->DeviceUsed = shooter->GetDeviceName();
+  this->DeviceExplanation = "OpenGL: asked for";
+  this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
+  std::transform(this->Irradiance.begin(), this->Irradiance.end(),
+    this->Materials.DirectIrradiance.begin(), this->Irradiance.begin(), std::plus<double>());
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// What the equation is, whatever solves it.
+RadiosityProblem vtkRadiosity::Run::DescribeEquation() const
+{
+  const RadiosityMaterials& materials = this->Materials;
+  RadiosityProblem equation;
+  equation.Solver = this->Self->Solver;
+  equation.NumberOfBands = materials.NumberOfBands;
+  equation.Reflectance = materials.Reflectance;
+  equation.Emission = materials.Emission;
+  for (std::size_t k = 0; k < equation.Emission.size(); ++k)
+  {
+    equation.Emission[k] += materials.Reflectance[k] * materials.DirectIrradiance[k];
+  }
+  equation.NumberOfPatches =
+    static_cast<vtkIdType>(equation.Emission.size()) / equation.NumberOfBands;
+  equation.Tolerance = this->Self->Tolerance;
+  equation.MaximumNumberOfIterations = this->Self->MaximumNumberOfIterations;
+  return equation;
+}
+
+//------------------------------------------------------------------------------
+// One row of the table per iteration; progress follows the logarithm of the error bound, which
+// falls steadily.
+void vtkRadiosity::Run::RecordConvergence(RadiosityProblem& equation, double begin,
+  const Monitor& monitor)
+{
+  vtkNew<vtkIntArray> iterations;
+  iterations->SetName("Iteration");
+  this->Table->Initialize();
+  this->Table->AddColumn(iterations);
+  vtkSmartPointer<vtkDoubleArray> columns[3];
+  const char* const names[3] = { "Seconds", "Residual", "ErrorBound" };
+  for (int column = 0; column < 3; ++column)
+  {
+    columns[column] = vtkSmartPointer<vtkDoubleArray>::New();
+    columns[column]->SetName(names[column]);
+    this->Table->AddColumn(columns[column]);
+  }
+  vtkIntArray* count = iterations;
+  const double most = equation.MaximumNumberOfIterations;
+  const double tolerance = this->Self->Tolerance;
+  double first = 0.0;
+  equation.Report = [=](int iteration, double residual, double bound) mutable
+  {
+    count->InsertNextValue(iteration);
+    columns[0]->InsertNextValue(vtkTimerLog::GetUniversalTime() - begin);
+    columns[1]->InsertNextValue(residual);
+    columns[2]->InsertNextValue(bound);
+    first = first > 0.0 ? first : residual;
+    const double gained = residual > 0.0 && first > 0.0 ? std::log(first / residual) : 0.0;
+    const double byResidual = gained / -std::log(tolerance);
+    return monitor.Report(std::max(byResidual, iteration / most));
+  };
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::CheckSolution() const
+{
+  if (!this->Solution.Error.empty())
+  {
+    const char* hint = this->Materials.HasGivenFluxes()
+      ? " A patch with a given net flux counts as one that reflects everything: each closed part "
+        "of "
+        "the scene needs a patch with a given temperature."
+      : "";
+    return Outcome::Failed(this->Solution.Error + hint);
+  }
+  if (this->Solution.Status == RadiosityStatus::Aborted)
+  {
+    return Outcome::Aborted();
+  }
+  if (!this->Solution.Warning.empty())
+  {
+    this->Warn(this->Solution.Warning);
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// The irradiance of the solution, in double precision; B = E + rho H then holds exactly between the
+// output arrays. False after an error of the links, which has been reported.
+bool vtkRadiosity::Run::Finish()
+{
+  std::vector<double>& radiosity = this->Solution.Radiosity;
+  this->Irradiance.resize(radiosity.size());
+  if (!this->Reference->SetVector(0, radiosity.data()) || !this->Reference->Multiply(1, 0) ||
+    !this->Reference->GetVector(1, this->Irradiance.data()))
+  {
+    return false;
+  }
+  const std::vector<double>& areas = this->Links->GetExchange()->GetAreas();
+  for (std::size_t k = 0; k < this->Irradiance.size(); ++k)
+  {
+    double& irradiance = this->Irradiance[k];
+    irradiance =
+      irradiance / areas[k / this->Materials.NumberOfBands] + this->Materials.DirectIrradiance[k];
+    radiosity[k] = this->Materials.Emission[k] + this->Materials.Reflectance[k] * irradiance;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::Run::Write()
+{
+  const int bands = this->Materials.NumberOfBands;
+  const SmoothPoints points(this->Scene, this->Self->FeatureAngle,
+    this->Materials.GetPointMaterials(), 2 * bands);
+  const SceneOutput output(this->Scene, &points, this->Input, this->Output);
+  const std::vector<double>& radiosity = this->Solution.Radiosity;
+  std::vector<double> flux = radiosity;
+  std::transform(flux.begin(), flux.end(), this->Irradiance.begin(), flux.begin(),
+    std::minus<double>());
+  output.AddArray("Radiosity", radiosity, bands);
+  output.AddArray(ArrayNames::Irradiance, this->Irradiance, bands);
+  output.AddArray("NetFlux", flux, bands);
+  if (this->Materials.IsThermal())
+  {
+    this->WriteThermal(flux, output);
+  }
+  this->WriteSummaries();
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::Run::WriteSummaries() const
+{
+  vtkFieldData* fields = this->GetOutputFields();
+  const RadiositySolution& solution = this->Solution;
+  FieldValues::Add(fields, "SolverUsed", std::string(RadiositySolvers::GetName(solution.Solver)));
+  FieldValues::Add(fields, "SolverExplanation", solution.Explanation);
+  FieldValues::Add(fields, "SolverStatus", std::string(RadiositySolvers::GetName(solution.Status)));
+  FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
+  FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
+  FieldValues::Add(fields, "NumberOfIterations", solution.NumberOfIterations);
+  FieldValues::Add(fields, "ErrorBound", solution.ErrorBound);
+  FieldValues::Add(fields, "Converged", solution.HasConverged() ? 1.0 : 0.0);
+  FieldValues::Add(fields, "SolverSeconds", this->SolverSeconds);
+  if (this->Links)
+  {
+    FieldValues::Add(fields, "LinkMethodUsed",
+      std::string(this->Links->Matrix ? "Dense" : "Hierarchical"));
+    this->Links->AddSummaries(fields);
+  }
+  else
+  {
+    FieldValues::Add(fields, "NumberOfShots", this->Shots);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::Run::WriteThermal(const std::vector<double>& flux, const SceneOutput& output)
+{
+  vtkIdType impossible = 0;
+  const std::vector<double> temperatures =
+    this->Materials.ComputeTemperatures(this->Irradiance, this->Solution.ErrorBound, impossible);
+  if (impossible > 0)
+  {
+    this->Warn(std::to_string(impossible) +
+      " patches have no temperature (SurfaceTemperature is 0 there): their given net flux takes "
+      "out more than they absorb. Raise it, or give the patches around them a higher "
+      "temperature.");
+  }
+  output.AddArray("SurfaceTemperature", temperatures, 1);
+  std::vector<double> totals(temperatures.size(), 0.0);
+  for (std::size_t k = 0; k < flux.size(); ++k)
+  {
+    totals[k / this->Materials.NumberOfBands] += flux[k];
+  }
+  if (this->Materials.NumberOfBands > 1)
+  {
+    output.AddArray("TotalNetFlux", totals, 1);
+  }
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const double power = std::inner_product(areas.begin(), areas.end(), totals.begin(), 0.0);
+  FieldValues::Add(this->GetOutputFields(), "NetPower", power * this->GetAreaUnit());
+}
+
+//------------------------------------------------------------------------------
+vtkRadiosity::vtkRadiosity() : OwnViewFactors(new ViewFactorStore)
 {
   this->SetNumberOfOutputPorts(2);
   for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
@@ -104,7 +574,6 @@ vtkRadiosity::vtkRadiosity()
     this->SetInputArrayToProcess(array, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS,
       RadiosityMaterials::GetDefaultName(array));
   }
-  this->InternalViewFactors = vtkSmartPointer<vtkViewFactors>::New();
 }
 
 //------------------------------------------------------------------------------
@@ -127,478 +596,9 @@ vtkTable* vtkRadiosity::GetConvergence()
 }
 
 //------------------------------------------------------------------------------
-int vtkRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
-  vtkInformationVector* outputs)
+std::unique_ptr<TransportRun> vtkRadiosity::MakeRun(const RunPorts& ports)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  PatchScene scene;
-  Problem problem;
-  if (!this->CheckSolver() || !this->BuildScene(input, scene) ||
-    !this->ReadMaterials(input, scene, problem))
-  {
-    return 0;
-  }
-  vtkTable* convergence = vtkTable::GetData(outputs, 1);
-  vtkSmartPointer<vtkViewFactors> viewFactors;
-  if (!(this->ShootsOnDevice() ? this->Shoot(scene, problem, convergence)
-                               : this->LinkAndSolve(scene, viewFactors, problem, convergence)))
-  {
-    return 0;
-  }
-  this->Write(input, scene, problem, viewFactors, vtkDataObject::GetData(outputs, 0));
-  this->UpdateProgress(1.0);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-// Southwell on OpenGL finds what patches see while it goes, and keeps no links.
-bool vtkRadiosity::ShootsOnDevice() const
-{
-  return this->Solver == SOLVER_SOUTHWELL && this->Device == DEVICE_OPENGL;
-}
-
-//------------------------------------------------------------------------------
-bool vtkRadiosity::CheckSolver()
-{
-  const bool given = this->ViewFactors && !this->ShootsOnDevice();
-  const bool givenHierarchical = given && this->ViewFactors->LinksClusters();
-  if (given && this->LinkMethod != LINK_METHOD_AUTO &&
-    givenHierarchical != (this->LinkMethod == LINK_METHOD_HIERARCHICAL))
-  {
-    vtkErrorMacro("LinkMethod is not what the given view factors are: set it to Auto, or switch "
-                  "Hierarchical of vtkViewFactors "
-      << (givenHierarchical ? "off." : "on."));
-    return false;
-  }
-  if (this->Solver == SOLVER_GAUSS_SEIDEL &&
-    (givenHierarchical || this->LinkMethod == LINK_METHOD_HIERARCHICAL))
-  {
-    vtkErrorMacro("GaussSeidel needs a link for each pair of patches: set LinkMethod to Dense, or "
-                  "use ConjugateGradient, Chebyshev, Jacobi or Southwell.");
-    return false;
-  }
-  if (!RadiositySolvers::IsSequential(this->Solver) || this->ShootsOnDevice())
-  {
-    return this->CheckDevice(this->Device);
-  }
-  if (this->Device == DEVICE_OPENGL || this->GetNumberOfRanks() > 1)
-  {
-    vtkErrorMacro(<< RadiositySolvers::GetName(this->Solver)
-                  << " goes from patch to patch and runs on the CPU of one process: set Device to "
-                     "Auto or CPU on one process, or use Jacobi, Chebyshev or ConjugateGradient.");
-    return false;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-// The number of patches decides how they are linked, which decides on their order.
-bool vtkRadiosity::BuildScene(vtkDataObject* input, PatchScene& scene)
-{
-  std::string error;
-  bool built = scene.Build(input, this->Controller, error);
-  const int tree = this->ViewFactors ? this->ViewFactors->GetClusterTree() : this->ClusterTree;
-  if (built && !this->ShootsOnDevice() && this->IsHierarchical(scene.GetNumberOfPatches()) &&
-    this->UsesAtlas(input, tree))
-  {
-    built = scene.Build(input, this->Controller, error, PatchScene::Order::Atlas);
-  }
-  if (!built)
-  {
-    vtkErrorMacro(<< error);
-  }
-  return built;
-}
-
-//------------------------------------------------------------------------------
-bool vtkRadiosity::ReadMaterials(vtkDataObject* input, const PatchScene& scene, Problem& problem)
-{
-  std::vector<std::string> names;
-  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
-  {
-    const char* name = this->GetInputArrayInformation(array)->Get(vtkDataObject::FIELD_NAME());
-    names.emplace_back(name && *name ? name : RadiosityMaterials::GetDefaultName(array));
-  }
-  problem.Materials.BandLimits = this->BandLimits;
-  problem.Materials.BackgroundTemperature = this->BackgroundTemperature;
-  problem.Materials.BackgroundRadiance = this->BackgroundRadiances;
-  std::string error;
-  if (!problem.Materials.Read(input, scene, names, error))
-  {
-    vtkErrorMacro(<< error);
-    return false;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkRadiosity::IsHierarchical(vtkIdType patches) const
-{
-  if (this->ViewFactors)
-  {
-    return this->ViewFactors->LinksClusters();
-  }
-  return this->LinkMethod == LINK_METHOD_HIERARCHICAL ||
-    (this->LinkMethod == LINK_METHOD_AUTO && patches > MostDensePatches &&
-      this->Solver != SOLVER_GAUSS_SEIDEL);
-}
-
-//------------------------------------------------------------------------------
-bool vtkRadiosity::LinkAndSolve(const PatchScene& scene,
-  vtkSmartPointer<vtkViewFactors>& viewFactors, Problem& problem, vtkTable* convergence)
-{
-  const bool isBright = this->RefineByBrightness && !this->ViewFactors &&
-    this->IsHierarchical(scene.GetNumberOfPatches());
-  this->SetProgressStage(0.0, isBright ? CoarseDone : ViewFactorsDone);
-  // Of a background the first links tell all: those for the light that there is know no row sums.
-  const bool isCoarse = isBright && !problem.Materials.HasBackground();
-  const double coarse = std::min(CoarseLinks * this->LinkTolerance, CoarsestLinks);
-  viewFactors = this->UpdateViewFactors(scene, problem,
-    isCoarse ? std::max(coarse, this->LinkTolerance) : this->LinkTolerance);
-  if (!viewFactors)
-  {
-    return false;
-  }
-  AddBackground(viewFactors, problem);
-  if (!isBright)
-  {
-    this->SetProgressStage(ViewFactorsDone, SolverDone);
-    return this->Solve(scene, viewFactors, problem, convergence);
-  }
-  this->SetProgressStage(CoarseDone, CoarseSolved);
-  problem.IsTrial = true;
-  const bool isBrightKnown = this->Solve(scene, viewFactors, problem, convergence);
-  problem.IsTrial = false;
-  if (problem.Solution.Status == RadiosityStatus::Aborted)
-  {
-    return false;
-  }
-  this->SetProgressStage(CoarseSolved, ViewFactorsDone);
-  viewFactors = isBrightKnown ? this->UpdateBrightLinks(scene, problem)
-                              : this->UpdateViewFactors(scene, problem, this->LinkTolerance);
-  this->SetProgressStage(ViewFactorsDone, SolverDone);
-  return viewFactors && this->Solve(scene, viewFactors, problem, convergence);
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateViewFactors(const PatchScene& scene,
-  const Problem& problem, double linkTolerance)
-{
-  vtkSmartPointer<vtkViewFactors> viewFactors = this->ViewFactors;
-  const std::vector<bool> senders = problem.Materials.FindSenders();
-  const bool needsAll = viewFactors || this->EnforceClosure || problem.Materials.HasBackground();
-  if (!viewFactors)
-  {
-    viewFactors = this->InternalViewFactors;
-    viewFactors->SetController(this->Controller);
-    viewFactors->SetTolerance(this->ViewFactorTolerance);
-    const bool isHierarchical = this->IsHierarchical(scene.GetNumberOfPatches());
-    viewFactors->SetEnforceClosure(this->EnforceClosure);
-    viewFactors->SetHierarchical(isHierarchical);
-    viewFactors->SetLinkTolerance(linkTolerance);
-  }
-  const auto progress = [this](double done) { return this->ReportProgress(done); };
-  return viewFactors->UpdateExchange(scene, progress, needsAll ? nullptr : &senders) ? viewFactors
-                                                                                     : nullptr;
-}
-
-//------------------------------------------------------------------------------
-// In an object of their own: they serve this distribution of light alone.
-vtkSmartPointer<vtkViewFactors> vtkRadiosity::UpdateBrightLinks(const PatchScene& scene,
-  const Problem& problem)
-{
-  const int bands = problem.Materials.NumberOfBands;
-  std::vector<double> brightness(scene.GetNumberOfPatches(), 0.0);
-  for (std::size_t k = 0; k < problem.Solution.Radiosity.size(); ++k)
-  {
-    brightness[k / bands] =
-      std::max(brightness[k / bands], std::abs(problem.Solution.Radiosity[k]));
-  }
-  // Nothing counts as so dark that row sums, which rows are closed by, are less well known than to
-  // the coarse tolerance.
-  const std::vector<double>& areas = scene.GetAreas();
-  double squared = 0.0;
-  for (std::size_t patch = 0; patch < areas.size(); ++patch)
-  {
-    squared += areas[patch] * brightness[patch] * brightness[patch];
-  }
-  const double darkest =
-    std::sqrt(squared / std::accumulate(areas.begin(), areas.end(), 0.0)) / CoarseLinks;
-  for (double& value : brightness)
-  {
-    value = std::max(value, darkest);
-  }
-  vtkNew<vtkViewFactors> viewFactors;
-  viewFactors->SetController(this->Controller);
-  viewFactors->HierarchicalOn();
-  viewFactors->SetLinkTolerance(this->LinkTolerance);
-  viewFactors->SetBrightness(brightness);
-  const auto progress = [this](double done) { return this->ReportProgress(done); };
-  return viewFactors->UpdateExchange(scene, progress) ? viewFactors.Get() : nullptr;
-}
-
-//------------------------------------------------------------------------------
-// What enters through openings falls on the patches as the light of lamps does.
-void vtkRadiosity::AddBackground(const vtkViewFactors* viewFactors, Problem& problem)
-{
-  if (problem.Materials.HasBackground())
-  {
-    problem.Materials.AddBackground(viewFactors->GetSkyFractions());
-  }
-}
-
-//------------------------------------------------------------------------------
-bool vtkRadiosity::Solve(const PatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
-  vtkTable* convergence)
-{
-  const double begin = vtkTimerLog::GetUniversalTime();
-  vtkExchange* exchange = viewFactors->GetExchange();
-  const int device = RadiositySolvers::IsSequential(this->Solver) ? DEVICE_CPU : this->Device;
-  auto links = this->MakeLinkOperator(device, exchange, problem.Materials.NumberOfBands,
-    problem.DeviceExplanation);
-  auto reference =
-    links ? this->MakeCPULinkOperator(exchange, problem.Materials.NumberOfBands) : nullptr;
-  if (!reference)
-  {
-    return false;
-  }
-  problem.Areas = &exchange->GetAreas();
-  RadiosityProblem equation = this->DescribeEquation(problem);
-  equation.Operator = links;
-  equation.Reference = reference;
-  equation.Areas = problem.Areas;
-  equation.RowSums = &viewFactors->GetRowSums();
-  equation.RowSumError = GetRowSumError(viewFactors);
-  equation.GetPolygon = [&scene](vtkIdType patch) { return scene.GetPolygon(patch); };
-  this->RecordConvergence(equation, convergence, begin);
-
-  problem.Solution = RadiositySolvers::Solve(equation);
-  problem.DeviceUsed = links->GetDeviceName();
-  problem.SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
-  return this->Finish(reference, problem);
-}
-
-//------------------------------------------------------------------------------
-// The other way to solve: an iteration is a shot here, and shots bring the irradiance.
-bool vtkRadiosity::Shoot(const PatchScene& scene, Problem& problem, vtkTable* convergence)
-{
-  const double begin = vtkTimerLog::GetUniversalTime();
-  auto shooter = vtkSmartPointer<vtkDeviceShooter>::Take(vtkDeviceShooter::New());
-  std::string reason = "no loaded module shoots on it.";
-  if (!shooter || !shooter->Open(reason))
-  {
-    vtkErrorMacro("Device is OpenGL, but " << reason << " Or set Device to Auto or CPU.");
-    return false;
-  }
-  if (problem.Materials.HasBackground())
-  {
-    vtkErrorMacro("Southwell on OpenGL computes no sky fractions, which a background needs: set "
-                  "Device to Auto or CPU, or use another solver.");
-    return false;
-  }
-  RadiosityProblem equation = this->DescribeEquation(problem);
-  const vtkIdType patches = equation.NumberOfPatches;
-  equation.MaximumNumberOfIterations =
-    static_cast<int>(std::min<vtkIdType>(VTK_INT_MAX, patches * this->MaximumNumberOfIterations));
-  this->SetProgressStage(0.0, SolverDone);
-  this->RecordConvergence(equation, convergence, begin);
-
-  RadiositySolution& solution = problem.Solution;
-  solution = ProgressiveRadiosity::Solve(shooter, scene, equation, problem.Irradiance);
-  problem.Shots = solution.NumberOfIterations;
-  solution.NumberOfIterations = static_cast<int>((problem.Shots + patches - 1) / patches);
-  problem.DeviceUsed = shooter->GetDeviceName();
-  problem.DeviceExplanation = "OpenGL: asked for";
-  problem.SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
-  std::transform(problem.Irradiance.begin(), problem.Irradiance.end(),
-    problem.Materials.DirectIrradiance.begin(), problem.Irradiance.begin(), std::plus<double>());
-  return this->CheckSolution(problem);
-}
-
-//------------------------------------------------------------------------------
-// What the equation is, whatever solves it.
-RadiosityProblem vtkRadiosity::DescribeEquation(const Problem& problem) const
-{
-  const RadiosityMaterials& materials = problem.Materials;
-  RadiosityProblem equation;
-  equation.Solver = this->Solver;
-  equation.NumberOfBands = materials.NumberOfBands;
-  equation.Reflectance = materials.Reflectance;
-  equation.Emission = materials.Emission;
-  for (std::size_t k = 0; k < equation.Emission.size(); ++k)
-  {
-    equation.Emission[k] += materials.Reflectance[k] * materials.DirectIrradiance[k];
-  }
-  equation.NumberOfPatches =
-    static_cast<vtkIdType>(equation.Emission.size()) / equation.NumberOfBands;
-  equation.Tolerance = this->Tolerance;
-  equation.MaximumNumberOfIterations = this->MaximumNumberOfIterations;
-  return equation;
-}
-
-//------------------------------------------------------------------------------
-// One row of the table per iteration; progress follows the logarithm of the error bound, which
-// falls steadily.
-void vtkRadiosity::RecordConvergence(RadiosityProblem& equation, vtkTable* convergence,
-  double begin)
-{
-  vtkNew<vtkIntArray> iterations;
-  iterations->SetName("Iteration");
-  convergence->Initialize();
-  convergence->AddColumn(iterations);
-  vtkSmartPointer<vtkDoubleArray> columns[3];
-  const char* const names[3] = { "Seconds", "Residual", "ErrorBound" };
-  for (int column = 0; column < 3; ++column)
-  {
-    columns[column] = vtkSmartPointer<vtkDoubleArray>::New();
-    columns[column]->SetName(names[column]);
-    convergence->AddColumn(columns[column]);
-  }
-  vtkIntArray* count = iterations;
-  const double most = equation.MaximumNumberOfIterations;
-  double first = 0.0;
-  equation.Report = [=](int iteration, double residual, double bound) mutable
-  {
-    count->InsertNextValue(iteration);
-    columns[0]->InsertNextValue(vtkTimerLog::GetUniversalTime() - begin);
-    columns[1]->InsertNextValue(residual);
-    columns[2]->InsertNextValue(bound);
-    first = first > 0.0 ? first : residual;
-    const double gained = residual > 0.0 && first > 0.0 ? std::log(first / residual) : 0.0;
-    const double byResidual = gained / -std::log(this->Tolerance);
-    return this->ReportProgress(std::max(byResidual, iteration / most));
-  };
-}
-
-//------------------------------------------------------------------------------
-// Whether there is one to write, after saying what is wrong with it.
-bool vtkRadiosity::CheckSolution(const Problem& problem)
-{
-  const RadiositySolution& solution = problem.Solution;
-  if (problem.IsTrial)
-  {
-    return solution.Error.empty() && solution.Status != RadiosityStatus::Aborted;
-  }
-  if (!solution.Error.empty())
-  {
-    const char* hint = problem.Materials.HasGivenFluxes()
-      ? " A patch with a given net flux counts as one that reflects everything: each closed part "
-        "of "
-        "the scene needs a patch with a given temperature."
-      : "";
-    vtkErrorMacro(<< solution.Error << hint);
-    return false;
-  }
-  if (solution.Status == RadiosityStatus::Aborted)
-  {
-    return false;
-  }
-  if (!solution.Warning.empty())
-  {
-    vtkWarningMacro(<< solution.Warning);
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-// The irradiance of the solution, in double precision; B = E + rho H then holds exactly between the
-// output arrays.
-bool vtkRadiosity::Finish(vtkCPULinkOperator* links, Problem& problem)
-{
-  RadiositySolution& solution = problem.Solution;
-  if (!this->CheckSolution(problem))
-  {
-    return false;
-  }
-  problem.Irradiance.resize(solution.Radiosity.size());
-  if (!links->SetVector(0, solution.Radiosity.data()) || !links->Multiply(1, 0) ||
-    !links->GetVector(1, problem.Irradiance.data()))
-  {
-    return false;
-  }
-  const std::vector<double>& areas = *problem.Areas;
-  for (std::size_t k = 0; k < problem.Irradiance.size(); ++k)
-  {
-    double& irradiance = problem.Irradiance[k];
-    irradiance = irradiance / areas[k / problem.Materials.NumberOfBands] +
-      problem.Materials.DirectIrradiance[k];
-    solution.Radiosity[k] =
-      problem.Materials.Emission[k] + problem.Materials.Reflectance[k] * irradiance;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-void vtkRadiosity::Write(vtkDataObject* input, PatchScene& scene, const Problem& problem,
-  vtkViewFactors* viewFactors, vtkDataObject* output)
-{
-  scene.BuildSmoothPoints(this->FeatureAngle, problem.Materials.GetPointMaterials(),
-    2 * problem.Materials.NumberOfBands);
-  scene.CopyStructure(input, output);
-
-  std::vector<double> flux = problem.Solution.Radiosity;
-  std::transform(flux.begin(), flux.end(), problem.Irradiance.begin(), flux.begin(),
-    std::minus<double>());
-  scene.AddArray(output, "Radiosity", problem.Solution.Radiosity, problem.Materials.NumberOfBands);
-  scene.AddArray(output, "Irradiance", problem.Irradiance, problem.Materials.NumberOfBands);
-  scene.AddArray(output, "NetFlux", flux, problem.Materials.NumberOfBands);
-  this->WriteThermal(scene, problem, flux, output);
-
-  vtkFieldData* fields = output->GetFieldData();
-  const RadiositySolution& solution = problem.Solution;
-  AddSummary(fields, "SolverUsed", std::string(RadiositySolvers::GetName(solution.Solver)));
-  AddSummary(fields, "SolverExplanation", solution.Explanation);
-  AddSummary(fields, "SolverStatus", std::string(RadiositySolvers::GetName(solution.Status)));
-  AddSummary(fields, "DeviceUsed", problem.DeviceUsed);
-  AddSummary(fields, "DeviceExplanation", problem.DeviceExplanation);
-  AddSummary(fields, "NumberOfIterations", solution.NumberOfIterations);
-  AddSummary(fields, "ErrorBound", solution.ErrorBound);
-  AddSummary(fields, "Converged", solution.HasConverged() ? 1.0 : 0.0);
-  AddSummary(fields, "SolverSeconds", problem.SolverSeconds);
-  if (viewFactors)
-  {
-    const bool dense = vtkExchangeMatrix::SafeDownCast(viewFactors->GetExchange()) != nullptr;
-    AddSummary(fields, "LinkMethodUsed", std::string(dense ? "Dense" : "Hierarchical"));
-    viewFactors->AddSummaries(fields);
-  }
-  else
-  {
-    AddSummary(fields, "NumberOfShots", problem.Shots);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkRadiosity::WriteThermal(const PatchScene& scene, const Problem& problem,
-  const std::vector<double>& flux, vtkDataObject* output)
-{
-  const RadiosityMaterials& materials = problem.Materials;
-  if (!materials.IsThermal())
-  {
-    return;
-  }
-  vtkIdType impossible = 0;
-  const std::vector<double> temperatures =
-    materials.ComputeTemperatures(problem.Irradiance, problem.Solution.ErrorBound, impossible);
-  if (impossible > 0)
-  {
-    vtkWarningMacro(<< impossible
-                    << " patches have no temperature (SurfaceTemperature is 0 there): their given "
-                       "net flux takes out more than they absorb. Raise it, or give the patches "
-                       "around them a higher temperature.");
-  }
-  scene.AddArray(output, "SurfaceTemperature", temperatures, 1);
-  std::vector<double> totals(temperatures.size(), 0.0);
-  for (std::size_t k = 0; k < flux.size(); ++k)
-  {
-    totals[k / materials.NumberOfBands] += flux[k];
-  }
-  if (materials.NumberOfBands > 1)
-  {
-    scene.AddArray(output, "TotalNetFlux", totals, 1);
-  }
-  const std::vector<double>& areas = scene.GetAreas();
-  const double power = std::inner_product(areas.begin(), areas.end(), totals.begin(), 0.0);
-  AddSummary(output->GetFieldData(), "NetPower", power * scene.GetScale() * scene.GetScale());
+  return std::make_unique<Run>(this, ports);
 }
 
 //------------------------------------------------------------------------------

@@ -71,20 +71,18 @@
 #define vtkRadiosity_h
 
 #include "vtkLightTransportFiltersModule.h" // for export macro
-#include "vtkSmartPointer.h"                // for vtkSmartPointer
 #include "vtkTransportAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
 
-class vtkCPULinkOperator;
 class vtkTable;
 class vtkViewFactors;
 
 namespace LightTransport
 {
-class PatchScene;
-struct RadiosityProblem;
-} // namespace LightTransport
+class ViewFactorStore;
+}
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkRadiosity : public vtkTransportAlgorithm
 {
@@ -270,39 +268,14 @@ protected:
   vtkRadiosity();
   ~vtkRadiosity() override;
 
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  std::unique_ptr<LightTransport::TransportRun> MakeRun(
+    const LightTransport::RunPorts& ports) override;
 
 private:
   vtkRadiosity(const vtkRadiosity&) = delete;
   void operator=(const vtkRadiosity&) = delete;
 
-  struct Problem;
-  bool ShootsOnDevice() const;
-  bool CheckSolver();
-  bool BuildScene(vtkDataObject* input, LightTransport::PatchScene& scene);
-  bool ReadMaterials(vtkDataObject* input, const LightTransport::PatchScene& scene,
-    Problem& problem);
-  bool IsHierarchical(vtkIdType patches) const;
-  bool LinkAndSolve(const LightTransport::PatchScene& scene,
-    vtkSmartPointer<vtkViewFactors>& viewFactors, Problem& problem, vtkTable* convergence);
-  vtkSmartPointer<vtkViewFactors> UpdateViewFactors(const LightTransport::PatchScene& scene,
-    const Problem& problem, double linkTolerance);
-  vtkSmartPointer<vtkViewFactors> UpdateBrightLinks(const LightTransport::PatchScene& scene,
-    const Problem& problem);
-  static void AddBackground(const vtkViewFactors* viewFactors, Problem& problem);
-  bool Solve(const LightTransport::PatchScene& scene, vtkViewFactors* viewFactors, Problem& problem,
-    vtkTable* convergence);
-  void RecordConvergence(LightTransport::RadiosityProblem& equation, vtkTable* convergence,
-    double begin);
-  bool Shoot(const LightTransport::PatchScene& scene, Problem& problem, vtkTable* convergence);
-  LightTransport::RadiosityProblem DescribeEquation(const Problem& problem) const;
-  bool CheckSolution(const Problem& problem);
-  bool Finish(vtkCPULinkOperator* links, Problem& problem);
-  void Write(vtkDataObject* input, LightTransport::PatchScene& scene, const Problem& problem,
-    vtkViewFactors* viewFactors, vtkDataObject* output);
-  void WriteThermal(const LightTransport::PatchScene& scene, const Problem& problem,
-    const std::vector<double>& flux, vtkDataObject* output);
+  class Run;
 
   int Solver = SOLVER_AUTO;
   double Tolerance = 1e-4;
@@ -318,7 +291,8 @@ private:
   double ViewFactorTolerance = 1e-4;
   bool EnforceClosure = false;
   vtkViewFactors* ViewFactors = nullptr;
-  vtkSmartPointer<vtkViewFactors> InternalViewFactors;
+  /// Where none were given.
+  std::unique_ptr<LightTransport::ViewFactorStore> OwnViewFactors;
 };
 
 #endif

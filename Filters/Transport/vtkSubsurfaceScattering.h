@@ -46,10 +46,11 @@
 #include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
-#include <vector> // for std::vector
 
-class vtkDataObject;
-class vtkTable;
+namespace LightTransport
+{
+class LinkCache;
+}
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkSubsurfaceScattering : public vtkTransportAlgorithm
 {
@@ -194,25 +195,17 @@ protected:
   vtkSubsurfaceScattering();
   ~vtkSubsurfaceScattering() override;
 
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  std::unique_ptr<LightTransport::TransportRun> MakeRun(
+    const LightTransport::RunPorts& ports) override;
 
 private:
   vtkSubsurfaceScattering(const vtkSubsurfaceScattering&) = delete;
   void operator=(const vtkSubsurfaceScattering&) = delete;
 
-  struct Internals;
-  struct Optics;
+  class Run;
 
-  bool FindOptics(Optics& optics);
-  bool ReadIrradiance(vtkDataObject* input, std::vector<double>& irradiance);
-  void CompareIndices(vtkDataObject* input, double refractiveIndex);
-  bool MakeLinks(const Optics& optics);
-  bool ApplyLinks(const Optics& optics, const std::vector<double>& irradiance);
-  void WriteResults(const std::vector<double>& irradiance, double entering, vtkDataObject* input,
-    vtkDataObject* output, vtkTable* table);
-
-  std::unique_ptr<Internals> Self;
+  /// Kept for as long as what they depend on stays the same.
+  std::unique_ptr<LightTransport::LinkCache> Links;
 
   int Material = MATERIAL_CUSTOM;
   double ScatteringCoefficient[3] = { 1.0, 1.0, 1.0 };

@@ -21,18 +21,16 @@
 
 #include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkPassInputTypeAlgorithm.h"
-#include "vtkSmartPointer.h" // for return value
 
-#include <string> // for std::string
-#include <vector> // for std::vector
+#include <memory> // for std::unique_ptr
 
-class vtkCPULinkOperator;
-class vtkDeviceLinkOperator;
-class vtkExchange;
-class vtkExchangeMatrix;
-class vtkFieldData;
-class vtkLinkOperator;
 class vtkMultiProcessController;
+
+namespace LightTransport
+{
+class TransportRun;
+struct RunPorts;
+} // namespace LightTransport
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkTransportAlgorithm : public vtkPassInputTypeAlgorithm
 {
@@ -81,63 +79,14 @@ protected:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
     vtkInformationVector* outputs) override;
 
-  /// Number of processes that share the scene; 1 without a controller.
-  int GetNumberOfRanks() const;
+  /// Runs what MakeRun gives, and reports what comes of it.
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) final;
 
-  /// Whether a scene with hierarchical links is in the order of its atlases, for a ClusterTree
-  /// (ClusterTreeType): Auto where all surfaces have "AtlasCoordinates". Collective.
-  bool UsesAtlas(vtkDataObject* input, int clusterTree);
-
-  ///@{
-  /**
-   * Progress within the stage set last (fractions of the whole run; the first begins at 0). In long
-   * runs the progress text tells how much time is left. Returns false when the user has aborted.
-   * Call it from one thread; on several ranks call it on all of them alike: they agree on the
-   * answer.
-   */
-  void SetProgressStage(double begin, double end);
-  bool ReportProgress(double fraction);
-  ///@}
-
-  /**
-   * An empty exchange matrix for these patch areas, or this rank's part of it. Returns nullptr
-   * after an error, which has been reported on all ranks alike: the memory is not there.
-   */
-  vtkSmartPointer<vtkExchangeMatrix> MakeExchange(const std::vector<double>& areas,
-    int numberOfKernels);
-
-  /**
-   * Likewise with one kernel and no tile stored yet. `numberOfTiles` is the most that this rank
-   * will store; the memory for them must be there.
-   */
-  vtkSmartPointer<vtkExchangeMatrix> MakeSparseExchange(const std::vector<double>& areas,
-    vtkIdType numberOfTiles);
-
-  /**
-   * False, after reporting why, when the device is DEVICE_OPENGL and cannot be had. Asked before
-   * any work starts: a user who insists on a device does not want to wait for the links to hear
-   * that it is not there.
-   */
-  bool CheckDevice(int device);
-
-  /**
-   * The operator for a device (see DeviceType), initialised. DEVICE_AUTO takes OpenGL on a real GPU
-   * and the CPU otherwise; `explanation` says which one and why. Returns nullptr after an error,
-   * which has been reported.
-   */
-  vtkSmartPointer<vtkLinkOperator> MakeLinkOperator(int device, vtkExchange* exchange,
-    int numberOfBands, std::string& explanation);
-
-  /// The operator on the CPU for an exchange, initialised. Returns nullptr after an error, which
-  /// has been reported.
-  vtkSmartPointer<vtkCPULinkOperator> MakeCPULinkOperator(vtkExchange* exchange, int numberOfBands);
-
-  ///@{
-  /// One-tuple summaries of a run go into the output's field data.
-  static void AddSummary(vtkFieldData* fields, const char* name, double value);
-  static void AddSummary(vtkFieldData* fields, const char* name, const double values[3]);
-  static void AddSummary(vtkFieldData* fields, const char* name, const std::string& value);
-  ///@}
+  /// One run of the filter, from its input to its output: a class of the filter's own for the steps
+  /// in which it differs from others.
+  virtual std::unique_ptr<LightTransport::TransportRun> MakeRun(
+    const LightTransport::RunPorts& ports) = 0;
 
   vtkMultiProcessController* Controller = nullptr;
   double FeatureAngle = 60.0;
@@ -145,18 +94,6 @@ protected:
 private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
-
-  int GetRank() const;
-  template <typename Allocation>
-  vtkSmartPointer<vtkExchangeMatrix> AllocateExchange(std::size_t numberOfPatches, double bytes,
-    const std::string& remedy, Allocation&& allocate);
-  vtkSmartPointer<vtkDeviceLinkOperator> OpenDevice(int device, std::string& reason);
-
-  void SetTimeLeft(double done);
-
-  double StageBegin = 0.0;
-  double StageEnd = 1.0;
-  double StartTime = 0.0;
 };
 
 #endif

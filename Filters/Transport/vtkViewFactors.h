@@ -48,22 +48,15 @@
 #include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkTransportAlgorithm.h"
 
-#include <functional> // for std::function
-#include <memory>     // for std::unique_ptr
-#include <string>     // for std::string
-#include <vector>     // for std::vector
+#include <memory> // for std::unique_ptr
 
-class vtkExchange;
 class vtkTable;
 
 namespace LightTransport
 {
-class LinkRefinement;
-class PatchScene;
-class SceneRayCaster;
-class ViewFactorAssembly;
-struct PartlyVisiblePair;
-struct ViewFactorsResult;
+class Outcome;
+class ViewFactorStore;
+struct ViewFactorSettings;
 } // namespace LightTransport
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkViewFactors : public vtkTransportAlgorithm
@@ -154,9 +147,6 @@ public:
   void SetClusterTreeToAtlas() { this->SetClusterTree(CLUSTER_TREE_ATLAS); }
   ///@}
 
-  /// Whether updates give links between clusters: Hierarchical, and nothing was loaded.
-  bool LinksClusters() const { return this->Hierarchical && this->LoadedFile.empty(); }
-
   ///@{
   /**
    * Save the view factors that the last update computed, with the fingerprint of the geometry. Load
@@ -176,80 +166,32 @@ public:
   /// out). 0 where out of range and, on several ranks, where another rank holds the pair.
   double GetViewFactor(vtkIdType i, vtkIdType j);
 
-  ///@{
-  /**
-   * For filters that work on view factors: bring them up to date for a scene, computing only when
-   * the geometry or a property has changed. `progress` is called with fractions and returns false
-   * to abort. `senders` (one per patch of the scene; null for all) tells which patches send
-   * anything: pairs of which neither does are left out. The clusters of hierarchical links are
-   * those of the scene's own tree. Returns false after an error or an abort.
-   */
-  using ProgressFunction = std::function<bool(double)>;
-  bool UpdateExchange(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
-    const std::vector<bool>* senders = nullptr);
-  /// For hierarchical links: a radiosity for each patch of the scene to refine them for, instead of
-  /// one that is the same everywhere; of any other size than the scene's for that (default). The
-  /// next UpdateExchange computes.
-  void SetBrightness(const std::vector<double>& brightness);
-  /// A vtkExchangeMatrix, or with Hierarchical a vtkExchangeHierarchy. Rows are in the order of the
-  /// scene's patches, not of the input's polygons.
-  vtkExchange* GetExchange();
-  const std::vector<double>& GetRowSums() const;
-  const std::vector<double>& GetRowErrors() const;
-  /// The part of what leaves each row's patch that leaves the scene; all 0 where pairs have been
-  /// left out.
-  const std::vector<double>& GetSkyFractions() const;
-  /// Whether the view factors were computed with EnforceClosure.
-  bool HasClosedRows() const;
-  /// Field data arrays that summarise the last computation.
-  void AddSummaries(vtkFieldData* fields) const;
-  ///@}
-
 protected:
   vtkViewFactors();
   ~vtkViewFactors() override;
 
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  std::unique_ptr<LightTransport::TransportRun> MakeRun(
+    const LightTransport::RunPorts& ports) override;
 
 private:
   vtkViewFactors(const vtkViewFactors&) = delete;
   void operator=(const vtkViewFactors&) = delete;
 
-  bool Provide(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
-    const std::vector<bool>* senders);
-  bool IsUpToDate(const LightTransport::PatchScene& scene, const std::vector<bool>* senders) const;
-  bool CheckLoaded(const LightTransport::PatchScene& scene);
-  bool ComputeLinks(const LightTransport::PatchScene& scene, const ProgressFunction& progress);
-  bool StoreLinks(const LightTransport::PatchScene& scene,
-    const LightTransport::LinkRefinement& refinement);
-  bool ComputeMatrix(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
-    const std::vector<bool>* senders);
-  bool Compute(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
-    const std::vector<bool>* senders);
-  bool Assemble(const LightTransport::PatchScene& scene, const ProgressFunction& progress,
-    LightTransport::ViewFactorAssembly& assembly);
-  bool RunStages(const ProgressFunction& progress, LightTransport::ViewFactorAssembly& assembly);
-  vtkIdType GetMostOfAllRanks(vtkIdType count) const;
-  void Summarize(const LightTransport::ViewFactorAssembly& assembly);
-  bool SumRows();
-  void ClearOpenings();
-  bool FindOpenings(const LightTransport::PatchScene& scene, bool areRowsWhole);
-  void CastForOpenings(const LightTransport::PatchScene& scene,
-    const LightTransport::SceneRayCaster& caster);
-  bool CloseRows(const std::vector<LightTransport::PartlyVisiblePair>& pairs);
+  friend class vtkRadiosity; // which may share the view factors
+  class Run;
+
+  /// Whether updates give links between clusters: Hierarchical, and nothing was loaded.
+  bool LinksClusters() const;
+  LightTransport::ViewFactorSettings GetSettings() const;
+  bool Report(const LightTransport::Outcome& outcome);
+
+  std::unique_ptr<LightTransport::ViewFactorStore> Store;
 
   double Tolerance = 1e-4;
   bool EnforceClosure = false;
   bool Hierarchical = false;
   double LinkTolerance = 1e-2;
   int ClusterTree = CLUSTER_TREE_AUTO;
-
-  std::unique_ptr<LightTransport::ViewFactorsResult> Result;
-  std::vector<double> Brightness;
-  std::vector<bool> Senders;      ///< that the result was computed for; empty for all
-  std::vector<vtkIdType> Patches; ///< row of the exchange of each of the input's polygons
-  std::string LoadedFile;         ///< empty when the result was not loaded
 };
 
 #endif

@@ -3,8 +3,8 @@
 #include "ExactRows.h"
 #include "Geometry/ShaftCuller.h"
 #include "Shared/Threads.h"
-#include "ViewFactors/OpenExchange.h"
 #include "ViewFactors/PairVisibility.h"
+#include "ViewFactors/UnoccludedPairs.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ExactRows::Worker
 {
   ExactRows& Self;
   const std::vector<const Values*>& Vectors;
-  const OpenExchange& Open;
+  const UnoccludedPairs& Open;
   const ShaftCuller& Culler;
   const std::vector<int>& Leaves; ///< of each patch
 
@@ -75,8 +75,8 @@ struct ExactRows::Worker
 
   void AddPair(vtkIdType j, bool isFree, Row& row) const
   {
-    const PolygonExchange::Estimate open =
-      j == row.Patch ? PolygonExchange::Estimate() : this->Open.Compute(row.Patch, j);
+    const PairIntegrals::Estimate open =
+      j == row.Patch ? PairIntegrals::Estimate() : this->Open.Compute(row.Patch, j);
     if (open.Value <= 0.0)
     {
       return;
@@ -101,8 +101,8 @@ struct ExactRows::Worker
     {
       return {};
     }
-    PolygonExchange::Polygon a, b;
-    PolygonExchange::MakeClippedPair(scene, row.Patch, j, a, b);
+    Polygon a, b;
+    Polygon::SetToClippedPair(scene, row.Patch, j, a, b);
     const std::uint64_t key =
       static_cast<std::uint64_t>(row.Patch) << 32 ^ static_cast<std::uint64_t>(j);
     if (!row.Visibility.SetPair(a, b, scene, row.Between, key,
@@ -137,7 +137,7 @@ void ExactRows::Multiply(const std::vector<const Values*>& vectors)
 {
   this->Products.assign(this->Patches.size(), Values(vectors.size(), 0.0));
   this->Errors.assign(this->Patches.size(), 0.0);
-  const OpenExchange open(this->Scene, OpenTolerance);
+  const UnoccludedPairs open(this->Scene, OpenTolerance);
   const ShaftCuller culler(this->Scene);
   std::vector<int> leaves(this->Scene.GetNumberOfPatches());
   const auto& nodes = this->Scene.GetTree().GetNodes();

@@ -12,7 +12,7 @@ using namespace LightTransport;
 
 /**
  * A few rows, each computed pair by pair: the exchange with nothing in between in double precision
- * (OpenExchange), and the visible part with all that reaches into the shaft between the two
+ * (UnoccludedPairs), and the visible part with all that reaches into the shaft between the two
  * patches (ShaftCuller, PairVisibility). Nothing of it knows of clusters but to leave out
  * pairs that certainly exchange nothing and tests of pairs with certainly nothing in between.
  */

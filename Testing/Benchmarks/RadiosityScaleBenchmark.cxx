@@ -20,8 +20,12 @@
  * radiosity that the links are for).
  */
 #include "ExactRows.h"
+#include "Links/Links.h"
+#include "Support/Ranks.h"
 #include "Support/TransportMemory.h"
 #include "ViewFactorScenes.h"
+#include "ViewFactors/DenseViewFactors.h"
+#include "ViewFactors/HierarchicalViewFactors.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkCallbackCommand.h"
 #include "vtkExchangeMatrix.h"
@@ -68,8 +72,6 @@ constexpr const char* Usage =
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double SolverTolerance = 1e-6;
 constexpr double DenseTolerance = 1e-3;
-/// As vtkRadiosity::RefineByBrightness: what the tolerance of the first links is multiplied with.
-constexpr double CoarseLinks = 4.0;
 constexpr std::size_t Products = 9;
 constexpr double ProductSeconds = 0.3;
 /// How near the number of patches must come to the one that was asked for.
@@ -99,7 +101,7 @@ struct Setting
   bool Brightness;
 };
 
-enum Outcome
+enum Ending
 {
   MEASURED,
   STOPPED, ///< after as many seconds as are allowed
@@ -111,7 +113,7 @@ struct Measurement
 {
   Setting How{};
   double Patches = 0.0;
-  Outcome Result = LEFT_OUT;
+  Ending Result = LEFT_OUT;
   double Assembly = Unknown;
   double Links = Unknown;
   double PatchLinks = Unknown;
@@ -399,10 +401,15 @@ double GetFieldValue(vtkRadiosity* radiosity, const char* name)
 class TimedRadiosity
 {
 public:
-  TimedRadiosity(vtkPolyData* scene, vtkViewFactors* factors, double end) : End(end)
+  TimedRadiosity(vtkPolyData* scene, const Setting& setting, double end) : End(end)
   {
     this->Filter->SetInputData(scene);
-    this->Filter->SetViewFactors(factors);
+    this->Filter->SetLinkMethod(setting.Tolerance > 0.0 ? vtkRadiosity::LINK_METHOD_HIERARCHICAL
+                                                        : vtkRadiosity::LINK_METHOD_DENSE);
+    this->Filter->SetLinkTolerance(setting.Tolerance);
+    this->Filter->SetViewFactorTolerance(DenseTolerance);
+    this->Filter->SetEnforceClosure(setting.Closure);
+    this->Filter->SetRefineByBrightness(setting.Brightness);
     this->Filter->SetDeviceToCPU();
     this->Filter->SetSolverToConjugateGradient();
     this->Filter->SetTolerance(SolverTolerance);
@@ -412,7 +419,7 @@ public:
     this->Filter->AddObserver(vtkCommand::ProgressEvent, command);
   }
 
-  Outcome Run()
+  Ending Run()
   {
     this->Filter->Update();
     if (this->IsStopped)
@@ -486,29 +493,33 @@ double TimeFilledMatrix(vtkIdType patches)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkViewFactors> MakeViewFactors(const Setting& setting)
+/// The links of a run once more, to look at: a filter keeps its own to itself.
+Links MakeLinks(const PatchScene& scene, const Setting& setting, const Values& brightness)
 {
-  auto factors = vtkSmartPointer<vtkViewFactors>::New();
-  factors->SetHierarchical(setting.Tolerance > 0.0);
-  factors->SetLinkTolerance(setting.Tolerance);
-  factors->SetTolerance(DenseTolerance);
-  factors->SetEnforceClosure(setting.Closure);
-  return factors;
+  Links links;
+  const Outcome made = setting.Tolerance > 0.0
+    ? HierarchicalViewFactors(setting.Tolerance, brightness).Build(scene, Ranks(), Monitor(), links)
+    : DenseViewFactors(DenseTolerance, setting.Closure, {}).Build(scene, Ranks(), Monitor(), links);
+  if (!made)
+  {
+    std::cerr << made.GetMessage() << "\n";
+  }
+  return links;
 }
 
 //------------------------------------------------------------------------------
 /// What a run and its links tell.
-void Record(vtkRadiosity* run, vtkViewFactors* factors, Measurement& row)
+void Record(vtkRadiosity* run, const Links& links, Measurement& row)
 {
   row.Assembly = GetFieldValue(run, "ViewFactorSeconds");
   row.Links = GetFieldValue(run, "NumberOfLinks");
   row.PatchLinks = GetFieldValue(run, "NumberOfPatchLinks");
   row.LinkError = GetFieldValue(run, "LinkError");
   row.Iterations = GetFieldValue(run, "NumberOfIterations");
-  row.Bytes = factors->GetExchange()->GetNumberOfBytes();
+  row.Bytes = GetFieldValue(run, "MatrixBytes");
   row.Radiosity = GetOutputValues(run, "Radiosity");
   row.Irradiance = GetOutputValues(run, "Irradiance");
-  row.RowSums = factors->GetRowSums();
+  row.RowSums = links.RowSums;
 }
 
 //------------------------------------------------------------------------------
@@ -538,38 +549,24 @@ Measurement Describe(vtkPolyData* mesh, const Setting& setting)
 }
 
 //------------------------------------------------------------------------------
-/**
- * One run from a mesh to arrays, and products with its links. Brightness goes the way of
- * vtkRadiosity::RefineByBrightness, which gives its links to nobody else: coarse links and their
- * solution, which stay in memory, come first.
- */
+/// One run from a mesh to arrays, and products with links like its own.
 Measurement Measure(vtkPolyData* mesh, const PatchScene& scene, const Setting& setting,
   double limit)
 {
   Measurement row = Describe(mesh, setting);
-  const auto factors = MakeViewFactors(setting);
-  const auto coarseFactors =
-    MakeViewFactors({ CoarseLinks * setting.Tolerance, setting.Closure, false });
-  double coarseAssembly = 0.0;
   ResetPeakMemory();
   const double begin = GetSeconds();
-  row.Result = MEASURED;
-  if (setting.Brightness)
-  {
-    TimedRadiosity coarse(mesh, coarseFactors, begin + limit);
-    row.Result = coarse.Run();
-    factors->SetBrightness(SortValues(scene, GetOutputValues(coarse.GetFilter(), "Radiosity")));
-    coarseAssembly = GetFieldValue(coarse.GetFilter(), "ViewFactorSeconds");
-  }
-  TimedRadiosity run(mesh, factors, begin + limit);
-  row.Result = row.Result == MEASURED ? run.Run() : row.Result;
+  TimedRadiosity run(mesh, setting, begin + limit);
+  row.Result = run.Run();
   if (row.Result == MEASURED)
   {
     row.Whole = GetSeconds() - begin;
     row.Peak = GetPeakMemory();
-    Record(run.GetFilter(), factors, row);
-    row.Assembly += coarseAssembly;
-    row.Apply = TimeProducts(factors->GetExchange());
+    const Links links = MakeLinks(scene, setting,
+      setting.Brightness ? SortValues(scene, GetOutputValues(run.GetFilter(), "Radiosity"))
+                         : Values());
+    Record(run.GetFilter(), links, row);
+    row.Apply = links.GetExchange() ? TimeProducts(links.GetExchange()) : Unknown;
   }
   return row;
 }
@@ -791,10 +788,10 @@ private:
   {
     const vtkSmartPointer<vtkPolyData> mesh = MakeScene(this->Settings.Scene, size);
     PatchScene scene;
-    std::string error;
-    if (!mesh || !scene.Build(mesh, nullptr, error))
+    const Outcome built = mesh ? scene.Build(mesh, Ranks()) : Outcome::FailedAsReported();
+    if (!built)
     {
-      std::cerr << error << "\n";
+      std::cerr << built.GetMessage() << "\n";
       return false;
     }
     const std::size_t first = this->Rows.size();

@@ -9,7 +9,7 @@
 #ifndef PatchSampler_h
 #define PatchSampler_h
 
-#include "ViewFactors/PolygonExchange.h"
+#include "Geometry/Polygon.h"
 
 #include <Eigen/Geometry>
 
@@ -48,12 +48,11 @@ public:
 
   /// A uniformly distributed point of a polygon, from dimensions `first` and `first` + 1 of point
   /// `index`.
-  PolygonExchange::Vector GetPoint(const PolygonExchange::Polygon& polygon, int index,
-    int first) const
+  Polygon::Vector GetPoint(const Polygon& polygon, int index, int first) const
   {
     double u = this->Get(index, first);
     double v = this->Get(index, first + 1);
-    const PolygonExchange::Vector& origin = polygon.Corners[0];
+    const Polygon::Vector& origin = polygon.Corners[0];
     if (IsParallelogram(polygon))
     {
       return origin + u * (polygon.Corners[1] - origin) + v * (polygon.Corners[3] - origin);
@@ -69,12 +68,11 @@ public:
   }
 
   /// A unit vector around a normal, even in projected (cosine-weighted) solid angle.
-  PolygonExchange::Vector GetDirection(const PolygonExchange::Vector& normal, int index,
-    int first) const
+  Polygon::Vector GetDirection(const Polygon::Vector& normal, int index, int first) const
   {
     const double squared = this->Get(index, first);
     const double angle = 6.283185307179586 * this->Get(index, first + 1);
-    const PolygonExchange::Vector tangent = normal.unitOrthogonal();
+    const Polygon::Vector tangent = normal.unitOrthogonal();
     return std::sqrt(squared) *
       (std::cos(angle) * tangent + std::sin(angle) * normal.cross(tangent)) +
       std::sqrt(1.0 - squared) * normal;
@@ -83,7 +81,7 @@ public:
 private:
   // The most frequent polygon besides triangles; on it the points stay as even as they are in the
   // unit square.
-  static bool IsParallelogram(const PolygonExchange::Polygon& polygon)
+  static bool IsParallelogram(const Polygon& polygon)
   {
     if (polygon.Count != 4)
     {
@@ -95,12 +93,12 @@ private:
   }
 
   // A triangle of the fan by its share of the area; u is stretched so that it is uniform within it.
-  static int ChooseTriangle(const PolygonExchange::Polygon& polygon, double& u)
+  static int ChooseTriangle(const Polygon& polygon, double& u)
   {
     const auto getTwiceArea = [&](int corner)
     {
-      const PolygonExchange::Vector a = polygon.Corners[corner] - polygon.Corners[0];
-      const PolygonExchange::Vector b = polygon.Corners[corner + 1] - polygon.Corners[0];
+      const Polygon::Vector a = polygon.Corners[corner] - polygon.Corners[0];
+      const Polygon::Vector b = polygon.Corners[corner + 1] - polygon.Corners[0];
       return a.cross(b).dot(polygon.Normal);
     };
     const int last = polygon.Count - 2;

@@ -290,49 +290,49 @@ void SceneRayCaster::Internals::FindBox(const RTCBoundsFunctionArguments* argume
 }
 
 //------------------------------------------------------------------------------
-SceneRayCaster::SceneRayCaster() : Self(new Internals) {}
+SceneRayCaster::SceneRayCaster() : Internal(new Internals) {}
 
 //------------------------------------------------------------------------------
 SceneRayCaster::~SceneRayCaster() = default;
 
 //------------------------------------------------------------------------------
-bool SceneRayCaster::Build(const PatchScene& scene, std::string& error,
-  const std::vector<bool>* subset)
+Outcome SceneRayCaster::Build(const PatchScene& scene, const std::vector<bool>* subset)
 {
-  this->Self->Close();
+  this->Internal->Close();
   // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree.
-  this->Self->Device = rtcNewDevice("threads=1");
-  bool ok = this->Self->Device != nullptr;
+  this->Internal->Device = rtcNewDevice("threads=1");
+  bool ok = this->Internal->Device != nullptr;
   if (ok)
   {
-    this->Self->Tree = rtcNewScene(this->Self->Device);
-    this->Self->AddPatches(scene, subset);
-    rtcCommitScene(this->Self->Tree);
-    ok = rtcGetDeviceError(this->Self->Device) == RTC_ERROR_NONE;
+    this->Internal->Tree = rtcNewScene(this->Internal->Device);
+    this->Internal->AddPatches(scene, subset);
+    rtcCommitScene(this->Internal->Tree);
+    ok = rtcGetDeviceError(this->Internal->Device) == RTC_ERROR_NONE;
   }
   if (!ok)
   {
-    error = "Embree could not build its tree of " + std::to_string(scene.GetNumberOfPatches()) +
-      " patches: use fewer patches or a machine with more memory.";
-    this->Self->Close();
+    this->Internal->Close();
+    return Outcome::Failed("Embree could not build its tree of " +
+      std::to_string(scene.GetNumberOfPatches()) +
+      " patches: use fewer patches or a machine with more memory.");
   }
-  return ok;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
 bool SceneRayCaster::IsOccluded(const Vector& origin, const Vector& target, vtkIdType from,
   vtkIdType to) const
 {
-  Segment segment = this->Self->MakeSegment(origin, target, from, to);
+  Segment segment = this->Internal->MakeSegment(origin, target, from, to);
   RTCRay ray;
   segment.SetRay(ray);
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &segment.Context;
-  rtcOccluded1(this->Self->Tree, &ray, &arguments);
+  rtcOccluded1(this->Internal->Tree, &ray, &arguments);
 #else
-  rtcOccluded1(this->Self->Tree, &segment.Context, &ray);
+  rtcOccluded1(this->Internal->Tree, &segment.Context, &ray);
 #endif
   return ray.tfar < 0.0f;
 }
@@ -342,7 +342,7 @@ vtkIdType SceneRayCaster::FindHit(const Vector& origin, const Vector& direction,
   bool& front) const
 {
   Segment segment =
-    this->Self->MakeSegment(origin, origin + OutOfScene * direction.normalized(), from, -1);
+    this->Internal->MakeSegment(origin, origin + OutOfScene * direction.normalized(), from, -1);
   RTCRayHit hit;
   segment.SetRay(hit.ray);
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -351,9 +351,9 @@ vtkIdType SceneRayCaster::FindHit(const Vector& origin, const Vector& direction,
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &segment.Context;
-  rtcIntersect1(this->Self->Tree, &hit, &arguments);
+  rtcIntersect1(this->Internal->Tree, &hit, &arguments);
 #else
-  rtcIntersect1(this->Self->Tree, &segment.Context, &hit);
+  rtcIntersect1(this->Internal->Tree, &segment.Context, &hit);
 #endif
   front = segment.HitFront;
   return segment.HitPatch;

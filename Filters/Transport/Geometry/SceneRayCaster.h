@@ -33,10 +33,9 @@ public:
 
   /**
    * Only the patches of `subset` (all where it is nullptr) stop rays. The scene must outlive the
-   * caster. Returns false with `error` when Embree cannot build (no memory, no device).
+   * caster. Fails when Embree cannot build (no memory, no device).
    */
-  bool Build(const PatchScene& scene, std::string& error,
-    const std::vector<bool>* subset = nullptr);
+  Outcome Build(const PatchScene& scene, const std::vector<bool>* subset = nullptr);
 
   /// True when a patch other than `from` and `to` lies between the two points (scene coordinates).
   /// Both sides of a patch block. `to` is -1 where the target is on no patch.
@@ -53,7 +52,7 @@ public:
 
 private:
   struct Internals;
-  std::unique_ptr<Internals> Self;
+  std::unique_ptr<Internals> Internal;
 };
 } // namespace LightTransport
 

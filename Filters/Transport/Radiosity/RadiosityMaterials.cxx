@@ -3,6 +3,7 @@
 #include "Radiosity/RadiosityMaterials.h"
 
 #include "Radiosity/PlanckFraction.h"
+#include "Scene/CellArrays.h"
 #include "Scene/PatchScene.h"
 #include "vtkMath.h"
 
@@ -66,8 +67,7 @@ class Arrays
 public:
   explicit Arrays(const Materials& settings) : Settings(settings) {}
 
-  bool Gather(vtkDataObject* input, const PatchScene& scene, const std::vector<std::string>& names,
-    std::string& error);
+  bool Gather(const CellArrays& source, const std::vector<std::string>& names, std::string& error);
   std::string Check(const PatchScene& scene);
 
   int GetNumberOfBands() const { return this->Bands; }
@@ -108,8 +108,8 @@ private:
 };
 
 //------------------------------------------------------------------------------
-bool Arrays::Gather(vtkDataObject* input, const PatchScene& scene,
-  const std::vector<std::string>& names, std::string& error)
+bool Arrays::Gather(const CellArrays& source, const std::vector<std::string>& names,
+  std::string& error)
 {
   for (int k = 0; k < Materials::NUMBER_OF_ARRAYS; ++k)
   {
@@ -119,9 +119,11 @@ bool Arrays::Gather(vtkDataObject* input, const PatchScene& scene,
     const bool ignored =
       (k == Materials::BOUNDARY_CONDITION || k == Materials::PRESCRIBED_NET_FLUX) &&
       !this->IsThermal();
-    if (!ignored &&
-      !scene.GatherCellArray(input, array.Name, false, array.Values, array.Components, error))
+    const Outcome read =
+      ignored ? Outcome::Done() : source.Read(array.Name, false, array.Values, array.Components);
+    if (!read)
     {
+      error = read.GetMessage();
       return false;
     }
   }
@@ -379,11 +381,11 @@ const char* RadiosityMaterials::GetDefaultName(int array)
 }
 
 //------------------------------------------------------------------------------
-bool RadiosityMaterials::Read(vtkDataObject* input, const PatchScene& scene,
+bool RadiosityMaterials::Read(const CellArrays& source, const PatchScene& scene,
   const std::vector<std::string>& names, std::string& error)
 {
   Arrays arrays(*this);
-  if (!arrays.Gather(input, scene, names, error) || !(error = arrays.Check(scene)).empty())
+  if (!arrays.Gather(source, names, error) || !(error = arrays.Check(scene)).empty())
   {
     return false;
   }

@@ -15,10 +15,9 @@
 #include <string>
 #include <vector>
 
-class vtkDataObject;
-
 namespace LightTransport
 {
+class CellArrays;
 class PatchScene;
 
 struct RadiosityMaterials
@@ -61,8 +60,8 @@ struct RadiosityMaterials
    * Fill in all of the above. `names` are those of the input arrays. Returns false, on every rank
    * alike, with `error` naming the problem and the remedy.
    */
-  bool Read(vtkDataObject* input, const PatchScene& scene, const std::vector<std::string>& names,
-    std::string& error);
+  bool Read(const CellArrays& arrays, const PatchScene& scene,
+    const std::vector<std::string>& names, std::string& error);
 
   /// The patches that send anything, one way or the other.
   std::vector<bool> FindSenders() const;

@@ -11,9 +11,13 @@ namespace LightTransport
 {
 namespace
 {
-/// Spacing of the table in t, and its end: radii up to exp(30) depths.
+///@{ Spacing of the table in t, its end (radii up to exp(30) depths), and the points of the rule
+///that
+/// fills an interval.
 constexpr double TableStep = 1.0 / 32.0;
 constexpr int TableIntervals = 32 * 30;
+constexpr int PointsOfInterval = 4;
+///@}
 
 /// Within this many depths the closed forms of the moments cancel, and few points are exact.
 constexpr double Nearby = 0.5;
@@ -87,7 +91,7 @@ double PointSource::GetFirstMomentOfTail(double radius) const
 //------------------------------------------------------------------------------
 void PointSource::TabulateSecondMoment()
 {
-  const GaussLegendre rule(4);
+  const GaussLegendre rule(PointsOfInterval);
   const double scale = this->TransportCoefficient * this->Depth;
   this->Table.assign(TableIntervals + 1, 0.0);
   for (int i = 0; i < TableIntervals; ++i)

@@ -21,9 +21,8 @@ constexpr int RowsPerStrip = 8;
 /// Calls of the monitor; the same on all ranks.
 constexpr int NumberOfBatches = 50;
 
-///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours, of which a
-/// triangle mesh has about 40 within
-/// reach: NeighbourReach times the sum of both radii.
+///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours. Those are
+/// closer than NeighbourReach times the sum of both radii; in a triangle mesh there are about 40.
 constexpr double ShareOfValues = 0.4;
 constexpr double ShareOfAreas = 0.3;
 constexpr double ShareOfNeighbours = 0.3 / 40.0;

@@ -31,8 +31,11 @@ constexpr double RoughTolerance = 0.1;
 /// Parts of pairs are left alone when their sum is below this much of the tolerance.
 constexpr double NegligiblePart = 0.01;
 
-/// Of the logarithmic range of distances that one rule takes in a triangle with itself.
+///@{ In a triangle with itself: how much of the logarithmic range of distances one rule takes, and
+/// its points.
 constexpr double WidestPart = 1.5;
+constexpr int PointsOfPart = 12;
+///@}
 
 /// Above the longest distance, for rounding.
 constexpr double Margin = 1.01;
@@ -318,7 +321,7 @@ void ScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) cons
   // edge is met h sinh(t) from the foot of the height, and the angle changes by dt / cosh t. The
   // three corners together see all directions, up to their opposites, once. In t the integrand is
   // smooth for the thinnest triangle and for any ratio of its size to the profile's.
-  static const GaussLegendre rule(12);
+  static const GaussLegendre rule(PointsOfPart);
   for (int corner = 0; corner < 3; ++corner)
   {
     const Vector& apex = triangle.Corners[corner];

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/PatchTree.h"
 
-#include "Scene/PatchScene.h"
+#include "Scene/PatchGeometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,21 +114,21 @@ private:
 
 //------------------------------------------------------------------------------
 // Everything but the cone, from the patches of a leaf.
-void FillLeaf(const PatchScene& scene, PatchTree::Node& node, Box& normals)
+void FillLeaf(const PatchGeometry& patches, PatchTree::Node& node, Box& normals)
 {
   Box corners = MakeEmptyBox();
   Box centroids = MakeEmptyBox();
   normals = MakeEmptyBox();
   for (vtkIdType patch = node.First; patch < node.Last; ++patch)
   {
-    for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
+    for (int corner = 0; corner < patches.GetNumberOfCorners(patch); ++corner)
     {
-      Extend(corners, scene.GetCorner(patch, corner));
+      Extend(corners, patches.GetCorner(patch, corner));
     }
-    Extend(centroids, scene.GetCentroid(patch));
-    Extend(normals, scene.GetNormal(patch));
-    node.Radius = std::max(node.Radius, scene.GetRadius(patch));
-    node.Area += scene.GetAreas()[patch];
+    Extend(centroids, patches.GetCentroid(patch));
+    Extend(normals, patches.GetNormal(patch));
+    node.Radius = std::max(node.Radius, patches.GetRadius(patch));
+    node.Area += patches.GetAreas()[patch];
   }
   std::tie(node.Lower, node.Upper) = corners;
   std::tie(node.CentroidLower, node.CentroidUpper) = centroids;
@@ -148,7 +148,7 @@ void Join(const PatchTree::Node& left, const PatchTree::Node& right, PatchTree::
 //------------------------------------------------------------------------------
 // Around the centre of the box of the normals. All patches are looked at, not the cones of the
 // children: cones around cones would widen from level to level.
-void FillCone(const PatchScene& scene, const Box& normals, PatchTree::Node& node)
+void FillCone(const PatchGeometry& patches, const Box& normals, PatchTree::Node& node)
 {
   const Vector centre = 0.5 * (normals.first + normals.second);
   if (centre.norm() < NoDirection)
@@ -159,7 +159,7 @@ void FillCone(const PatchScene& scene, const Box& normals, PatchTree::Node& node
   node.ConeCosine = 1.0;
   for (vtkIdType patch = node.First; patch < node.Last; ++patch)
   {
-    node.ConeCosine = std::min(node.ConeCosine, scene.GetNormal(patch).dot(node.ConeAxis));
+    node.ConeCosine = std::min(node.ConeCosine, patches.GetNormal(patch).dot(node.ConeAxis));
   }
 }
 
@@ -175,7 +175,7 @@ std::uint64_t GetLowerBits(std::uint64_t bits)
 }
 
 //------------------------------------------------------------------------------
-void FillAllNodes(const PatchScene& scene, std::vector<PatchTree::Node>& nodes)
+void FillAllNodes(const PatchGeometry& patches, std::vector<PatchTree::Node>& nodes)
 {
   std::vector<Box> normals(nodes.size());
   // Children come after their parents.
@@ -184,7 +184,7 @@ void FillAllNodes(const PatchScene& scene, std::vector<PatchTree::Node>& nodes)
     PatchTree::Node& node = nodes[index];
     if (node.IsLeaf())
     {
-      FillLeaf(scene, node, normals[index]);
+      FillLeaf(patches, node, normals[index]);
     }
     else
     {
@@ -193,7 +193,7 @@ void FillAllNodes(const PatchScene& scene, std::vector<PatchTree::Node>& nodes)
       Extend(normals[index], normals[node.Left + 1].first);
       Extend(normals[index], normals[node.Left + 1].second);
     }
-    FillCone(scene, normals[index], node);
+    FillCone(patches, normals[index], node);
   }
 }
 } // namespace
@@ -294,8 +294,8 @@ std::uint64_t PatchTree::GetCode(double x, double y)
 }
 
 //------------------------------------------------------------------------------
-void PatchTree::FillNodes(const PatchScene& scene)
+void PatchTree::FillNodes(const PatchGeometry& patches)
 {
-  FillAllNodes(scene, this->Nodes);
+  FillAllNodes(patches, this->Nodes);
 }
 } // namespace LightTransport

@@ -29,7 +29,7 @@
 
 namespace LightTransport
 {
-class PatchScene;
+class PatchGeometry;
 
 class PatchTree
 {
@@ -77,8 +77,8 @@ public:
   static constexpr int AtlasBits = 26;
   static std::uint64_t GetCode(double x, double y);
 
-  /// Boxes, cones and areas, once the scene is in the order of Sort.
-  void FillNodes(const PatchScene& scene);
+  /// Boxes, cones and areas, of patches that are in the order of Sort.
+  void FillNodes(const PatchGeometry& patches);
 
   /// Node 0 is the root.
   const std::vector<Node>& GetNodes() const { return this->Nodes; }

@@ -16,9 +16,7 @@ namespace LightTransport
 {
 namespace
 {
-using PolygonExchange::GetMiddle;
-using PolygonExchange::Polygon;
-using PolygonExchange::Vector;
+using Vector = Polygon::Vector;
 using ShadowRaster::Flux;
 
 // Into how many parts the sides of the outer polygon's triangles are cut, one grid after the other.
@@ -43,7 +41,7 @@ constexpr double OnPlane = 1e-12;
 //------------------------------------------------------------------------------
 double GetExtent(const Polygon& polygon)
 {
-  const Vector middle = GetMiddle(polygon);
+  const Vector middle = polygon.GetMiddle();
   double squared = 0.0;
   for (int corner = 0; corner < polygon.Count; ++corner)
   {
@@ -143,8 +141,8 @@ bool PairVisibility::SelectOccluders(const PatchScene& scene,
 // move (1 - t) / t times as far as the point.
 void PairVisibility::ChooseOuter(const PatchScene& scene)
 {
-  const Vector middle = GetMiddle(this->Outer);
-  const Vector axis = GetMiddle(this->Inner) - middle;
+  const Vector middle = this->Outer.GetMiddle();
+  const Vector axis = this->Inner.GetMiddle() - middle;
   double sum = 0.0;
   for (const Occluder& occluder : this->Occluders)
   {
@@ -162,7 +160,7 @@ void PairVisibility::ChooseOuter(const PatchScene& scene)
 //------------------------------------------------------------------------------
 void PairVisibility::SetFrame()
 {
-  this->Origin = GetMiddle(this->Inner);
+  this->Origin = this->Inner.GetMiddle();
   double longest = 0.0;
   for (int corner = 0; corner < this->Inner.Count; ++corner)
   {
@@ -219,7 +217,7 @@ void PairVisibility::AddTarget()
 template <typename GetCorner>
 void PairVisibility::AddTriangles(int count, const GetCorner& getCorner)
 {
-  double corners[PolygonExchange::MaximumCorners + 2][3];
+  double corners[Polygon::MaximumCorners + 2][3];
   for (int corner = 0; corner < count; ++corner)
   {
     const Vector offset = getCorner(corner) - this->Origin;
@@ -236,7 +234,7 @@ void PairVisibility::AddTriangles(int count, const GetCorner& getCorner)
 //------------------------------------------------------------------------------
 void PairVisibility::AddTriangles(const PatchScene& scene)
 {
-  const Vector middle = GetMiddle(this->Outer);
+  const Vector middle = this->Outer.GetMiddle();
   const Vector axis = (this->Origin - middle).normalized();
   for (Occluder& occluder : this->Occluders)
   {
@@ -260,9 +258,9 @@ void PairVisibility::AddTriangles(const PatchScene& scene)
         [&](int corner) { return scene.GetCorner(occluder.Patch, corner); });
       continue;
     }
-    PolygonExchange::MakePolygon(scene, occluder.Patch, cut);
-    if (PolygonExchange::Clip(cut, this->Outer.Corners[0], this->Outer.Normal) &&
-      PolygonExchange::Clip(cut, this->Inner.Corners[0], this->Inner.Normal))
+    cut.Set(scene, occluder.Patch);
+    if (cut.Clip(this->Outer.Corners[0], this->Outer.Normal) &&
+      cut.Clip(this->Inner.Corners[0], this->Inner.Normal))
     {
       this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
     }

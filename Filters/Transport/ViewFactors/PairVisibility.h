@@ -16,7 +16,7 @@
 #ifndef PairVisibility_h
 #define PairVisibility_h
 
-#include "ViewFactors/PolygonExchange.h"
+#include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/ShadowRaster.h"
 
 #include <cstdint>
@@ -24,11 +24,13 @@
 
 namespace LightTransport
 {
+class PatchScene;
+
 class PairVisibility
 {
 public:
-  using Polygon = PolygonExchange::Polygon;
-  using Vector = PolygonExchange::Vector;
+  using Polygon = LightTransport::Polygon;
+  using Vector = Polygon::Vector;
 
   /// The visible part of the exchange, 0 to 1, and an estimate of its absolute error.
   struct Share
@@ -38,7 +40,7 @@ public:
   };
 
   /**
-   * Begin with a pair, each polygon in front of the plane of the other (PolygonExchange::Clip),
+   * Begin with a pair, each polygon in front of the plane of the other (PairIntegrals::Clip),
    * and the patches that may come between them. Equal keys give equal samples. Returns false where
    * none of the patches has a part in front of both planes: nothing is between.
    * `touching` is the exchange with nothing in between of two polygons that share a corner: next to

@@ -4,8 +4,7 @@
 
 #include "Scene/PatchTree.h"
 #include "Shared/Threads.h"
-#include "vtkCommunicator.h"
-#include "vtkMultiProcessController.h"
+#include "Support/Ranks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,7 +157,7 @@ struct ViewFactorAssembly::Looker
           ++count.NotSending;
           continue;
         }
-        const PolygonExchange::Estimate pair = this->Self.Open.Compute(row, column);
+        const PairIntegrals::Estimate pair = this->Self.Open.Compute(row, column);
         ++count.Open.Examined;
         ++(pair.Value > 0.0 ? count.Open.Facing : count.Open.BackFacing);
         work.GetValue(row, column) = static_cast<float>(pair.Value);
@@ -252,13 +251,13 @@ struct ViewFactorAssembly::Looker
     Counters& count = work.Result.Count;
     std::vector<vtkIdType>& between = work.Between;
     this->Self.Culler.NarrowBetween(i, j, work.GetList(depth), between);
-    PolygonExchange::Polygon a, b;
+    Polygon a, b;
     if (between.empty())
     {
       ++count.Free;
       return;
     }
-    PolygonExchange::MakeClippedPair(this->Self.Scene, i, j, a, b);
+    Polygon::SetToClippedPair(this->Self.Scene, i, j, a, b);
     if (!work.Visibility.SetPair(a, b, this->Self.Scene, between, GetKey(i, j),
           this->Self.Scene.AreTouching(i, j) ? value : 0.0))
     {
@@ -317,8 +316,8 @@ struct ViewFactorAssembly::Refiner
         continue;
       }
       this->Self.Culler.FindBetween(pair.I, pair.J, between);
-      PolygonExchange::Polygon a, b;
-      PolygonExchange::MakeClippedPair(this->Self.Scene, pair.I, pair.J, a, b);
+      Polygon a, b;
+      Polygon::SetToClippedPair(this->Self.Scene, pair.I, pair.J, a, b);
       if (visibility.SetPair(a, b, this->Self.Scene, between, GetKey(pair.I, pair.J),
             this->Self.Scene.AreTouching(pair.I, pair.J) ? pair.Open : 0.0))
       {
@@ -505,7 +504,7 @@ double ViewFactorAssembly::GetAllowedError(const PartlyVisiblePair& pair) const
 //------------------------------------------------------------------------------
 // Each row divides what its tolerance allows among its pairs by their weights. Pairs that need less
 // leave the rest to the others: a second and a third division.
-void ViewFactorAssembly::PrepareRefinement(vtkMultiProcessController* controller)
+void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
 {
   constexpr int divisions = 3;
   const std::size_t rows = this->RowErrors.size();
@@ -527,12 +526,7 @@ void ViewFactorAssembly::PrepareRefinement(vtkMultiProcessController* controller
       add(pair, isSettled, pair.I);
       add(pair, isSettled, pair.J);
     }
-    if (controller && controller->GetNumberOfProcesses() > 1)
-    {
-      const std::vector<double> mine = sums;
-      controller->AllReduce(mine.data(), sums.data(), static_cast<vtkIdType>(sums.size()),
-        vtkCommunicator::SUM_OP);
-    }
+    ranks.Sum(sums);
     for (std::size_t row = 0; row < rows; ++row)
     {
       const double left = 1.0 - sums[2 * row] / BudgetUnits;

@@ -4,7 +4,7 @@
  * Fills this rank's part of an exchange matrix with the exchange between all patches of a scene, in
  * two stages:
  *
- *   1. *Look*: for each pair of blocks the exchange with nothing in between (OpenExchange); then
+ *   1. *Look*: for each pair of blocks the exchange with nothing in between (UnoccludedPairs); then
  *      down both nodes of the tree with the list of patches that reach into the shaft between them
  *      (ShaftCuller): where it becomes empty all pairs below are visible, whatever remains at a
  *      pair is looked past from a few points (PairVisibility). Pairs that are then neither
@@ -16,17 +16,17 @@
 #define ViewFactorAssembly_h
 
 #include "Geometry/ShaftCuller.h"
-#include "ViewFactors/OpenExchange.h"
 #include "ViewFactors/PairVisibility.h"
-#include "ViewFactors/ViewFactorsResult.h"
+#include "ViewFactors/PartlyVisiblePair.h"
+#include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeMatrix.h"
 
 #include <vector>
 
-class vtkMultiProcessController;
-
 namespace LightTransport
 {
+class Ranks;
+
 class ViewFactorAssembly
 {
 public:
@@ -39,7 +39,7 @@ public:
   /// some are Free, Hidden or PartlyVisible; the others have something near that hides nothing.
   struct Counters
   {
-    OpenExchange::Counters Open;
+    UnoccludedPairs::Counters Open;
     double NotSending = 0.0;    ///< not examined, since neither sends anything
     double Free = 0.0;          ///< nothing reaches into the shaft between them
     double Hidden = 0.0;        ///< completely
@@ -65,7 +65,7 @@ public:
   ///@{
   /// Stage 2. Prepare is collective: it divides the tolerance of a row among its pairs on all
   /// ranks.
-  void PrepareRefinement(vtkMultiProcessController* controller);
+  void PrepareRefinement(const Ranks& ranks);
   vtkIdType GetNumberOfPairs() const { return static_cast<vtkIdType>(this->Pairs.size()); }
   void Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   ///@}
@@ -99,7 +99,7 @@ private:
   double Tolerance;
   const std::vector<bool>* Senders;
   std::vector<vtkIdType> NodeSenders;
-  OpenExchange Open;
+  UnoccludedPairs Open;
   ShaftCuller Culler;
   std::vector<Unit> Units;
   std::vector<bool> TilesWithPairs;

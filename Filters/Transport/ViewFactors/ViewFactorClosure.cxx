@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactors/ViewFactorClosure.h"
 
+#include "Links/LinkOperators.h"
+#include "Links/Links.h"
 #include "Shared/Threads.h"
+#include "Support/Ranks.h"
+#include "ViewFactors/ViewFactorAssembly.h"
 #include "vtkCPULinkOperator.h"
-#include "vtkCommunicator.h"
 #include "vtkDenseLinkOperator.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkSMPThreadLocal.h"
 
@@ -133,15 +135,15 @@ class Closing
 {
 public:
   Closing(vtkExchangeMatrix* exchange, const std::vector<PartlyVisiblePair>& pairs,
-    const std::vector<bool>& closed, double relativeError, vtkMultiProcessController* controller)
-    : Exchange(exchange), Controller(controller), RelativeError(relativeError),
+    const std::vector<bool>& closed, double relativeError, const Ranks& ranks)
+    : Exchange(exchange), AllRanks(ranks), RelativeError(relativeError),
       Areas(Eigen::Map<const Array>(exchange->GetAreas().data(),
         static_cast<Eigen::Index>(exchange->GetAreas().size()))),
       Closed(this->Areas.size())
   {
     std::copy(closed.begin(), closed.end(), this->Closed.begin());
-    this->Links->SetController(controller);
-    this->Ok = this->Links->Initialize(exchange, 1);
+    this->Product->SetController(ranks.GetController());
+    this->Ok = this->Product->Initialize(exchange, 1);
     this->LiftPairs(pairs);
   }
 
@@ -186,8 +188,8 @@ private:
   Array Multiply(const Array& x)
   {
     Array product(x.size());
-    this->Ok = this->Ok && this->Links->SetVector(0, x.data()) && this->Links->Multiply(1, 0) &&
-      this->Links->GetVector(1, product.data());
+    this->Ok = this->Ok && this->Product->SetVector(0, x.data()) && this->Product->Multiply(1, 0) &&
+      this->Product->GetVector(1, product.data());
     return product;
   }
 
@@ -208,12 +210,7 @@ private:
   Array AddRanks(const Array& mine)
   {
     Array all = mine;
-    if (this->Exchange->GetNumberOfParts() > 1)
-    {
-      this->Ok = this->Controller->AllReduce(mine.data(), all.data(),
-                   static_cast<vtkIdType>(mine.size()), vtkCommunicator::SUM_OP) != 0 &&
-        this->Ok;
-    }
+    this->Ok = this->AllRanks.Sum(all.data(), static_cast<std::size_t>(all.size())) && this->Ok;
     return all;
   }
 
@@ -332,8 +329,8 @@ private:
   }
 
   vtkExchangeMatrix* Exchange;
-  vtkMultiProcessController* Controller;
-  vtkNew<vtkDenseLinkOperator> Links;
+  Ranks AllRanks;
+  vtkNew<vtkDenseLinkOperator> Product;
   double RelativeError;
   Array Areas;
   Array Closed; // 1 in closed rows, else 0
@@ -359,43 +356,61 @@ void AddRemainders(vtkExchangeMatrix& exchange, const std::vector<bool>& closed,
   }
   exchange.SetRemainders(remainders);
 }
-} // namespace
 
 //------------------------------------------------------------------------------
-bool ViewFactorClosure::Close(ViewFactorsResult& result,
-  const std::vector<PartlyVisiblePair>& pairs, const std::vector<bool>& closed,
-  double relativeError, vtkMultiProcessController* controller, Report& report)
+// Those that see no opening.
+std::vector<bool> FindClosedRows(const Links& links)
 {
-  Closing closing(result.Exchange, pairs, closed, relativeError, controller);
-  if (!closing.Run(report))
-  {
-    return false;
-  }
-  AddRemainders(*result.Exchange, closed, closing.GetRowSums());
-  result.RowSums = closing.GetRowSums();
-  report.Gap = 0.0;
+  std::vector<bool> closed(links.RowSums.size());
   for (std::size_t row = 0; row < closed.size(); ++row)
   {
-    report.Gap = std::max(report.Gap, closed[row] ? std::abs(1.0 - result.RowSums[row]) : 0.0);
+    closed[row] = links.SkyFractions[row] + links.BackFaceFractions[row] == 0.0;
   }
-  return closing.IsOk();
+  return closed;
 }
 
 //------------------------------------------------------------------------------
-bool ViewFactorClosure::Scale(ViewFactorsResult& result, const std::vector<bool>& closed,
-  vtkMultiProcessController* controller, Report& report)
+void Summarize(const ViewFactorClosure::Report& report, Links& links)
 {
-  vtkExchangeHierarchy* hierarchy = result.Hierarchy;
+  links.AreRowsClosed = true;
+  links.Summaries.emplace_back("ClosureChange", report.Change);
+  links.Summaries.emplace_back("ClosureGap", report.Gap);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorClosure::Close(Links& links, const std::vector<PartlyVisiblePair>& pairs,
+  const std::vector<bool>& closed, double relativeError, const Ranks& ranks, Report& report)
+{
+  Closing closing(links.Matrix, pairs, closed, relativeError, ranks);
+  if (!closing.Run(report))
+  {
+    return Outcome::FailedAsReported();
+  }
+  AddRemainders(*links.Matrix, closed, closing.GetRowSums());
+  links.RowSums = closing.GetRowSums();
+  report.Gap = 0.0;
+  for (std::size_t row = 0; row < closed.size(); ++row)
+  {
+    report.Gap = std::max(report.Gap, closed[row] ? std::abs(1.0 - links.RowSums[row]) : 0.0);
+  }
+  return closing.IsOk() ? Outcome::Done() : Outcome::FailedAsReported();
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorClosure::Scale(Links& links, const std::vector<bool>& closed, const Ranks& ranks,
+  Report& report)
+{
+  vtkExchangeHierarchy* hierarchy = links.Hierarchy;
   const std::vector<double>& areas = hierarchy->GetAreas();
-  auto links = vtkCPULinkOperator::NewFor(hierarchy);
-  links->SetController(controller);
+  auto product = LinkOperators::MakeOnCPU(hierarchy, 1, ranks);
   std::vector<double> sums(areas.size(), 1.0);
-  bool good = links->Initialize(hierarchy, 1) && links->SetVector(0, sums.data());
+  bool good = product && product->SetVector(0, sums.data());
   std::vector<double> weights = hierarchy->GetWeights();
   double last = std::numeric_limits<double>::max();
   for (int step = 0; good && step <= MaximumScalings; ++step)
   {
-    good = links->Multiply(1, 0) && links->GetVector(1, sums.data());
+    good = product->Multiply(1, 0) && product->GetVector(1, sums.data());
     report.Gap = 0.0;
     for (std::size_t row = 0; row < areas.size(); ++row)
     {
@@ -414,9 +429,35 @@ bool ViewFactorClosure::Scale(ViewFactorsResult& result, const std::vector<bool>
   }
   for (std::size_t row = 0; row < areas.size(); ++row)
   {
-    report.Change = std::max(report.Change, std::abs(sums[row] - result.RowSums[row]));
+    report.Change = std::max(report.Change, std::abs(sums[row] - links.RowSums[row]));
   }
-  result.RowSums = sums;
-  return good;
+  links.RowSums = sums;
+  return good ? Outcome::Done() : Outcome::FailedAsReported();
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorClosure::CloseMatrix(Links& links, const std::vector<PartlyVisiblePair>& pairs,
+  double tolerance, const Ranks& ranks)
+{
+  Report report;
+  Outcome closed = Close(links, pairs, FindClosedRows(links),
+    ViewFactorAssembly::OpenShare * tolerance + SinglePrecision, ranks, report);
+  if (closed)
+  {
+    Summarize(report, links);
+  }
+  return closed;
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const Ranks& ranks)
+{
+  Report report;
+  Outcome scaled = Scale(links, FindClosedRows(links), ranks, report);
+  if (scaled)
+  {
+    Summarize(report, links);
+  }
+  return scaled;
 }
 } // namespace LightTransport

@@ -14,12 +14,16 @@
 #ifndef ViewFactorClosure_h
 #define ViewFactorClosure_h
 
-#include "ViewFactors/ViewFactorsResult.h"
+#include "Shared/Outcome.h"
+#include "ViewFactors/PartlyVisiblePair.h"
 
-class vtkMultiProcessController;
+#include <vector>
 
 namespace LightTransport
 {
+class Ranks;
+struct Links;
+
 namespace ViewFactorClosure
 {
 struct Report
@@ -28,23 +32,30 @@ struct Report
   double Gap = 0.0;    ///< largest |1 - row sum| that is left in a closed row
 };
 
-/**
- * Rows with closed[i] get the sum 1, as far as the bounds let them; other rows keep theirs.
- * `pairs` are the partly visible pairs of this rank's part of the matrix; all other entries are
- * taken to be right within `relativeError` of their value. Result.RowSums is brought up to date.
- * Collective. Returns false when the link operator fails (its error has been reported).
- */
-bool Close(ViewFactorsResult& result, const std::vector<PartlyVisiblePair>& pairs,
-  const std::vector<bool>& closed, double relativeError, vtkMultiProcessController* controller,
-  Report& report);
+/// Relative error of an entry by storing it in single precision.
+constexpr double SinglePrecision = 6e-8;
 
 /**
- * For links between clusters (Result.Hierarchy): scale the weights of the patches until the closed
- * rows sum to 1, and others to no more (symmetric scaling: Sinkhorn and Knopp 1967). RowSums
- * follow. Collective.
+ * Rows with closed[i] get the sum 1, as far as the bounds let them; other rows keep theirs. `pairs`
+ * are the partly visible pairs of this rank's part of the matrix; all other entries are taken to be
+ * right within `relativeError` of their value. RowSums are brought up to date. Collective.
  */
-bool Scale(ViewFactorsResult& result, const std::vector<bool>& closed,
-  vtkMultiProcessController* controller, Report& report);
+Outcome Close(Links& links, const std::vector<PartlyVisiblePair>& pairs,
+  const std::vector<bool>& closed, double relativeError, const Ranks& ranks, Report& report);
+
+/**
+ * For links between clusters: scale the weights of the patches until the closed rows sum to 1, and
+ * others to no more (symmetric scaling: Sinkhorn and Knopp 1967). RowSums follow. Collective.
+ */
+Outcome Scale(Links& links, const std::vector<bool>& closed, const Ranks& ranks, Report& report);
+
+///@{
+/// The same for the rows of links that see no opening, with the report among their summaries
+/// ("ClosureChange", "ClosureGap"). `tolerance` is that of the matrix's assembly.
+Outcome CloseMatrix(Links& links, const std::vector<PartlyVisiblePair>& pairs, double tolerance,
+  const Ranks& ranks);
+Outcome ScaleHierarchy(Links& links, const Ranks& ranks);
+///@}
 } // namespace ViewFactorClosure
 } // namespace LightTransport
 

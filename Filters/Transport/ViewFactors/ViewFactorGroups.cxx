@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactors/ViewFactorGroups.h"
 
-#include "Scene/PatchScene.h"
+#include "Links/LinkOperators.h"
+#include "Links/Links.h"
+#include "Scene/CellArrays.h"
 #include "Shared/Threads.h"
+#include "Support/Ranks.h"
 #include "vtkCPULinkOperator.h"
-#include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkSMPThreadLocal.h"
@@ -210,19 +211,19 @@ void AddColumn(vtkTable* table, const std::string& name, Function&& getValue)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool ViewFactorGroups::Gather(const PatchScene& scene, vtkDataObject* input,
-  const std::string& arrayName, Groups& groups, std::string& error)
+Outcome ViewFactorGroups::Gather(const CellArrays& arrays, vtkDataObject* input,
+  const std::string& arrayName, Groups& groups)
 {
   std::vector<double> ids;
   int components = 0;
-  if (!scene.GatherCellArray(input, arrayName, false, ids, components, error))
+  if (Outcome read = arrays.Read(arrayName, false, ids, components); !read)
   {
-    return false;
+    return read;
   }
   if (ids.empty())
   {
     const Blocks blocks = ListBlocks(input);
-    ids = scene.GatherBlockValues(blocks.OfLeaves);
+    ids = arrays.SpreadBlockValues(blocks.OfLeaves);
     SortGroups(
       ids,
       [&](double id)
@@ -239,59 +240,54 @@ bool ViewFactorGroups::Gather(const PatchScene& scene, vtkDataObject* input,
         [](double id) { return std::floor(id) == id && std::abs(id) <= LargestInteger; });
     if (!integers)
     {
-      error = "The cell array \"" + arrayName +
-        "\" numbers the groups of view factors: it must have one component and integer values.";
-      return false;
+      return Outcome::Failed("The cell array \"" + arrayName +
+        "\" numbers the groups of view factors: it must have one component and integer values.");
     }
     SortGroups(
       ids, [](double id) { return std::to_string(static_cast<long long>(id)); }, groups);
   }
   if (groups.Names.size() > MaximumNumberOfGroups)
   {
-    error = "There are " + std::to_string(groups.Names.size()) +
+    return Outcome::Failed("There are " + std::to_string(groups.Names.size()) +
       " groups for the table of view factors, but at most " +
       std::to_string(MaximumNumberOfGroups) + " make sense: give a cell array \"" + arrayName +
-      "\" with fewer values.";
-    return false;
+      "\" with fewer values.");
   }
-  return true;
+  return Outcome::Done();
 }
 
 namespace
 {
 //------------------------------------------------------------------------------
 // Exchange between groups, each pair of patches counted once, from tiles.
-bool SumTiles(const ViewFactorsResult& result, const ViewFactorGroups::Groups& groups,
-  vtkMultiProcessController* controller, std::vector<double>& exchange)
+bool SumTiles(const Links& links, const ViewFactorGroups::Groups& groups, const Ranks& ranks,
+  std::vector<double>& exchange)
 {
   const std::size_t count = groups.Names.size();
-  const std::vector<vtkExchangeMatrix::Tile>& tiles = result.Exchange->GetTiles();
+  const std::vector<vtkExchangeMatrix::Tile>& tiles = links.Matrix->GetTiles();
   GroupSums sums{ tiles, groups.OfPatches, static_cast<int>(count), {},
     std::vector<double>(count * count, 0.0) };
   Threads::For(0, static_cast<vtkIdType>(tiles.size()), 0, sums);
   exchange = sums.Total;
-  return result.Exchange->GetNumberOfParts() == 1 ||
-    controller->AllReduce(sums.Total.data(), exchange.data(),
-      static_cast<vtkIdType>(exchange.size()), vtkCommunicator::SUM_OP) != 0;
+  return ranks.Sum(exchange);
 }
 
 //------------------------------------------------------------------------------
 // The same from products with links between clusters, one for each group.
-bool SumProducts(const ViewFactorsResult& result, const ViewFactorGroups::Groups& groups,
-  vtkMultiProcessController* controller, std::vector<double>& exchange)
+bool SumProducts(const Links& links, const ViewFactorGroups::Groups& groups, const Ranks& ranks,
+  std::vector<double>& exchange)
 {
   const std::size_t count = groups.Names.size();
   exchange.assign(count * count, 0.0);
-  auto links = vtkCPULinkOperator::NewFor(result.Hierarchy);
-  links->SetController(controller);
+  auto product = LinkOperators::MakeOnCPU(links.Hierarchy, 1, ranks);
   std::vector<double> values(groups.OfPatches.size());
-  bool good = links->Initialize(result.Hierarchy, 1);
+  bool good = product != nullptr;
   for (std::size_t group = 0; good && group < count; ++group)
   {
     std::transform(groups.OfPatches.begin(), groups.OfPatches.end(), values.begin(),
       [&](int other) { return other == static_cast<int>(group) ? 0.5 : 0.0; });
-    good = links->SetVector(0, values.data()) && links->Multiply(1, 0) &&
-      links->GetVector(1, values.data());
+    good = product->SetVector(0, values.data()) && product->Multiply(1, 0) &&
+      product->GetVector(1, values.data());
     for (std::size_t patch = 0; good && patch < values.size(); ++patch)
     {
       exchange[groups.OfPatches[patch] * count + group] += values[patch];
@@ -302,17 +298,17 @@ bool SumProducts(const ViewFactorsResult& result, const ViewFactorGroups::Groups
 } // namespace
 
 //------------------------------------------------------------------------------
-bool ViewFactorGroups::FillTable(const ViewFactorsResult& result, const Groups& groups,
-  double scale, vtkMultiProcessController* controller, vtkTable* table)
+Outcome ViewFactorGroups::FillTable(const Links& links, const Groups& groups, double scale,
+  const Ranks& ranks, vtkTable* table)
 {
   const std::size_t count = groups.Names.size();
   std::vector<double> exchange;
-  if (!(result.Hierarchy ? SumProducts(result, groups, controller, exchange)
-                         : SumTiles(result, groups, controller, exchange)))
+  if (!(links.Hierarchy ? SumProducts(links, groups, ranks, exchange)
+                        : SumTiles(links, groups, ranks, exchange)))
   {
-    return false;
+    return Outcome::FailedAsReported();
   }
-  const std::vector<double>& areas = result.GetExchange()->GetAreas();
+  const std::vector<double>& areas = links.GetExchange()->GetAreas();
   const std::vector<double> groupAreas =
     SumPatches(groups, [&](std::size_t patch) { return areas[patch]; });
   table->Initialize();
@@ -336,8 +332,8 @@ bool ViewFactorGroups::FillTable(const ViewFactorsResult& result, const Groups& 
       SumPatches(groups, [&](std::size_t patch) { return areas[patch] * fractions[patch]; });
     AddColumn(table, name, [&](vtkIdType row) { return parts[row] / groupAreas[row]; });
   };
-  addFractions(SkyColumn, result.SkyFractions);
-  addFractions(BackFaceColumn, result.BackFaceFractions);
-  return true;
+  addFractions(SkyColumn, links.SkyFractions);
+  addFractions(BackFaceColumn, links.BackFaceFractions);
+  return Outcome::Done();
 }
 } // namespace LightTransport

@@ -7,15 +7,19 @@
 #ifndef ViewFactorGroups_h
 #define ViewFactorGroups_h
 
-#include "ViewFactors/ViewFactorsResult.h"
+#include "Shared/Outcome.h"
+
+#include <string>
+#include <vector>
 
 class vtkDataObject;
-class vtkMultiProcessController;
 class vtkTable;
 
 namespace LightTransport
 {
-class PatchScene;
+class CellArrays;
+class Ranks;
+struct Links;
 
 namespace ViewFactorGroups
 {
@@ -29,24 +33,24 @@ struct Groups
 };
 
 /**
- * The groups of the scene that was built from `input`: by the cell array `arrayName` of one
- * component with integer values, which are the names; where there is none the blocks of composite
- * input, by the names in their metadata (vtkCompositeDataSet::NAME), "Block k" without one (k
- * counts all blocks from 0; the pieces of one data set are one block); else one group, "All". Only
- * groups that have patches count. Collective. Returns false, on all ranks alike, with `error`
- * naming the array when it has other values or more than MaximumNumberOfGroups of them.
+ * The groups of a scene: by the cell array `arrayName` of one component with integer values, which
+ * are the names; where there is none the blocks of composite `input`, by the names in their
+ * metadata (vtkCompositeDataSet::NAME), "Block k" without one (k counts all blocks from 0; the
+ * pieces of one data set are one block); else one group, "All". Only groups that have patches
+ * count. Collective. Fails, on all ranks alike, when the array has other values or more than
+ * MaximumNumberOfGroups of them.
  */
-bool Gather(const PatchScene& scene, vtkDataObject* input, const std::string& arrayName,
-  Groups& groups, std::string& error);
+Outcome Gather(const CellArrays& arrays, vtkDataObject* input, const std::string& arrayName,
+  Groups& groups);
 
 /**
  * One row per group: "Group" (name), "Area" (unit of the input squared; `scale` is the length of
  * the scene's unit in that of the input), the view factors to each group in a column of its name,
- * "Sky" and "BackFace" (the fractions of Result). All columns but the first are of doubles.
- * Collective; all ranks get the whole table. Returns false when the ranks could not be added up.
+ * "Sky" and "BackFace" (the fractions of the links). All columns but the first are of doubles.
+ * Collective; all ranks get the whole table.
  */
-bool FillTable(const ViewFactorsResult& result, const Groups& groups, double scale,
-  vtkMultiProcessController* controller, vtkTable* table);
+Outcome FillTable(const Links& links, const Groups& groups, double scale, const Ranks& ranks,
+  vtkTable* table);
 } // namespace ViewFactorGroups
 } // namespace LightTransport
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactors/ViewFactorsFile.h"
 
+#include "Links/Links.h"
 #include "Support/TransportMemory.h"
 
 #include <vtksys/SystemInformation.hxx>
@@ -58,10 +59,9 @@ struct TileName
 constexpr Count BytesPerTile = sizeof(TileName) + sizeof(float) * N * N;
 
 /// One value for each patch.
-using Row = std::vector<double> ViewFactorsResult::*;
-constexpr Row Rows[] = { &ViewFactorsResult::RawRowSums, &ViewFactorsResult::RowSums,
-  &ViewFactorsResult::RowErrors, &ViewFactorsResult::SkyFractions,
-  &ViewFactorsResult::BackFaceFractions };
+using Row = std::vector<double> Links::*;
+constexpr Row Rows[] = { &Links::RawRowSums, &Links::RowSums, &Links::RowErrors,
+  &Links::SkyFractions, &Links::BackFaceFractions };
 /// Beside the rows: areas and remainders.
 constexpr Count BytesPerPatch = sizeof(double) * (2 + std::size(Rows));
 /// The largest remainder of a row, relative to its area.
@@ -129,8 +129,7 @@ bool AreUsable(const Value* values, std::size_t count, double lowest)
 //------------------------------------------------------------------------------
 bool AreUsable(const std::vector<double>& values, Row row)
 {
-  const bool fractions =
-    row == &ViewFactorsResult::SkyFractions || row == &ViewFactorsResult::BackFaceFractions;
+  const bool fractions = row == &Links::SkyFractions || row == &Links::BackFaceFractions;
   const double lowest = fractions ? std::numeric_limits<double>::lowest() : 0.0;
   return AreUsable(values.data(), values.size(), lowest);
 }
@@ -181,25 +180,25 @@ public:
   {
   }
 
-  bool Write(const ViewFactorsResult& result)
+  bool Write(const Links& links)
   {
-    this->PutHeader(result);
-    this->PutValues(result.Exchange->GetAreas());
+    this->PutHeader(links);
+    this->PutValues(links.Matrix->GetAreas());
     for (Row row : Rows)
     {
-      this->PutValues(result.*row);
+      this->PutValues(links.*row);
     }
-    std::vector<double> remainders = result.Exchange->GetRemainders();
-    remainders.resize(result.Exchange->GetAreas().size(), 0.0);
+    std::vector<double> remainders = links.Matrix->GetRemainders();
+    remainders.resize(links.Matrix->GetAreas().size(), 0.0);
     this->PutValues(remainders);
-    for (const auto& [name, value] : result.Summaries)
+    for (const auto& [name, value] : links.Summaries)
     {
       const Count length = name.size();
       this->Put(&length, sizeof(length));
       this->Put(name.data(), name.size());
       this->Put(&value, sizeof(value));
     }
-    for (const Tile& tile : result.Exchange->GetTiles())
+    for (const Tile& tile : links.Matrix->GetTiles())
     {
       if (tile.Values && this->Stream)
       {
@@ -226,17 +225,17 @@ private:
     this->Put(values.data(), values.size() * sizeof(double));
   }
 
-  void PutHeader(const ViewFactorsResult& result)
+  void PutHeader(const Links& links)
   {
     Header header;
     MakeLine().copy(header.Line, LineLength);
     header.Order = ByteOrder;
     header.TileSize = N;
-    header.Fingerprint = result.Fingerprint;
-    header.Tolerance = result.Tolerance;
-    header.NumberOfPatches = static_cast<Count>(result.Exchange->GetNumberOfPatches());
-    header.NumberOfSummaries = result.Summaries.size();
-    header.NumberOfTiles = static_cast<Count>(result.Exchange->GetNumberOfStoredTiles());
+    header.Fingerprint = links.Fingerprint;
+    header.Tolerance = links.Tolerance;
+    header.NumberOfPatches = static_cast<Count>(links.Matrix->GetNumberOfPatches());
+    header.NumberOfSummaries = links.Summaries.size();
+    header.NumberOfTiles = static_cast<Count>(links.Matrix->GetNumberOfStoredTiles());
     this->Put(&header, sizeof(header));
   }
 
@@ -245,60 +244,61 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// Reads one file from its beginning to its end; each step returns false after setting Error.
+// Reads one file from its beginning to its end; a failure's message begins after the file's name.
 class Reader
 {
 public:
-  ViewFactorsResult Result;
-  std::string Error;
+  Links Result;
 
-  bool Read(const std::string& fileName)
+  Outcome Read(const std::string& fileName)
   {
-    return this->Open(fileName) && this->GetHeader() && this->CheckSizes() && this->GetRows() &&
-      this->GetSummaries() && this->MakeMatrix() && this->GetTiles() && this->GetChecksum();
+    Outcome outcome = this->Open(fileName);
+    for (const auto step : { &Reader::GetHeader, &Reader::CheckSizes, &Reader::GetRows,
+           &Reader::GetSummaries, &Reader::MakeMatrix, &Reader::GetTiles, &Reader::GetChecksum })
+    {
+      outcome = outcome ? (this->*step)() : outcome;
+    }
+    return outcome;
   }
 
 private:
-  bool Fail(const std::string& problem)
+  static Outcome FailDamaged() { return Outcome::Failed(std::string("it is damaged.") + Again); }
+
+  static Outcome FailTooShort()
   {
-    this->Error = problem;
-    return false;
+    return Outcome::Failed(std::string("it has been cut short.") + Again);
   }
 
-  bool FailDamaged() { return this->Fail(std::string("it is damaged.") + Again); }
-
-  bool FailTooShort() { return this->Fail(std::string("it has been cut short.") + Again); }
-
-  bool Get(void* data, Count bytes)
+  Outcome Get(void* data, Count bytes)
   {
     if (bytes > this->Remaining)
     {
-      return this->FailTooShort();
+      return FailTooShort();
     }
     errno = 0;
     if (!this->Stream.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes)))
     {
-      return this->Fail("reading fails (" + GetSystemError().message() + ")." + Again);
+      return Outcome::Failed("reading fails (" + GetSystemError().message() + ")." + Again);
     }
     this->Sum.Add(data, static_cast<std::size_t>(bytes));
     this->Remaining -= bytes;
-    return true;
+    return Outcome::Done();
   }
 
-  bool GetValues(std::vector<double>& values)
+  Outcome GetValues(std::vector<double>& values)
   {
     values.resize(static_cast<std::size_t>(this->Head.NumberOfPatches));
     return this->Get(values.data(), this->Head.NumberOfPatches * sizeof(double));
   }
 
-  bool Open(const std::string& fileName);
-  bool GetHeader();
-  bool CheckSizes();
-  bool GetRows();
-  bool GetSummaries();
-  bool MakeMatrix();
-  bool GetTiles();
-  bool GetChecksum();
+  Outcome Open(const std::string& fileName);
+  Outcome GetHeader();
+  Outcome CheckSizes();
+  Outcome GetRows();
+  Outcome GetSummaries();
+  Outcome MakeMatrix();
+  Outcome GetTiles();
+  Outcome GetChecksum();
 
   std::ifstream Stream;
   Count Remaining = 0;
@@ -309,165 +309,169 @@ private:
 };
 
 //------------------------------------------------------------------------------
-bool Reader::Open(const std::string& fileName)
+Outcome Reader::Open(const std::string& fileName)
 {
   // Nothing but a file has a length to check all sizes against.
   const std::filesystem::path path = std::filesystem::u8path(fileName);
   std::error_code problem;
   if (!std::filesystem::is_regular_file(path, problem))
   {
-    return this->Fail("there is no such file. Check the name and the folder.");
+    return Outcome::Failed("there is no such file. Check the name and the folder.");
   }
   this->Remaining = std::filesystem::file_size(path, problem);
   if (problem)
   {
-    return this->Fail("its length is not known (" + problem.message() + ").");
+    return Outcome::Failed("its length is not known (" + problem.message() + ").");
   }
   errno = 0;
   this->Stream.open(path, std::ios::binary);
   if (!this->Stream)
   {
-    return this->Fail(
+    return Outcome::Failed(
       "it cannot be opened (" + GetSystemError().message() + "). Check its permissions.");
   }
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool Reader::GetHeader()
+Outcome Reader::GetHeader()
 {
   const std::string line = MakeLine();
   const Count start = std::min<Count>(this->Remaining, sizeof(Header));
   this->Head = {};
-  if (!this->Get(&this->Head, start))
+  if (Outcome got = this->Get(&this->Head, start); !got)
   {
-    return false;
+    return got;
   }
   if (line.compare(0, sizeof(Format) - 1, this->Head.Line, sizeof(Format) - 1) != 0)
   {
-    return this->Fail("it is not a file of view factors. Check the name.");
+    return Outcome::Failed("it is not a file of view factors. Check the name.");
   }
   if (start < sizeof(Header))
   {
-    return this->FailTooShort();
+    return FailTooShort();
   }
   if (this->Head.Order == SwappedByteOrder)
   {
-    return this->Fail("it comes from a machine with the other order of bytes. Compute the view "
-                      "factors on this one.");
+    return Outcome::Failed(
+      "it comes from a machine with the other order of bytes. Compute the view "
+      "factors on this one.");
   }
   if (line.compare(0, LineLength, this->Head.Line, LineLength) != 0 || this->Head.TileSize != N)
   {
-    return this->Fail(std::string("its format is not version ") + Version +
+    return Outcome::Failed(std::string("its format is not version ") + Version +
       ", the one that this version of vtkLightTransport reads. Compute the view factors again and "
       "save them.");
   }
   const bool good = this->Head.Order == ByteOrder && AreUsable(&this->Head.Tolerance, 1, 0.0);
-  return good || this->FailDamaged();
+  return good ? Outcome::Done() : FailDamaged();
 }
 
 //------------------------------------------------------------------------------
 // Before anything is allocated: the file is as long as what it announces, and there is the memory.
-bool Reader::CheckSizes()
+Outcome Reader::CheckSizes()
 {
   const Count patches = this->Head.NumberOfPatches;
   const Count tiles = this->Head.NumberOfTiles;
   if (patches > this->Remaining / BytesPerPatch || tiles > this->Remaining / BytesPerTile ||
     patches > static_cast<Count>(VTK_ID_MAX))
   {
-    return this->FailTooShort();
+    return FailTooShort();
   }
   if (this->Head.NumberOfSummaries > MaximumSummaries)
   {
-    return this->FailDamaged();
+    return FailDamaged();
   }
   const double bytes = static_cast<double>(patches * BytesPerPatch) +
     vtkExchangeMatrix::GetEstimatedSparseBytes(static_cast<vtkIdType>(patches), 1,
       static_cast<vtkIdType>(tiles));
   const double available = TransportMemory::GetAvailableBytes();
-  return bytes <= available ||
-    this->Fail("it needs " + TransportMemory::Format(bytes) + " of memory and " +
-      TransportMemory::Format(available) + " are free. Load it on a machine with more memory.");
+  return bytes <= available
+    ? Outcome::Done()
+    : Outcome::Failed("it needs " + TransportMemory::Format(bytes) + " of memory and " +
+        TransportMemory::Format(available) + " are free. Load it on a machine with more memory.");
 }
 
 //------------------------------------------------------------------------------
-bool Reader::GetRows()
+Outcome Reader::GetRows()
 {
-  bool good = this->GetValues(this->Areas);
-  bool usable = good && AreUsable(this->Areas.data(), this->Areas.size(), 0.0);
+  Outcome got = this->GetValues(this->Areas);
+  bool usable = got && AreUsable(this->Areas.data(), this->Areas.size(), 0.0);
   for (Row row : Rows)
   {
-    good = good && this->GetValues(this->Result.*row);
-    usable = usable && good && AreUsable(this->Result.*row, row);
+    got = got ? this->GetValues(this->Result.*row) : got;
+    usable = usable && got && AreUsable(this->Result.*row, row);
   }
-  good = good && this->GetValues(this->Remainders);
-  usable = usable && good && AreRemainders(this->Remainders, this->Areas);
-  if (good && !usable)
-  {
-    return this->Fail(
-      std::string("it holds areas or sums that are negative or not finite.") + Again);
-  }
-  return good;
+  got = got ? this->GetValues(this->Remainders) : got;
+  usable = usable && got && AreRemainders(this->Remainders, this->Areas);
+  return got && !usable ? Outcome::Failed(std::string("it holds areas or sums that are negative or "
+                                                      "not finite.") +
+                            Again)
+                        : got;
 }
 
 //------------------------------------------------------------------------------
-bool Reader::GetSummaries()
+Outcome Reader::GetSummaries()
 {
   for (Count k = 0; k < this->Head.NumberOfSummaries; ++k)
   {
     Count length = 0;
-    if (!this->Get(&length, sizeof(length)))
+    if (Outcome got = this->Get(&length, sizeof(length)); !got)
     {
-      return false;
+      return got;
     }
     if (length > MaximumNameLength)
     {
-      return this->FailDamaged();
+      return FailDamaged();
     }
     this->Result.Summaries.emplace_back(std::string(static_cast<std::size_t>(length), ' '), 0.0);
     auto& [name, value] = this->Result.Summaries.back();
-    if (!this->Get(name.data(), length) || !this->Get(&value, sizeof(value)))
+    Outcome got = this->Get(name.data(), length);
+    got = got ? this->Get(&value, sizeof(value)) : got;
+    if (!got)
     {
-      return false;
+      return got;
     }
+    // Only a closure leaves this summary behind.
+    this->Result.AreRowsClosed = this->Result.AreRowsClosed || name == "ClosureChange";
   }
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool Reader::MakeMatrix()
+Outcome Reader::MakeMatrix()
 {
   const Count expected = this->Head.NumberOfTiles * BytesPerTile + sizeof(Count);
   if (this->Remaining < expected)
   {
-    return this->FailTooShort();
+    return FailTooShort();
   }
   if (this->Remaining > expected)
   {
-    return this->Fail(std::string("something follows behind its end.") + Again);
+    return Outcome::Failed(std::string("something follows behind its end.") + Again);
   }
-  this->Result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
-  this->Result.Exchange->AllocateSparse(this->Areas, 1);
+  this->Result.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
+  this->Result.Matrix->AllocateSparse(this->Areas, 1);
   if (std::any_of(this->Remainders.begin(), this->Remainders.end(),
         [](double remainder) { return remainder != 0.0; }))
   {
-    this->Result.Exchange->SetRemainders(this->Remainders);
+    this->Result.Matrix->SetRemainders(this->Remainders);
   }
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool Reader::GetTiles()
+Outcome Reader::GetTiles()
 {
-  vtkExchangeMatrix* exchange = this->Result.Exchange;
+  vtkExchangeMatrix* exchange = this->Result.Matrix;
   const auto rows = static_cast<Count>(exchange->GetNumberOfTileRows());
   vtkIdType previous = -1;
   for (Count k = 0; k < this->Head.NumberOfTiles; ++k)
   {
     TileName name;
-    if (!this->Get(&name, sizeof(name)))
+    if (Outcome got = this->Get(&name, sizeof(name)); !got)
     {
-      return false;
+      return got;
     }
     const bool inside = name.Row <= name.Column && name.Column < rows;
     const vtkIdType index = inside ? exchange->GetTileIndex(static_cast<vtkIdType>(name.Row),
@@ -475,50 +479,53 @@ bool Reader::GetTiles()
                                    : -1;
     if (index <= previous)
     {
-      return this->Fail(std::string("it names a block of view factors that cannot be.") + Again);
+      return Outcome::Failed(
+        std::string("it names a block of view factors that cannot be.") + Again);
     }
     previous = index;
     Tile& tile = exchange->GetTiles()[index];
     if (!exchange->AllocateTile(tile))
     {
-      return this->Fail("there is not enough memory. Load it on a machine with more.");
+      return Outcome::Failed("there is not enough memory. Load it on a machine with more.");
     }
-    if (!this->Get(tile.Values, sizeof(float) * N * N))
+    if (Outcome got = this->Get(tile.Values, sizeof(float) * N * N); !got)
     {
-      return false;
+      return got;
     }
     if (!IsUsable(tile, exchange->GetNumberOfPatches()))
     {
-      return this->Fail(std::string("it holds view factors that cannot be (negative, not finite, "
-                                    "or not reciprocal).") +
+      return Outcome::Failed(
+        std::string("it holds view factors that cannot be (negative, not finite, "
+                    "or not reciprocal).") +
         Again);
     }
   }
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool Reader::GetChecksum()
+Outcome Reader::GetChecksum()
 {
   const Count expected = this->Sum.Get();
   Count sum = 0;
-  if (!this->Get(&sum, sizeof(sum)))
+  if (Outcome got = this->Get(&sum, sizeof(sum)); !got)
   {
-    return false;
+    return got;
   }
   this->Result.Fingerprint = this->Head.Fingerprint;
   this->Result.Tolerance = this->Head.Tolerance;
-  return sum == expected ||
-    this->Fail(std::string("it is damaged: its checksum is wrong.") + Again);
+  return sum == expected
+    ? Outcome::Done()
+    : Outcome::Failed(std::string("it is damaged: its checksum is wrong.") + Again);
 }
 
 //------------------------------------------------------------------------------
 // What Read would refuse is not written.
-bool CanBeWritten(const ViewFactorsResult& result)
+bool CanBeWritten(const Links& links)
 {
-  const vtkExchangeMatrix* exchange = result.Exchange;
+  const vtkExchangeMatrix* exchange = links.Matrix;
   if (!exchange || exchange->GetNumberOfKernels() != 1 || exchange->GetNumberOfParts() != 1 ||
-    !AreUsable(&result.Tolerance, 1, 0.0))
+    !AreUsable(&links.Tolerance, 1, 0.0))
   {
     return false;
   }
@@ -527,10 +534,10 @@ bool CanBeWritten(const ViewFactorsResult& result)
     AreUsable(areas.data(), areas.size(), 0.0) && AreRemainders(exchange->GetRemainders(), areas);
   for (Row row : Rows)
   {
-    good = good && (result.*row).size() == areas.size() && AreUsable(result.*row, row);
+    good = good && (links.*row).size() == areas.size() && AreUsable(links.*row, row);
   }
-  good = good && result.Summaries.size() <= MaximumSummaries &&
-    std::all_of(result.Summaries.begin(), result.Summaries.end(),
+  good = good && links.Summaries.size() <= MaximumSummaries &&
+    std::all_of(links.Summaries.begin(), links.Summaries.end(),
       [](const auto& summary) { return summary.first.size() <= MaximumNameLength; });
   const vtkIdType patches = exchange->GetNumberOfPatches();
   return good &&
@@ -540,58 +547,54 @@ bool CanBeWritten(const ViewFactorsResult& result)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool ViewFactorsFile::Write(const std::string& fileName, const ViewFactorsResult& result,
-  std::string& error)
+Outcome ViewFactorsFile::Write(const std::string& fileName, const Links& links)
 {
-  if (!CanBeWritten(result))
+  if (!CanBeWritten(links))
   {
-    error = "Nothing is written to \"" + fileName +
+    return Outcome::Failed("Nothing is written to \"" + fileName +
       "\": the view factors are not complete, or negative, or not finite. Compute them again, in "
-      "one process.";
-    return false;
+      "one process.");
   }
   namespace fs = std::filesystem;
   const fs::path path = fs::u8path(fileName);
   const fs::path temporary = fs::u8path(
     fileName + "." + std::to_string(vtksys::SystemInformation().GetProcessId()) + ".part");
   errno = 0;
-  std::error_code problem = GetSystemError(Writer(temporary).Write(result));
+  std::error_code problem = GetSystemError(Writer(temporary).Write(links));
   if (!problem)
   {
     fs::rename(temporary, path, problem);
   }
   if (!problem)
   {
-    return true;
+    return Outcome::Done();
   }
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  error = "\"" + fileName + "\" cannot be written (" + problem.message() +
+  return Outcome::Failed("\"" + fileName + "\" cannot be written (" + problem.message() +
     "). Its folder must exist, let you write, and have room for " +
-    TransportMemory::Format(result.Exchange->GetNumberOfBytes()) + ".";
-  return false;
+    TransportMemory::Format(links.Matrix->GetNumberOfBytes()) + ".");
 }
 
 //------------------------------------------------------------------------------
-bool ViewFactorsFile::Read(const std::string& fileName, ViewFactorsResult& result,
-  std::string& error)
+Outcome ViewFactorsFile::Read(const std::string& fileName, Links& links)
 {
   Reader reader;
-  bool good = false;
+  Outcome read = Outcome::Done();
   try
   {
-    good = reader.Read(fileName);
+    read = reader.Read(fileName);
   }
   catch (const std::bad_alloc&)
   {
-    reader.Error = "there is not enough memory. Load it on a machine with more.";
+    read = Outcome::Failed("there is not enough memory. Load it on a machine with more.");
   }
-  if (!good)
+  if (!read)
   {
-    error = "No view factors can be read from \"" + fileName + "\": " + reader.Error;
-    return false;
+    return Outcome::Failed(
+      "No view factors can be read from \"" + fileName + "\": " + read.GetMessage());
   }
-  result = std::move(reader.Result);
-  return true;
+  links = std::move(reader.Result);
+  return read;
 }
 } // namespace LightTransport

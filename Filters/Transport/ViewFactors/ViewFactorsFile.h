@@ -17,28 +17,28 @@
 #ifndef ViewFactorsFile_h
 #define ViewFactorsFile_h
 
-#include "ViewFactors/ViewFactorsResult.h"
+#include "Shared/Outcome.h"
 
 #include <string>
 
 namespace LightTransport
 {
+struct Links;
+
 namespace ViewFactorsFile
 {
 /**
- * Write a whole result: a matrix of one kernel and one part, all arrays of rows complete, all
+ * Write links that are whole: a matrix of one kernel and one part, all arrays of rows complete, all
  * values finite. The file appears when it is complete; until then, and after an error, an older one
- * of that name stays as it was. Returns false with `error` naming the file, the problem and the
- * remedy.
+ * of that name stays as it was.
  */
-bool Write(const std::string& fileName, const ViewFactorsResult& result, std::string& error);
+Outcome Write(const std::string& fileName, const Links& links);
 
 /**
  * Read a file of Write. Nothing in it is believed: a file that is cut short, damaged or made up
- * gives an error that names file, problem and remedy, no more memory is taken than there is, and
- * `result` stays as it was.
+ * fails, no more memory is taken than there is, and `links` stays as it was.
  */
-bool Read(const std::string& fileName, ViewFactorsResult& result, std::string& error);
+Outcome Read(const std::string& fileName, Links& links);
 } // namespace ViewFactorsFile
 } // namespace LightTransport
 

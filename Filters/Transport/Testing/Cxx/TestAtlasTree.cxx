@@ -3,9 +3,11 @@
 // The cluster tree that follows the quadtree of an atlas: its nodes are the blocks of the atlas and
 // go on within the charts, for one surface and for several, on one rank and on several; links
 // between its clusters against the matrix of all pairs; what is refused, and why.
+#include "OutcomeTesting.h"
 #include "RadiosityTesting.h"
 #include "RanksInThreads.h"
 #include "Scene/PatchScene.h"
+#include "ViewFactors/ViewFactorStore.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
@@ -131,8 +133,7 @@ vtkSmartPointer<vtkPolyData> Shuffle(vtkPolyData* data, unsigned int seed)
 PatchScene Build(vtkDataObject* data)
 {
   PatchScene scene;
-  std::string error;
-  Check(scene.Build(data, nullptr, error, PatchScene::Order::Atlas), "scene: " + error);
+  CheckDone(scene.Build(data, Ranks(), PatchScene::Order::Atlas), "scene");
   return scene;
 }
 
@@ -299,8 +300,7 @@ void TestNodes()
   const PatchScene other = Build(Shuffle(room, 6));
   Check(GetRanges(other) == nodes, "the tree does not depend on the order of the cells");
   PatchScene spatial;
-  std::string error;
-  Check(spatial.Build(room, nullptr, error), error);
+  CheckDone(spatial.Build(room, Ranks()), "scene");
   Check(spatial.GetFingerprint() != scene.GetFingerprint(), "the tree is part of the fingerprint");
 }
 
@@ -401,16 +401,16 @@ void TestRanks()
     [&](vtkMultiProcessController* controller, int rank)
     {
       PatchScene scene;
-      std::string error;
-      equal[rank] = scene.Build(pieces[rank], controller, error, PatchScene::Order::Atlas) &&
+      const Ranks ranks(controller);
+      equal[rank] = scene.Build(pieces[rank], ranks, PatchScene::Order::Atlas) &&
         scene.GetFingerprint() == serial.GetFingerprint() && GetRanges(scene) == GetRanges(serial);
-      equal[rank] = PatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
+      equal[rank] = PolygonGathering::HasAtlas(pieces[rank], ranks) && equal[rank];
       if (rank == 2)
       {
         pieces[rank]->GetPointData()->RemoveArray("AtlasCoordinates");
       }
-      equal[rank] = !PatchScene::HasAtlas(pieces[rank], controller) && equal[rank];
-      scene.Build(pieces[rank], controller, errors[rank], PatchScene::Order::Atlas);
+      equal[rank] = !PolygonGathering::HasAtlas(pieces[rank], ranks) && equal[rank];
+      errors[rank] = scene.Build(pieces[rank], ranks, PatchScene::Order::Atlas).GetMessage();
     });
   for (int rank = 0; rank < 3; ++rank)
   {
@@ -572,7 +572,10 @@ void TestClosedScene()
   factors->SetLinkTolerance(3e-2);
   factors->SetClusterTreeToAtlas();
   factors->Update();
-  for (const double sum : factors->GetRowSums())
+  ViewFactorStore store;
+  CheckDone(store.Update(Build(scene), { 0.0, false, true, 3e-2 }, {}, Ranks(), Monitor()),
+    "links");
+  for (const double sum : store.GetLinks().RowSums)
   {
     CheckClose(sum, 1.0, 1e-5, "rows of a closed scene");
   }
@@ -645,11 +648,9 @@ void TestErrors()
 
   // A tree without blocks of 256 patches is none for a matrix.
   const PatchScene ordered = Build(MakeScene());
-  vtkNew<vtkViewFactors> factors;
-  vtkNew<vtkTest::ErrorObserver> observer;
-  factors->AddObserver(vtkCommand::ErrorEvent, observer);
-  Check(!factors->UpdateExchange(ordered, [](double) { return true; }) &&
-      observer->CheckErrorMessage("Hierarchical") == 0,
+  const Outcome refused =
+    ViewFactorStore().Update(ordered, { 1e-3, false, false, 1e-2 }, {}, Ranks(), Monitor());
+  Check(refused.HasFailed() && refused.GetMessage().find("Hierarchical") != std::string::npos,
     "a matrix in the order of an atlas");
 }
 } // namespace

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The check for memory before an exchange matrix is made: on one rank and on several.
-#include "LightTransportTesting.h"
+#include "Links/LinkOperators.h"
+#include "OutcomeTesting.h"
 #include "RanksInThreads.h"
+#include "Support/Ranks.h"
 #include "vtkExchangeMatrix.h"
-#include "vtkTestErrorObserver.h"
-#include "vtkTransportAlgorithm.h"
 
+using namespace LightTransport;
 using namespace LightTransportTesting;
 
 namespace
@@ -14,35 +15,25 @@ namespace
 /// More tiles than any memory holds.
 constexpr vtkIdType TooMany = vtkIdType(1) << 40;
 
-/// A filter that makes matrices for whoever asks.
-class Maker : public vtkTransportAlgorithm
-{
-public:
-  static Maker* New() { VTK_STANDARD_NEW_BODY(Maker); }
-  vtkTypeMacro(Maker, vtkTransportAlgorithm);
-  using vtkTransportAlgorithm::MakeExchange;
-  using vtkTransportAlgorithm::MakeSparseExchange;
-};
+using Matrix = vtkSmartPointer<vtkExchangeMatrix>;
 
 //------------------------------------------------------------------------------
 void TestOneRank()
 {
   constexpr vtkIdType n = 1000;
   const std::vector<double> areas(n, 1.0);
-  vtkNew<Maker> maker;
-  vtkNew<vtkTest::ErrorObserver> errors;
-  maker->AddObserver(vtkCommand::ErrorEvent, errors);
-  auto sparse = maker->MakeSparseExchange(areas, 10);
+  Matrix sparse, dense, refused;
+  CheckDone(LinkOperators::AllocateSparseMatrix(areas, 10, Ranks(), sparse), "a sparse matrix");
   Check(sparse && sparse->GetNumberOfStoredTiles() == 0 && sparse->GetTiles().size() == 10 &&
       sparse->GetNumberOfKernels() == 1 && sparse->GetAreas() == areas,
     "a sparse matrix");
-  auto dense = maker->MakeExchange(areas, 3);
+  CheckDone(LinkOperators::AllocateMatrix(areas, 3, Ranks(), dense), "a dense matrix");
   Check(dense && dense->GetNumberOfStoredTiles() == 10 && dense->GetNumberOfKernels() == 3,
     "a dense matrix");
-  Check(!errors->GetError(), "no error");
 
-  Check(!maker->MakeSparseExchange(areas, TooMany), "too many tiles");
-  const std::string message = errors->GetErrorMessage();
+  const Outcome outcome = LinkOperators::AllocateSparseMatrix(areas, TooMany, Ranks(), refused);
+  Check(outcome.HasFailed(), "too many tiles");
+  const std::string message = outcome.GetMessage();
   for (const char* part : { "1000 patches", "288230376.15 GB of memory", "are free",
          "LinkMethod to Hierarchical", "TargetEdgeLength", "more machines" })
   {
@@ -62,16 +53,14 @@ void TestSeveralRanks()
   RunRanks(ranks,
     [&](vtkMultiProcessController* controller, int rank)
     {
-      vtkNew<Maker> maker;
-      vtkNew<vtkTest::ErrorObserver> errors;
-      maker->AddObserver(vtkCommand::ErrorEvent, errors);
-      maker->SetController(controller);
-      auto part = maker->MakeSparseExchange(areas, 4);
+      Matrix part, none;
+      const Ranks all(controller);
+      CheckDone(LinkOperators::AllocateSparseMatrix(areas, 4, all, part), "part of a matrix");
       tiles[rank] = part ? static_cast<vtkIdType>(part->GetTiles().size()) : 0;
-      refused[rank] = !maker->MakeSparseExchange(areas, rank == 1 ? TooMany : 4);
-      const std::string all = errors->GetErrorMessage();
-      messages[rank] = all.substr(std::min(all.find("The links"), all.size()));
-      maker->SetController(nullptr);
+      const Outcome outcome =
+        LinkOperators::AllocateSparseMatrix(areas, rank == 1 ? TooMany : 4, all, none);
+      refused[rank] = outcome.HasFailed();
+      messages[rank] = outcome.GetMessage();
     });
   Check(tiles[0] == 4 && tiles[1] == 3 && tiles[2] == 3, "each rank has its part");
   Check(refused[0] && refused[1] && refused[2], "all ranks refuse");

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which links between clusters a scene gets: their error against the matrix of all pairs, and what
 // they must not depend on.
+#include "Links/Links.h"
+#include "OutcomeTesting.h"
 #include "RanksInThreads.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactorTesting.h"
+#include "ViewFactors/ViewFactorStore.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkXMLPolyDataReader.h"
@@ -119,28 +122,28 @@ vtkSmartPointer<vtkViewFactors> MakeFactors(double linkTolerance, bool closed = 
 }
 
 //------------------------------------------------------------------------------
-double GetValue(vtkViewFactors* factors, const char* name)
+ViewFactorSettings MakeSettings(double linkTolerance, bool closed = false)
 {
-  vtkNew<vtkPolyData> holder;
-  factors->AddSummaries(holder->GetFieldData());
-  return GetSummary(holder, name);
+  return { MatrixTolerance, closed, linkTolerance > 0.0, linkTolerance };
 }
 
 //------------------------------------------------------------------------------
 /// H = F B with the links of a scene.
 struct Irradiator
 {
-  vtkSmartPointer<vtkViewFactors> Factors;
+  LightTransport::Links Factors;
   vtkSmartPointer<vtkCPULinkOperator> Links;
   Vector Areas;
 
   Irradiator(const PatchScene& scene, double linkTolerance, bool closed = false)
-    : Factors(MakeFactors(linkTolerance, closed))
   {
-    Check(this->Factors->UpdateExchange(scene, [](double) { return true; }), "links");
-    this->Links = vtkCPULinkOperator::NewFor(this->Factors->GetExchange());
-    this->Links->Initialize(this->Factors->GetExchange(), 1);
-    const std::vector<double>& areas = this->Factors->GetExchange()->GetAreas();
+    ViewFactorStore store;
+    CheckDone(store.Update(scene, MakeSettings(linkTolerance, closed), {}, Ranks(), Monitor()),
+      "links");
+    this->Factors = store.GetLinks();
+    this->Links = vtkCPULinkOperator::NewFor(this->Factors.GetExchange());
+    this->Links->Initialize(this->Factors.GetExchange(), 1);
+    const std::vector<double>& areas = this->Factors.GetExchange()->GetAreas();
     this->Areas = Eigen::Map<const Vector>(areas.data(), static_cast<Eigen::Index>(areas.size()));
   }
 
@@ -196,8 +199,7 @@ Vector MakeLamp(const PatchScene& scene)
 void TestErrors(const std::string& name, vtkPolyData* data)
 {
   PatchScene scene;
-  std::string error;
-  Check(scene.Build(data, nullptr, error), error);
+  CheckDone(scene.Build(data, Ranks()), "scene");
   const Irradiator dense(scene, 0.0);
   const Eigen::Index patches = dense.Areas.size();
   const Vector ones = Vector::Ones(patches);
@@ -214,14 +216,14 @@ void TestErrors(const std::string& name, vtkPolyData* data)
   {
     const std::string what = name + ", " + std::to_string(tolerance);
     const Irradiator links(scene, tolerance);
-    const double estimate = GetValue(links.Factors, "LinkError");
-    const double count = GetValue(links.Factors, "NumberOfLinks");
+    const double estimate = links.Factors.GetSummary("LinkError");
+    const double count = links.Factors.GetSummary("NumberOfLinks");
     const double even = compare(links.Get(ones), dense.Get(ones), ones);
     const double uneven = compare(links.Get(random), dense.Get(random), random);
     const double solution = compare(links.Solve(emission, reflectance), radiosity, radiosity);
     const double lampSolution = compare(links.Solve(lamp, reflectance), lit, lit);
     std::cout << what << ": " << patches << " patches, " << count << " links ("
-              << GetValue(links.Factors, "NumberOfPatchLinks") << " of patches), error of H "
+              << links.Factors.GetSummary("NumberOfPatchLinks") << " of patches), error of H "
               << even << ", for random B " << uneven << ", of B " << solution << ", by a lamp "
               << lampSolution << ", estimate " << estimate << std::endl;
     Check(estimate <= tolerance, "the estimate keeps the tolerance: " + what);
@@ -231,20 +233,12 @@ void TestErrors(const std::string& name, vtkPolyData* data)
     Check(solution <= tolerance, "radiosity: " + what);
     Check(lampSolution <= tolerance, "radiosity by a lamp: " + what);
     Check(count > before, "a lower tolerance takes more links: " + what);
-    Check(count ==
-        static_cast<double>(
-          vtkExchangeHierarchy::SafeDownCast(links.Factors->GetExchange())->GetNumberOfLinks()),
+    Check(count == static_cast<double>(links.Factors.Hierarchy->GetNumberOfLinks()),
       "links that are counted: " + what);
     const double pairs = 0.5 * static_cast<double>(patches) * static_cast<double>(patches - 1);
     Check(tolerance < 0.1 || count < 0.3 * pairs, "far fewer links than pairs: " + what);
     before = count;
   }
-}
-
-//------------------------------------------------------------------------------
-vtkExchangeHierarchy* GetHierarchy(vtkViewFactors* factors)
-{
-  return vtkExchangeHierarchy::SafeDownCast(factors->GetExchange());
 }
 
 //------------------------------------------------------------------------------
@@ -272,15 +266,15 @@ void Append(vtkExchangeHierarchy* hierarchy, Table& table)
 //------------------------------------------------------------------------------
 void TestThreads(const PatchScene& scene)
 {
-  vtkSmartPointer<vtkViewFactors> factors[2];
+  Links factors[2];
   for (const int threads : { 1, 4 })
   {
     vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
       [&]() { factors[threads / 4] = Irradiator(scene, 3e-2).Factors; });
   }
-  Check(AreSame(GetHierarchy(factors[0]), GetHierarchy(factors[1])),
+  Check(AreSame(factors[0].Hierarchy, factors[1].Hierarchy),
     "links do not depend on the number of threads");
-  Check(GetValue(factors[0], "LinkError") == GetValue(factors[1], "LinkError"),
+  Check(factors[0].GetSummary("LinkError") == factors[1].GetSummary("LinkError"),
     "nor does the estimate");
 }
 
@@ -289,33 +283,32 @@ void TestRanks(vtkPolyData* data, const PatchScene& scene)
 {
   const Irradiator whole(scene, 3e-2, true);
   Table expected, found;
-  Append(GetHierarchy(whole.Factors), expected);
+  Append(whole.Factors.Hierarchy, expected);
   std::mutex mutex;
   RunRanks(3,
     [&](vtkMultiProcessController* controller, int rank)
     {
       PatchScene mine;
-      std::string error;
       vtkNew<vtkPolyData> nothing;
-      const bool good = mine.Build(rank == 1 ? data : nothing.Get(), controller, error);
-      auto factors = MakeFactors(3e-2, true);
-      factors->SetController(controller);
-      const bool updated = factors->UpdateExchange(mine, [](double) { return true; });
+      const Ranks ranks(controller);
+      const Outcome good = mine.Build(rank == 1 ? data : nothing.Get(), ranks);
+      ViewFactorStore store;
+      const Outcome updated = store.Update(mine, MakeSettings(3e-2, true), {}, ranks, Monitor());
+      const Links& factors = store.GetLinks();
       const std::lock_guard<std::mutex> lock(mutex);
-      Check(good && updated, "links on several ranks: " + error);
-      Append(GetHierarchy(factors), found);
-      CheckClose(GetValue(factors, "LinkError"), GetValue(whole.Factors, "LinkError"), 1e-12,
+      CheckDone(good, "scene on several ranks");
+      CheckDone(updated, "links on several ranks");
+      Append(factors.Hierarchy, found);
+      CheckClose(factors.GetSummary("LinkError"), whole.Factors.GetSummary("LinkError"), 1e-12,
         "the estimate on several ranks");
-      CheckClose(GetValue(factors, "NumberOfLinks"), GetValue(whole.Factors, "NumberOfLinks"), 0.0,
-        "the number of links of all ranks");
+      CheckClose(factors.GetSummary("NumberOfLinks"), whole.Factors.GetSummary("NumberOfLinks"),
+        0.0, "the number of links of all ranks");
       double worst = 0.0;
-      for (std::size_t k = 0; k < whole.Factors->GetRowSums().size(); ++k)
+      for (std::size_t k = 0; k < whole.Factors.RowSums.size(); ++k)
       {
-        worst =
-          std::max({ worst, std::abs(factors->GetRowSums()[k] - whole.Factors->GetRowSums()[k]),
-            std::abs(GetHierarchy(factors)->GetWeights()[k] /
-                GetHierarchy(whole.Factors)->GetWeights()[k] -
-              1.0) });
+        worst = std::max({ worst, std::abs(factors.RowSums[k] - whole.Factors.RowSums[k]),
+          std::abs(
+            factors.Hierarchy->GetWeights()[k] / whole.Factors.Hierarchy->GetWeights()[k] - 1.0) });
       }
       Check(worst < 1e-11, "sums and weights of closed rows on several ranks");
     });
@@ -364,7 +357,7 @@ Vector GetSums(vtkPolyData* data, double scale, const Point& shift, double& link
   auto factors = MakeFactors(3e-2);
   factors->SetInputData(copy);
   factors->Update();
-  links = GetValue(factors, "NumberOfLinks");
+  links = GetSummary(factors->GetPolyDataOutput(), "NumberOfLinks");
   const std::vector<double> sums = GetCellValues(factors, "ViewFactorSum");
   return Eigen::Map<const Vector>(sums.data(), static_cast<Eigen::Index>(sums.size()));
 }
@@ -409,8 +402,8 @@ void TestClosure(const PatchScene& scene)
     const Vector reflectance = MakeRandom(ones.size(), 0.1, 0.9, 4);
     Check((links.Solve(ones - reflectance, reflectance) - ones).cwiseAbs().maxCoeff() < 1e-9,
       "furnace");
-    Check(GetValue(links.Factors, "ClosureGap") < 1e-12, "gap that closure tells");
-    const double change = GetValue(links.Factors, "ClosureChange");
+    Check(links.Factors.GetSummary("ClosureGap") < 1e-12, "gap that closure tells");
+    const double change = links.Factors.GetSummary("ClosureChange");
     Check(change > 1e-3 && change < 1.0, "change that closure tells");
   }
 }
@@ -419,19 +412,18 @@ void TestClosure(const PatchScene& scene)
 void TestOpenScene(vtkPolyData* data)
 {
   PatchScene scene;
-  std::string error;
-  Check(scene.Build(data, nullptr, error), error);
+  CheckDone(scene.Build(data, Ranks()), "scene");
   const Irradiator open(scene, 3e-2);
   const Irradiator closed(scene, 3e-2, true);
-  const std::vector<double>& sky = open.Factors->GetSkyFractions();
+  const std::vector<double>& sky = open.Factors.SkyFractions;
   double worstOpen = 0.0, worstClosed = 0.0;
   std::size_t numberOpen = 0;
   for (std::size_t row = 0; row < sky.size(); ++row)
   {
-    const double sum = closed.Factors->GetRowSums()[row];
+    const double sum = closed.Factors.RowSums[row];
     const bool isOpen = sky[row] > 0.0;
     double& worst = isOpen ? worstOpen : worstClosed;
-    worst = std::max(worst, std::abs(sum - (isOpen ? open.Factors->GetRowSums()[row] : 1.0)));
+    worst = std::max(worst, std::abs(sum - (isOpen ? open.Factors.RowSums[row] : 1.0)));
     numberOpen += isOpen ? 1 : 0;
   }
   Check(numberOpen > sky.size() / 2 && numberOpen < sky.size() - 50, "open and closed rows");
@@ -448,8 +440,7 @@ int TestLinkRefinement(int, char*[])
   TestErrors("Cornell box", MakeCornellBox());
   auto room = MakeFurnishedRoom(0.9);
   PatchScene scene;
-  std::string error;
-  Check(scene.Build(room, nullptr, error), error);
+  CheckDone(scene.Build(room, Ranks()), "scene");
   TestThreads(scene);
   TestReciprocity(room);
   TestPlaces(room);

@@ -3,9 +3,13 @@
 // The tree over a scene against its definition, and that the order of the tree stays inside:
 // arrays and numbers that users see are those of the input.
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "RanksInThreads.h"
+#include "Scene/CellArrays.h"
 #include "Scene/PatchScene.h"
 #include "Scene/PatchTree.h"
+#include "Scene/SceneOutput.h"
+#include "Scene/SmoothPoints.h"
 #include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
@@ -27,8 +31,7 @@ using Vector = PatchTree::Vector;
 PatchScene Build(vtkDataObject* data)
 {
   PatchScene scene;
-  std::string error;
-  Check(scene.Build(data, nullptr, error), "scene: " + error);
+  CheckDone(scene.Build(data, Ranks()), "scene");
   return scene;
 }
 
@@ -321,9 +324,8 @@ void CheckRoundTrip(vtkDataObject* input, vtkDataObject* output,
   PatchScene scene = Build(input);
   std::vector<double> values;
   int components = 0;
-  std::string error;
-  Check(scene.GatherCellArray(input, "Tag", true, values, components, error) && components == 2,
-    "the array is gathered: " + error);
+  CheckDone(CellArrays(scene, input, Ranks()).Read("Tag", true, values, components), "array");
+  Check(components == 2, "the array is gathered");
   vtkIdType polygon = 0;
   for (vtkPolyData* block : blocks)
   {
@@ -338,10 +340,10 @@ void CheckRoundTrip(vtkDataObject* input, vtkDataObject* output,
     }
   }
   Check(polygon == scene.GetNumberOfPatches(), "every polygon is a patch");
-  scene.BuildSmoothPoints(60.0, {}, 0);
-  scene.CopyStructure(input, output);
-  scene.AddArray(output, "Copy", values, components);
-  scene.AddArray(output, "Wall", GetWalls(scene), 1);
+  const SmoothPoints points(scene, 60.0);
+  const SceneOutput arrays(scene, &points, input, output);
+  arrays.AddArray("Copy", values, components);
+  arrays.AddArray("Wall", GetWalls(scene), 1);
 }
 
 //------------------------------------------------------------------------------
@@ -405,21 +407,21 @@ void TestRanks()
     [&](vtkMultiProcessController* controller, int rank)
     {
       PatchScene scene;
-      std::string error;
       std::vector<double> values;
       int components = 0;
-      equal[rank] = scene.Build(pieces[rank], controller, error) &&
-        scene.GatherCellArray(pieces[rank], "Tag", true, values, components, error) &&
+      const Ranks ranks(controller);
+      equal[rank] = scene.Build(pieces[rank], ranks) &&
+        CellArrays(scene, pieces[rank], ranks).Read("Tag", true, values, components) &&
         scene.GetFingerprint() == serial.GetFingerprint() && scene.GetAreas() == serial.GetAreas();
       for (vtkIdType cell = starts[rank]; equal[rank] && cell < starts[rank + 1]; ++cell)
       {
         equal[rank] = scene.GetPatch(cell) == serial.GetPatch(cell) &&
           scene.GetLocalPatches()[cell - starts[rank]] == serial.GetPatch(cell);
       }
-      scene.BuildSmoothPoints(60.0, {}, 0);
-      scene.CopyStructure(pieces[rank], outputs[rank]);
-      scene.AddArray(outputs[rank], "Copy", values, components);
-      scene.AddArray(outputs[rank], "Wall", GetWalls(scene), 1);
+      const SmoothPoints points(scene, 60.0);
+      const SceneOutput arrays(scene, &points, pieces[rank], outputs[rank]);
+      arrays.AddArray("Copy", values, components);
+      arrays.AddArray("Wall", GetWalls(scene), 1);
     });
   for (int rank = 0; rank < 3; ++rank)
   {

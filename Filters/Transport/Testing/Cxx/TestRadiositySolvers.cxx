@@ -3,14 +3,15 @@
 // The solvers by themselves, against a dense LU decomposition in double precision: how many
 // iterations they take, that the error bound holds after each of them, and how they end.
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "Radiosity/RadiosityIteration.h"
 #include "Radiosity/RadiositySolvers.h"
 #include "Scene/PatchScene.h"
+#include "ViewFactors/ViewFactorStore.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkObjectFactory.h"
 #include "vtkRadiosity.h"
-#include "vtkViewFactors.h"
 
 #include <Eigen/Dense>
 
@@ -33,13 +34,11 @@ class Case
 public:
   Case(vtkPolyData* data, bool closed)
   {
-    this->Factors->SetInputData(data);
-    this->Factors->SetTolerance(1e-9);
-    this->Factors->SetEnforceClosure(closed);
-    this->Factors->Update();
-    std::string error;
-    Check(this->Scene.Build(data, nullptr, error), error);
-    this->Exchange = vtkExchangeMatrix::SafeDownCast(this->Factors->GetExchange());
+    CheckDone(this->Scene.Build(data, Ranks()), "scene");
+    CheckDone(
+      this->Factors.Update(this->Scene, { 1e-9, closed, false, 0.0 }, {}, Ranks(), Monitor()),
+      "view factors");
+    this->Exchange = this->Factors.GetLinks().Matrix;
     const vtkIdType patches = this->Exchange->GetNumberOfPatches();
     this->F.resize(patches, patches);
     for (vtkIdType i = 0; i < patches; ++i)
@@ -92,7 +91,7 @@ public:
     problem.NumberOfPatches = this->GetNumberOfPatches();
     problem.NumberOfBands = bands;
     problem.Areas = &this->Exchange->GetAreas();
-    problem.RowSums = &this->Factors->GetRowSums();
+    problem.RowSums = &this->Factors.GetLinks().RowSums;
     problem.RowSumError = 1e-14;
     for (vtkIdType patch = 0; patch < this->GetNumberOfPatches(); ++patch)
     {
@@ -113,7 +112,7 @@ public:
     return current;
   }
 
-  vtkNew<vtkViewFactors> Factors;
+  ViewFactorStore Factors;
   PatchScene Scene;
   vtkExchangeMatrix* Exchange = nullptr;
   vtkSmartPointer<vtkDenseLinkOperator> Links, Reference;
@@ -486,7 +485,7 @@ void TestDiagnoses()
         static_cast<int>(b), 0, 1.3 * two.Exchange->GetAreas()[a] * two.F(a, b));
     }
   }
-  std::vector<double> sums = two.Factors->GetRowSums();
+  std::vector<double> sums = two.Factors.GetLinks().RowSums;
   for (vtkIdType i = 6; i < 12; ++i)
   {
     sums[two.Scene.GetPatch(i)] = 1.3;

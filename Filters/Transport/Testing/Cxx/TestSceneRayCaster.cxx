@@ -5,6 +5,7 @@
 #include "Geometry/PatchSampler.h"
 #include "Geometry/SceneRayCaster.h"
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "Scene/PatchScene.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
@@ -29,9 +30,8 @@ struct Scene
 
   explicit Scene(vtkPolyData* data, const std::vector<bool>* subset = nullptr)
   {
-    std::string error;
-    Check(this->Patches.Build(data, nullptr, error), "scene: " + error);
-    Check(this->Caster.Build(this->Patches, error, subset), "caster: " + error);
+    CheckDone(this->Patches.Build(data, Ranks()), "scene");
+    CheckDone(this->Caster.Build(this->Patches, subset), "caster");
   }
 
   /// Input coordinates to scene coordinates.
@@ -55,7 +55,7 @@ struct Scene
 
   Vector Sample(vtkIdType patch, int index) const
   {
-    PolygonExchange::Polygon polygon;
+    Polygon polygon;
     polygon.Count = this->Patches.GetNumberOfCorners(patch);
     for (int corner = 0; corner < polygon.Count; ++corner)
     {

@@ -3,9 +3,11 @@
 // Heat exchange against closed forms: two-surface enclosures, given net fluxes, spectral bands,
 // backgrounds, series of temperatures.
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "Radiosity/PlanckFraction.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "RanksInThreads.h"
+#include "Scene/CellArrays.h"
 #include "Scene/PatchScene.h"
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
@@ -625,9 +627,10 @@ std::string ReadMaterials(vtkPolyData* data, vtkMultiProcessController* controll
     names.emplace_back(RadiosityMaterials::GetDefaultName(array));
   }
   PatchScene scene;
+  const Ranks ranks(controller);
+  CheckDone(scene.Build(data, ranks), "the scene");
   std::string error;
-  Check(scene.Build(data, controller, error), "the scene: " + error);
-  return materials.Read(data, scene, names, error) ? "" : error;
+  return materials.Read(CellArrays(scene, data, ranks), scene, names, error) ? "" : error;
 }
 
 //------------------------------------------------------------------------------

@@ -3,7 +3,10 @@
 // The closure of view factors, on the matrix of a sphere's inside: there G_ij = A_i A_j / (sum A)
 // is exact, whatever the division into patches. Likewise with a smaller sphere within.
 #include "LightTransportTesting.h"
+#include "Links/Links.h"
+#include "OutcomeTesting.h"
 #include "RanksInThreads.h"
+#include "Support/Ranks.h"
 #include "ViewFactors/ViewFactorClosure.h"
 
 #include <algorithm>
@@ -70,13 +73,12 @@ struct Case
   }
 
   // The tiles of one rank, all others without storage, and the pairs in them.
-  ViewFactorsResult MakeResult(std::vector<PartlyVisiblePair>& pairs, int part = 0,
-    int parts = 1) const
+  Links MakeResult(std::vector<PartlyVisiblePair>& pairs, int part = 0, int parts = 1) const
   {
-    ViewFactorsResult result;
-    result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
-    Check(result.Exchange->Allocate(this->Areas, 1, part, parts), "allocation");
-    for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
+    Links result;
+    result.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
+    Check(result.Matrix->Allocate(this->Areas, 1, part, parts), "allocation");
+    for (vtkExchangeMatrix::Tile& tile : result.Matrix->GetTiles())
     {
       this->ForEachEntry(tile,
         [&](int row, int column, vtkIdType i, vtkIdType j)
@@ -84,10 +86,10 @@ struct Case
     }
     for (const PartlyVisiblePair& pair : this->Pairs)
     {
-      const vtkIdType index = result.Exchange->GetTileIndex(pair.I / N, pair.J / N);
+      const vtkIdType index = result.Matrix->GetTileIndex(pair.I / N, pair.J / N);
       if (index % parts == part)
       {
-        vtkExchangeMatrix::SetValue(result.Exchange->GetTiles()[index / parts],
+        vtkExchangeMatrix::SetValue(result.Matrix->GetTiles()[index / parts],
           static_cast<int>(pair.I % N), static_cast<int>(pair.J % N), 0, pair.Value);
         pairs.push_back(pair);
       }
@@ -108,12 +110,12 @@ struct Case
     }
   }
 
-  ViewFactorClosure::Report Close(ViewFactorsResult& result, double relativeError) const
+  ViewFactorClosure::Report Close(Links& result, double relativeError) const
   {
     std::vector<PartlyVisiblePair> pairs;
     result = this->MakeResult(pairs);
     ViewFactorClosure::Report report;
-    Check(ViewFactorClosure::Close(result, pairs, this->Closed, relativeError, nullptr, report),
+    CheckDone(ViewFactorClosure::Close(result, pairs, this->Closed, relativeError, Ranks(), report),
       "closure");
     return report;
   }
@@ -127,14 +129,14 @@ struct Case
 };
 
 //------------------------------------------------------------------------------
-double SumRow(const ViewFactorsResult& result, vtkIdType i)
+double SumRow(const Links& result, vtkIdType i)
 {
   double sum = 0.0;
-  for (vtkIdType j = 0; j < result.Exchange->GetNumberOfPatches(); ++j)
+  for (vtkIdType j = 0; j < result.Matrix->GetNumberOfPatches(); ++j)
   {
-    sum += result.Exchange->GetValue(i, j);
+    sum += result.Matrix->GetValue(i, j);
   }
-  return sum / result.Exchange->GetAreas()[i];
+  return sum / result.Matrix->GetAreas()[i];
 }
 
 //------------------------------------------------------------------------------
@@ -147,13 +149,13 @@ struct Comparison
   double After = 0.0;
 };
 
-Comparison Compare(const Case& scene, const ViewFactorsResult& result)
+Comparison Compare(const Case& scene, const Links& result)
 {
   Comparison comparison;
   std::vector<bool> listed(scene.GetNumberOfPatches() * scene.GetNumberOfPatches(), false);
   for (const PartlyVisiblePair& pair : scene.Pairs)
   {
-    const double value = result.Exchange->GetValue(pair.I, pair.J);
+    const double value = result.Matrix->GetValue(pair.I, pair.J);
     const double exact = scene.GetExact(pair.I, pair.J);
     Check(value >= 0.0 && value <= pair.Open * (1.0 + 1e-7), "a pair keeps its bounds");
     comparison.Before += std::pow(pair.Value - exact, 2);
@@ -165,8 +167,8 @@ Comparison Compare(const Case& scene, const ViewFactorsResult& result)
   {
     for (vtkIdType j = 0; j < scene.GetNumberOfPatches(); ++j)
     {
-      const double value = result.Exchange->GetValue(i, j);
-      Check(value == result.Exchange->GetValue(j, i), "the matrix stays symmetric");
+      const double value = result.Matrix->GetValue(i, j);
+      Check(value == result.Matrix->GetValue(j, i), "the matrix stays symmetric");
       if (scene.GetExact(i, j) > 0.0 && !listed[i * scene.GetNumberOfPatches() + j])
       {
         const double exact = static_cast<float>(scene.GetExact(i, j));
@@ -187,7 +189,7 @@ void TestClosedScene(vtkIdType patches, double relativeError)
     std::to_string(relativeError) + ")";
   Case scene(patches);
   scene.Perturb(5, 0.3);
-  ViewFactorsResult result;
+  Links result;
   const ViewFactorClosure::Report report = scene.Close(result, relativeError);
   Check(report.Gap < Double, "no gap is left" + what);
   double worst = 0.0;
@@ -214,8 +216,8 @@ void TestSphereWithinSphere()
   scene.SetInner(80);
   scene.Perturb(5, 0.3);
   std::vector<PartlyVisiblePair> pairs;
-  ViewFactorsResult result = scene.MakeResult(pairs);
-  for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
+  Links result = scene.MakeResult(pairs);
+  for (vtkExchangeMatrix::Tile& tile : result.Matrix->GetTiles())
   {
     scene.ForEachEntry(tile,
       [&](int row, int column, vtkIdType i, vtkIdType j)
@@ -228,7 +230,8 @@ void TestSphereWithinSphere()
       });
   }
   ViewFactorClosure::Report report;
-  ViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, nullptr, report);
+  CheckDone(ViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, Ranks(), report),
+    "closure");
   Check(report.Gap < Double, "sphere within a sphere");
   const Comparison comparison = Compare(scene, result);
   Check(comparison.Unlisted < 1.5e-4, "entries of the sphere within");
@@ -246,13 +249,13 @@ void TestLeastSquares()
   {
     pair.Error *= 1.0 + static_cast<double>((pair.I * 7 + pair.J * 3) % 5);
   }
-  ViewFactorsResult result;
+  Links result;
   scene.Close(result, 0.0);
   std::map<std::pair<vtkIdType, vtkIdType>, double> slopes;
   double largest = 0.0;
   for (const PartlyVisiblePair& pair : scene.Pairs)
   {
-    const double slope = (result.Exchange->GetValue(pair.I, pair.J) - pair.Value) / pair.Error;
+    const double slope = (result.Matrix->GetValue(pair.I, pair.J) - pair.Value) / pair.Error;
     slopes[{ pair.I, pair.J }] = slope;
     largest = std::max(largest, std::abs(slope));
   }
@@ -277,7 +280,7 @@ void TestBounds()
     pair.Value = k % 2 == 0 ? 0.0 : 0.98 * pair.Open;
     pair.Error = 5.0 * pair.Error;
   }
-  ViewFactorsResult result;
+  Links result;
   const ViewFactorClosure::Report report = scene.Close(result, 1e-7);
   Check(report.Gap < Double, "closed at the bounds");
   const Comparison comparison = Compare(scene, result);
@@ -285,7 +288,7 @@ void TestBounds()
   vtkIdType atBounds = 0;
   for (const PartlyVisiblePair& pair : scene.Pairs)
   {
-    const double value = result.Exchange->GetValue(pair.I, pair.J);
+    const double value = result.Matrix->GetValue(pair.I, pair.J);
     atBounds += value == 0.0 || value > pair.Open * (1.0 - 1e-7) ? 1 : 0;
   }
   Check(atBounds > 10, "some pairs are at their bounds");
@@ -302,15 +305,15 @@ void TestOpenRows()
     scene.Closed[i] = false;
   }
   std::vector<PartlyVisiblePair> pairs;
-  const ViewFactorsResult before = scene.MakeResult(pairs);
-  ViewFactorsResult result;
+  const Links before = scene.MakeResult(pairs);
+  Links result;
   const ViewFactorClosure::Report report = scene.Close(result, 1e-5);
   Check(report.Gap < Double, "closed rows beside open ones");
   for (vtkIdType i = 0; i < 300; ++i)
   {
     for (vtkIdType j = 0; !scene.Closed[i] && j < 300; ++j)
     {
-      Check(result.Exchange->GetValue(i, j) == before.Exchange->GetValue(i, j),
+      Check(result.Matrix->GetValue(i, j) == before.Matrix->GetValue(i, j),
         "entries of open rows stay");
     }
     CheckClose(SumRow(result, i), scene.Closed[i] ? 1.0 : SumRow(before, i), Double, "row sum");
@@ -329,11 +332,11 @@ void TestUnclosable()
     pair.Open = 0.25 * pair.Open;
     pair.Error = 0.1 * pair.Value;
   }
-  ViewFactorsResult result;
+  Links result;
   ViewFactorClosure::Report report = scene.Close(result, 1e-6);
   for (const PartlyVisiblePair& pair : scene.Pairs)
   {
-    CheckClose(result.Exchange->GetValue(pair.I, pair.J), pair.Open, 1e-7, "all that is open");
+    CheckClose(result.Matrix->GetValue(pair.I, pair.J), pair.Open, 1e-7, "all that is open");
   }
   // The diagonal has all of its share, the other entries half of it.
   double gap = 0.0;
@@ -359,7 +362,7 @@ void TestUnclosable()
 void TestNothing()
 {
   Case scene(50);
-  ViewFactorsResult result;
+  Links result;
   ViewFactorClosure::Report report = scene.Close(result, 1e-3);
   Check(report.Change < 1e-7 && report.Gap < Double, "a matrix that is closed stays");
   scene.Closed.assign(50, false);
@@ -375,17 +378,18 @@ void TestRanks()
 {
   Case scene(700);
   scene.Perturb(5, 0.3);
-  ViewFactorsResult whole;
+  Links whole;
   const ViewFactorClosure::Report expected = scene.Close(whole, 1e-5);
   constexpr int ranks = 4;
-  std::vector<ViewFactorsResult> results(ranks);
+  std::vector<Links> results(ranks);
   RunRanks(ranks,
     [&](vtkMultiProcessController* controller, int rank)
     {
       std::vector<PartlyVisiblePair> pairs;
       results[rank] = scene.MakeResult(pairs, rank, ranks);
       ViewFactorClosure::Report report;
-      Check(ViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5, controller, report),
+      CheckDone(ViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5,
+                  Ranks(controller), report),
         "closure on several ranks");
       CheckClose(report.Change, expected.Change, 1e-6, "change on several ranks");
       Check(report.Gap < Double, "gap on several ranks");
@@ -395,11 +399,11 @@ void TestRanks()
     for (vtkIdType j = 0; j < 700; j += 7)
     {
       double sum = 0.0;
-      for (const ViewFactorsResult& result : results)
+      for (const Links& result : results)
       {
-        sum += result.Exchange->GetValue(i, j);
+        sum += result.Matrix->GetValue(i, j);
       }
-      CheckClose(sum, whole.Exchange->GetValue(i, j), 2e-7, "entry of the parts");
+      CheckClose(sum, whole.Matrix->GetValue(i, j), 2e-7, "entry of the parts");
     }
     CheckClose(results[1].RowSums[i], whole.RowSums[i], 1e-7, "row sum on several ranks");
   }

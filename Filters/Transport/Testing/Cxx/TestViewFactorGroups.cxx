@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of view factors between groups: catalogue values, reciprocity, and what makes a group.
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "RanksInThreads.h"
+#include "Scene/CellArrays.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactors/ViewFactorGroups.h"
+#include "ViewFactors/ViewFactorStore.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
@@ -44,22 +47,26 @@ struct Problem
 
   bool Gather(vtkDataObject* input, vtkMultiProcessController* controller = nullptr)
   {
-    return Check(this->Scene.Build(input, controller, this->Error), this->Error) &&
-      ViewFactorGroups::Gather(this->Scene, input, "Group", this->Groups, this->Error);
+    const Ranks ranks(controller);
+    CheckDone(this->Scene.Build(input, ranks), "scene");
+    const Outcome gathered =
+      ViewFactorGroups::Gather(CellArrays(this->Scene, input, ranks), input, "Group", this->Groups);
+    this->Error = gathered.GetMessage();
+    return static_cast<bool>(gathered);
   }
 };
 
 //------------------------------------------------------------------------------
 // The view factors of a scene without sky, all that misses fronts meets back faces.
-ViewFactorsResult ComputeResult(const PatchScene& scene)
+Links ComputeLinks(const PatchScene& scene)
 {
-  vtkNew<vtkViewFactors> factors;
-  factors->SetTolerance(1e-8);
-  Check(factors->UpdateExchange(scene, [](double) { return true; }), "view factors");
-  ViewFactorsResult result;
-  result.Exchange = vtkExchangeMatrix::SafeDownCast(factors->GetExchange());
+  ViewFactorStore store;
+  CheckDone(store.Update(scene, { 1e-8, false, false, 0.0 }, {}, Ranks(), Monitor()),
+    "view factors");
+  Links result;
+  result.Matrix = store.GetLinks().Matrix;
   result.SkyFractions.assign(scene.GetNumberOfPatches(), 0.0);
-  for (const double sum : factors->GetRowSums())
+  for (const double sum : store.GetLinks().RowSums)
   {
     result.BackFaceFractions.push_back(1.0 - sum);
   }
@@ -116,8 +123,8 @@ void TestCube()
   Check(problem.Gather(data), "groups of a cube");
   Check(Join(problem.Groups.Names) == "-30|-20|-10|0|10|20", "names of groups by an array");
   vtkNew<vtkTable> table;
-  Check(ViewFactorGroups::FillTable(ComputeResult(problem.Scene), problem.Groups,
-          problem.Scene.GetScale(), nullptr, table),
+  CheckDone(ViewFactorGroups::FillTable(ComputeLinks(problem.Scene), problem.Groups,
+              problem.Scene.GetScale(), Ranks(), table),
     "table");
   Check(table->GetNumberOfRows() == 6 && table->GetNumberOfColumns() == 10, "size of the table");
   CheckRows(table, problem.Groups.Names);
@@ -147,9 +154,11 @@ void TestUnequalGroups()
   Problem problem;
   vtkNew<vtkTable> table;
   Check(problem.Gather(data), "two plates");
-  ViewFactorsResult result = ComputeResult(problem.Scene);
+  Links result = ComputeLinks(problem.Scene);
   result.SkyFractions.swap(result.BackFaceFractions);
-  ViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), nullptr, table);
+  CheckDone(
+    ViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), Ranks(), table),
+    "table");
   CheckRows(table, { "1", "2" });
   CheckClose(GetEntry(table, "1", "2"), Parallel, Single, "from parts to a whole");
   CheckClose(GetEntry(table, "2", "1"), Parallel, Single, "from a whole to parts");
@@ -158,11 +167,13 @@ void TestUnequalGroups()
 
   ids->SetValue(0, 2.0);
   problem.Gather(data);
-  ViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), nullptr, table);
+  CheckDone(
+    ViewFactorGroups::FillTable(result, problem.Groups, problem.Scene.GetScale(), Ranks(), table),
+    "table");
   CheckRows(table, { "1", "2" });
   const vtkIdType first = problem.Scene.GetPatch(0), whole = problem.Scene.GetPatch(8);
-  const double inside = 2.0 * result.Exchange->GetValue(first, whole) /
-    (result.Exchange->GetAreas()[first] + result.Exchange->GetAreas()[whole]);
+  const double inside = 2.0 * result.Matrix->GetValue(first, whole) /
+    (result.Matrix->GetAreas()[first] + result.Matrix->GetAreas()[whole]);
   CheckClose(GetEntry(table, "2", "2"), inside, 1e-12, "a group that sees itself");
 }
 
@@ -278,10 +289,11 @@ void TestRanks()
   };
   Problem whole;
   whole.Gather(makeBlocks(-1));
-  const ViewFactorsResult expected = ComputeResult(whole.Scene);
+  const Links expected = ComputeLinks(whole.Scene);
   vtkNew<vtkTable> expectedTable;
-  ViewFactorGroups::FillTable(expected, whole.Groups, whole.Scene.GetScale(), nullptr,
-    expectedTable);
+  CheckDone(ViewFactorGroups::FillTable(expected, whole.Groups, whole.Scene.GetScale(), Ranks(),
+              expectedTable),
+    "table");
   CheckClose(GetEntry(expectedTable, "face2", "face3"), Parallel, Single, "blocks of one rank");
   std::vector<vtkSmartPointer<vtkTable>> tables(ranks);
   RunRanks(ranks,
@@ -289,19 +301,20 @@ void TestRanks()
     {
       Problem problem;
       problem.Gather(makeBlocks(rank), controller);
-      ViewFactorsResult part = expected;
-      part.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
-      part.Exchange->Allocate(problem.Scene.GetAreas(), 1, rank, ranks);
-      for (vtkExchangeMatrix::Tile& tile : part.Exchange->GetTiles())
+      Links part = expected;
+      part.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
+      part.Matrix->Allocate(problem.Scene.GetAreas(), 1, rank, ranks);
+      for (vtkExchangeMatrix::Tile& tile : part.Matrix->GetTiles())
       {
-        const auto& all = expected.Exchange->GetTiles();
-        const auto& source = all[expected.Exchange->GetTileIndex(tile.Row, tile.Column)];
+        const auto& all = expected.Matrix->GetTiles();
+        const auto& source = all[expected.Matrix->GetTileIndex(tile.Row, tile.Column)];
         std::copy_n(source.Values, vtkExchangeMatrix::TileSize * vtkExchangeMatrix::TileSize,
           tile.Values);
       }
       tables[rank] = vtkSmartPointer<vtkTable>::New();
-      ViewFactorGroups::FillTable(part, problem.Groups, problem.Scene.GetScale(), controller,
-        tables[rank]);
+      CheckDone(ViewFactorGroups::FillTable(part, problem.Groups, problem.Scene.GetScale(),
+                  Ranks(controller), tables[rank]),
+        "table");
     });
   for (vtkTable* table : tables)
   {

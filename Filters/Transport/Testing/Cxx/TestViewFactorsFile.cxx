@@ -3,6 +3,8 @@
 // View factors written and read back bit by bit; files that are cut short, damaged or made up are
 // refused; a failed write leaves nothing behind.
 #include "LightTransportTesting.h"
+#include "Links/Links.h"
+#include "OutcomeTesting.h"
 #include "ViewFactors/ViewFactorsFile.h"
 
 #include <algorithm>
@@ -48,7 +50,7 @@ struct Folder
 
 //------------------------------------------------------------------------------
 // Any tile but that of the last row is stored or not; values are anything that may be.
-ViewFactorsResult MakeResult(vtkIdType patches)
+Links MakeResult(vtkIdType patches)
 {
   std::mt19937_64 generator(static_cast<unsigned>(patches));
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -58,11 +60,11 @@ ViewFactorsResult MakeResult(vtkIdType patches)
     std::generate(values.begin(), values.end(), [&]() { return uniform(generator); });
     return values;
   };
-  ViewFactorsResult result;
+  Links result;
   result.Fingerprint = generator();
   result.Tolerance = 1e-4;
-  result.Exchange = vtkSmartPointer<vtkExchangeMatrix>::New();
-  result.Exchange->AllocateSparse(row(), 1);
+  result.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
+  result.Matrix->AllocateSparse(row(), 1);
   for (auto* values : { &result.RawRowSums, &result.RowSums, &result.RowErrors,
          &result.SkyFractions, &result.BackFaceFractions })
   {
@@ -71,18 +73,18 @@ ViewFactorsResult MakeResult(vtkIdType patches)
   std::vector<double> remainders = row();
   for (std::size_t k = 0; k < remainders.size(); ++k)
   {
-    remainders[k] = (remainders[k] - 0.5) * 1e-7 * result.Exchange->GetAreas()[k];
+    remainders[k] = (remainders[k] - 0.5) * 1e-7 * result.Matrix->GetAreas()[k];
   }
-  result.Exchange->SetRemainders(remainders);
+  result.Matrix->SetRemainders(remainders);
   result.Summaries = { { "NumberOfPairs", 1e15 / 3.0 }, { "", -0.0 },
     { "MaximumRowError", std::numeric_limits<double>::infinity() } };
-  for (vtkExchangeMatrix::Tile& tile : result.Exchange->GetTiles())
+  for (vtkExchangeMatrix::Tile& tile : result.Matrix->GetTiles())
   {
     if ((tile.Row + tile.Column) % 3 == 1)
     {
       continue;
     }
-    result.Exchange->AllocateTile(tile);
+    result.Matrix->AllocateTile(tile);
     for (int i = 0; i < N && tile.Row * N + i < patches; ++i)
     {
       for (int j = tile.Row == tile.Column ? i : 0; j < N && tile.Column * N + j < patches; ++j)
@@ -116,13 +118,13 @@ bool IsSame(const vtkExchangeMatrix* a, const vtkExchangeMatrix* b)
 }
 
 //------------------------------------------------------------------------------
-bool IsSame(const ViewFactorsResult& a, const ViewFactorsResult& b)
+bool IsSame(const Links& a, const Links& b)
 {
   return a.Fingerprint == b.Fingerprint && a.Tolerance == b.Tolerance &&
     IsSame(a.RawRowSums, b.RawRowSums) && IsSame(a.RowSums, b.RowSums) &&
     IsSame(a.RowErrors, b.RowErrors) && IsSame(a.SkyFractions, b.SkyFractions) &&
     IsSame(a.BackFaceFractions, b.BackFaceFractions) && a.Summaries == b.Summaries &&
-    IsSame(a.Exchange, b.Exchange);
+    IsSame(a.Matrix, b.Matrix);
 }
 
 //------------------------------------------------------------------------------
@@ -188,11 +190,11 @@ std::string Sign(std::string bytes)
 // The message names the file and the problem; what was there before stays.
 void ExpectError(const std::string& fileName, const std::string& problem, const std::string& what)
 {
-  ViewFactorsResult result;
+  Links result;
   result.Fingerprint = 77;
-  std::string error;
-  const bool read = ViewFactorsFile::Read(fileName, result, error);
-  Check(!read && result.Fingerprint == 77 && !result.Exchange, what + " is refused");
+  const Outcome read = ViewFactorsFile::Read(fileName, result);
+  const std::string& error = read.GetMessage();
+  Check(read.HasFailed() && result.Fingerprint == 77 && !result.Matrix, what + " is refused");
   Check(error.find(fileName) != std::string::npos && error.find(problem) != std::string::npos,
     what + " gives the message: " + error);
 }
@@ -201,24 +203,23 @@ void ExpectError(const std::string& fileName, const std::string& problem, const 
 void TestRoundTrip(const Folder& folder)
 {
   const std::string name = folder.Get("r\xc3\xb6und.lt");
-  std::string error;
   for (const vtkIdType patches : { 0, 1, 255, 256, 257, 1000 })
   {
     const std::string what = std::to_string(patches) + " patches: ";
-    const ViewFactorsResult result = MakeResult(patches);
-    Check(ViewFactorsFile::Write(name, result, error), what + error);
-    ViewFactorsResult again = MakeResult(3);
-    Check(ViewFactorsFile::Read(name, again, error), what + error);
+    const Links result = MakeResult(patches);
+    CheckDone(ViewFactorsFile::Write(name, result), what);
+    Links again = MakeResult(3);
+    CheckDone(ViewFactorsFile::Read(name, again), what);
     Check(IsSame(result, again), what + "the same bits");
     Check(folder.GetNumberOfFiles() == 1, what + "one file");
   }
   const std::string bytes = GetBytes(name);
   Check(bytes.rfind("vtkLightTransport view factors 2", 0) == 0 && bytes[Line - 1] == '\n',
     "a line to read");
-  const ViewFactorsResult result = MakeResult(1000);
+  const Links result = MakeResult(1000);
   CheckClose(static_cast<double>(bytes.size()),
-    Areas + 56.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Exchange->GetNumberOfStoredTiles() +
-      result.Exchange->GetNumberOfBytes() + 8,
+    Areas + 56.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Matrix->GetNumberOfStoredTiles() +
+      result.Matrix->GetNumberOfBytes() + 8,
     0.0, "length of the file");
   Check(Sign(bytes) == bytes, "the checksum is what its description says");
 }
@@ -255,9 +256,8 @@ void TestFlippedBytes(const Folder& folder, const std::string& bytes)
     std::string damaged = bytes;
     damaged[offset] = static_cast<char>(damaged[offset] ^ (1 << (generator() % 8)));
     PutBytes(name, damaged);
-    ViewFactorsResult result;
-    std::string error;
-    Check(!ViewFactorsFile::Read(name, result, error) && !error.empty(),
+    Links result;
+    Check(!ViewFactorsFile::Read(name, result).GetMessage().empty(),
       "byte " + std::to_string(offset) + " is changed");
   }
   // The same bit of two words: what a plain sum or exclusive or would not see.
@@ -331,9 +331,8 @@ void TestMadeUp(const Folder& folder, const std::string& bytes)
   expect(Sign(Replace(twice, last - 8, std::uint64_t(0))), "a block", "a tile twice");
   expect(Sign(Replace(bytes, first - 16, std::uint64_t(1))), "a block", "below the diagonal");
   PutBytes(name, Sign(bytes));
-  ViewFactorsResult result;
-  std::string error;
-  Check(ViewFactorsFile::Read(name, result, error), "the untouched file is read: " + error);
+  Links result;
+  CheckDone(ViewFactorsFile::Read(name, result), "the untouched file is read");
 }
 
 //------------------------------------------------------------------------------
@@ -382,13 +381,14 @@ void TestForeign(const Folder& folder, const std::string& bytes)
 
 //------------------------------------------------------------------------------
 // Also says that an older file of the name stays and that nothing else is left.
-void ExpectWriteError(const Folder& folder, const std::string& name,
-  const ViewFactorsResult& result, const std::string& what)
+void ExpectWriteError(const Folder& folder, const std::string& name, const Links& result,
+  const std::string& what)
 {
   const std::ptrdiff_t files = folder.GetNumberOfFiles();
   const std::string before = GetBytes(name);
-  std::string error;
-  Check(!ViewFactorsFile::Write(name, result, error), what + " fails");
+  const Outcome written = ViewFactorsFile::Write(name, result);
+  const std::string& error = written.GetMessage();
+  Check(written.HasFailed(), what + " fails");
   Check(error.find(name) != std::string::npos, what + " gives the message: " + error);
   Check(folder.GetNumberOfFiles() == files && GetBytes(name) == before, what + " leaves nothing");
 }
@@ -396,10 +396,9 @@ void ExpectWriteError(const Folder& folder, const std::string& name,
 //------------------------------------------------------------------------------
 void TestWriteErrors(const Folder& folder)
 {
-  const ViewFactorsResult good = MakeResult(300);
+  const Links good = MakeResult(300);
   const std::string name = folder.Get("kept");
-  std::string error;
-  Check(ViewFactorsFile::Write(name, good, error), error);
+  CheckDone(ViewFactorsFile::Write(name, good), "the first file");
   ExpectWriteError(folder, folder.Get("missing/file"), good, "a missing folder");
   ExpectWriteError(folder, name + "/file", good, "a file as folder");
   fs::create_directory(folder.Path / "taken");
@@ -419,23 +418,23 @@ void TestWriteErrors(const Folder& folder)
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
 #endif
-  const auto expect = [&](const std::function<void(ViewFactorsResult&)>& change, const char* what)
+  const auto expect = [&](const std::function<void(Links&)>& change, const char* what)
   {
-    ViewFactorsResult result = MakeResult(300);
+    Links result = MakeResult(300);
     change(result);
     ExpectWriteError(folder, name, result, what);
   };
-  expect([](auto& result) { result.Exchange = nullptr; }, "no matrix");
+  expect([](auto& result) { result.Matrix = nullptr; }, "no matrix");
   expect([](auto& result) { result.RowErrors.pop_back(); }, "a row that is not complete");
   expect([](auto& result) { result.RowSums[5] = vtkMath::Nan(); }, "a NaN");
   expect([](auto& result) { result.Tolerance = -1.0; }, "a tolerance that cannot be");
-  expect([](auto& result) { result.Exchange->GetTiles()[0].Values[3] = -1.0f; }, "a negative");
-  expect([](auto& result) { result.Exchange->SetRemainders({ 0.0 }); }, "remainders of few rows");
+  expect([](auto& result) { result.Matrix->GetTiles()[0].Values[3] = -1.0f; }, "a negative");
+  expect([](auto& result) { result.Matrix->SetRemainders({ 0.0 }); }, "remainders of few rows");
   expect([](auto& result) { result.Summaries.resize(1001); }, "too many summaries");
   expect([](auto& result) { result.Summaries[0].first.resize(1001); }, "too long a name");
   const std::vector<double> areas(300, 1.0);
-  expect([&](auto& result) { result.Exchange->AllocateSparse(areas, 2); }, "two kernels");
-  expect([&](auto& result) { result.Exchange->AllocateSparse(areas, 1, 0, 2); }, "two parts");
+  expect([&](auto& result) { result.Matrix->AllocateSparse(areas, 2); }, "two kernels");
+  expect([&](auto& result) { result.Matrix->AllocateSparse(areas, 1, 0, 2); }, "two parts");
 }
 } // namespace
 
@@ -445,8 +444,7 @@ int TestViewFactorsFile(int, char*[])
   const Folder folder;
   TestRoundTrip(folder);
   const std::string name = folder.Get("file");
-  std::string error;
-  Check(ViewFactorsFile::Write(name, MakeResult(300), error), error);
+  CheckDone(ViewFactorsFile::Write(name, MakeResult(300)), "the first file");
   const std::string bytes = GetBytes(name);
   TestTruncation(folder, bytes);
   TestFlippedBytes(folder, bytes);

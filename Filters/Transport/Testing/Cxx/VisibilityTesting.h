@@ -6,6 +6,7 @@
 #define VisibilityTesting_h
 
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "Scene/PatchScene.h"
 
 #include <Eigen/Geometry>
@@ -163,9 +164,7 @@ inline bool BuildScene(const std::vector<Corners>& polygons, PatchScene& scene)
     }
     surface.AddPolygon(points);
   }
-  std::string error;
-  const bool ok = scene.Build(surface.Get(), nullptr, error);
-  return LightTransportTesting::Check(ok, "scene: " + error);
+  return LightTransportTesting::CheckDone(scene.Build(surface.Get(), Ranks()), "scene");
 }
 
 //------------------------------------------------------------------------------

@@ -10,7 +10,7 @@
  * pairs of them, with a ray for each where anything may stand between the clusters. How the means
  * of rows and of columns differ is how the irradiance varies over the receiver, in both directions;
  * with geometry and visibility in one number a shadow's edge is refined as far as its light is
- * worth. Two patches get the exchange of OpenExchange and the visible part of
+ * worth. Two patches get the exchange of UnoccludedPairs and the visible part of
  * PairVisibility.
  *
  * The measure is the square of the error of the irradiance, integrated over the scene, for a
@@ -28,20 +28,20 @@
 #define LinkRefinement_h
 
 #include "Geometry/ShaftCuller.h"
-#include "ViewFactors/OpenExchange.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
+#include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeHierarchy.h"
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <vector>
-
-class vtkMultiProcessController;
 
 namespace LightTransport
 {
 class PairVisibility;
 class PatchScene;
+class Ranks;
 class SceneRayCaster;
 
 class LinkRefinement
@@ -63,13 +63,6 @@ public:
   /// Of the exchange of two patches with nothing in between: sum of the errors of a row.
   static constexpr double OpenTolerance = 1e-4;
 
-  enum Outcome
-  {
-    DONE,
-    ABORTED,
-    NO_MEMORY
-  };
-
   /// `caster` holds the same scene. Both must outlive this.
   LinkRefinement(const PatchScene& scene, const SceneRayCaster& caster);
 
@@ -85,12 +78,11 @@ public:
 
   /**
    * Refine until the error estimate keeps `tolerance`, or there is nothing left to divide. This
-   * rank's share of the links is then in GetLinks. `progress` gets fractions and returns false to
-   * abort. Not more than `availableBytes` are used for links. Collective.
+   * rank's share of the links is then in GetLinks. Fails, on all ranks alike, where links would
+   * take more than `availableBytes`. Collective.
    */
-  using ProgressFunction = std::function<bool(double)>;
-  Outcome Refine(double tolerance, double availableBytes, vtkMultiProcessController* controller,
-    const ProgressFunction& progress);
+  Outcome Refine(double tolerance, double availableBytes, const Ranks& ranks,
+    const Monitor& monitor);
 
   const std::vector<vtkExchangeHierarchy::Link>& GetLinks() const { return this->Links; }
   /// Of all ranks.
@@ -128,14 +120,14 @@ private:
   int GetNumberOfSlots() const { return static_cast<int>(this->Brightness.size()); }
   void MakeUnits();
   void ClearSums();
-  Outcome RunPass(double threshold, double availableBytes, vtkMultiProcessController* controller,
-    const ProgressFunction& progress);
-  void AddUpRanks(vtkMultiProcessController* controller);
+  Outcome RunPass(double threshold, double availableBytes, const Ranks& ranks,
+    const Monitor& monitor);
+  void AddUpRanks(const Ranks& ranks);
   void Assess();
 
   const PatchScene& Scene;
   const SceneRayCaster& Caster;
-  OpenExchange Open;
+  UnoccludedPairs Open;
   ShaftCuller Culler;
   int NumberOfNodes;
   std::vector<double> AreaBefore; ///< of the patches before each; the whole area last

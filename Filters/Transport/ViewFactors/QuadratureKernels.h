@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The innermost loops of the open exchange, compiled for several instruction sets (as
- * LinkKernels): products of quadrature rules between one patch and a run of patches, and the
+ * TileKernels): products of quadrature rules between one patch and a run of patches, and the
  * inner integral of a contour integral at the nodes of a Gauss-Kronrod rule.
  */
-#ifndef ExchangeKernels_h
-#define ExchangeKernels_h
+#ifndef QuadratureKernels_h
+#define QuadratureKernels_h
 
 namespace LightTransport
 {
-namespace ExchangeKernels
+namespace QuadratureKernels
 {
 /// Patches that are worked on together.
 constexpr int Lanes = 8;
@@ -69,7 +69,7 @@ double IntegrateKronrod(const Segments& segments, double begin, double end);
  */
 void IntegrateLogarithms(const double* along, const double* squared, const double* lengths,
   int count, double* results);
-} // namespace ExchangeKernels
+} // namespace QuadratureKernels
 } // namespace LightTransport
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ViewFactors/ExchangeKernels.h"
+#include "ViewFactors/QuadratureKernels.h"
 
 #include "Support/InstructionSets.h"
 
@@ -8,9 +8,9 @@ namespace LightTransport
 {
 namespace
 {
-using ExchangeKernels::Lanes;
-using ExchangeKernels::Patches;
-using ExchangeKernels::Segments;
+using QuadratureKernels::Lanes;
+using QuadratureKernels::Patches;
+using QuadratureKernels::Segments;
 
 // Helpers take vectors by reference: passed by value their calling convention would depend on the
 // instruction set.
@@ -381,7 +381,7 @@ LT_CLONES void Logarithms(const double* along, const double* squared, const doub
 }
 } // namespace
 
-namespace ExchangeKernels
+namespace QuadratureKernels
 {
 //------------------------------------------------------------------------------
 void IntegrateRow(const Patches& rows, int rowCount, long row, const Patches& columns,
@@ -420,5 +420,5 @@ void IntegrateLogarithms(const double* along, const double* squared, const doubl
 {
   Logarithms(along, squared, lengths, count, results);
 }
-} // namespace ExchangeKernels
+} // namespace QuadratureKernels
 } // namespace LightTransport

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Links/LinkRefinement.h"
+#include "ViewFactors/LinkRefinement.h"
 
 #include "Geometry/SceneRayCaster.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Threads.h"
+#include "Support/Ranks.h"
+#include "Support/TransportMemory.h"
 #include "ViewFactors/PairVisibility.h"
-#include "vtkCommunicator.h"
-#include "vtkMultiProcessController.h"
 
 #include <Eigen/Geometry>
 
@@ -440,8 +440,8 @@ struct LinkRefinement::Refiner
     {
       return estimate;
     }
-    PolygonExchange::Polygon a, b;
-    PolygonExchange::MakeClippedPair(this->Self.Scene, i, j, a, b);
+    Polygon a, b;
+    Polygon::SetToClippedPair(this->Self.Scene, i, j, a, b);
     const std::uint64_t key = static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
     if (!visibility.SetPair(a, b, this->Self.Scene, between, key,
           this->Self.Scene.AreTouching(i, j) ? open : 0.0))
@@ -549,8 +549,8 @@ void LinkRefinement::MakeUnits()
 }
 
 //------------------------------------------------------------------------------
-LinkRefinement::Outcome LinkRefinement::Refine(double tolerance, double availableBytes,
-  vtkMultiProcessController* controller, const ProgressFunction& progress)
+Outcome LinkRefinement::Refine(double tolerance, double availableBytes, const Ranks& ranks,
+  const Monitor& monitor)
 {
   ThresholdSearch search(tolerance,
     FirstThreshold * tolerance * tolerance * this->SquaredBrightness);
@@ -560,9 +560,9 @@ LinkRefinement::Outcome LinkRefinement::Refine(double tolerance, double availabl
   {
     // How many passes there will be is not known: each gets half of what is left.
     const double done = 1.0 - std::pow(0.5, pass);
-    const Outcome outcome = this->RunPass(search.GetThreshold(), availableBytes, controller,
-      [&](double fraction) { return progress(done + 0.5 * (1.0 - done) * fraction); });
-    if (outcome != DONE)
+    if (Outcome outcome = this->RunPass(search.GetThreshold(), availableBytes, ranks,
+          monitor.GetStage(done, done + 0.5 * (1.0 - done)));
+        !outcome)
     {
       return outcome;
     }
@@ -575,7 +575,7 @@ LinkRefinement::Outcome LinkRefinement::Refine(double tolerance, double availabl
     }
     links = this->Total.Links;
   }
-  return DONE;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -594,18 +594,17 @@ void LinkRefinement::ClearSums()
 }
 
 //------------------------------------------------------------------------------
-LinkRefinement::Outcome LinkRefinement::RunPass(double threshold, double availableBytes,
-  vtkMultiProcessController* controller, const ProgressFunction& progress)
+Outcome LinkRefinement::RunPass(double threshold, double availableBytes, const Ranks& ranks,
+  const Monitor& monitor)
 {
   this->ClearSums();
-  const vtkIdType ranks = controller ? controller->GetNumberOfProcesses() : 1;
-  const vtkIdType rank = ranks > 1 ? controller->GetLocalProcessId() : 0;
+  const vtkIdType numberOfRanks = ranks.GetNumber();
   const auto units = static_cast<vtkIdType>(this->Units.size());
-  const vtkIdType batch = UnitsPerBatch * ranks;
+  const vtkIdType batch = UnitsPerBatch * numberOfRanks;
   for (vtkIdType first = 0; first < units; first += batch)
   {
     std::vector<Result> results(UnitsPerBatch);
-    Refiner refiner{ *this, threshold, first + rank, ranks, results };
+    Refiner refiner{ *this, threshold, first + ranks.GetMine(), numberOfRanks, results };
     Threads::For(0, UnitsPerBatch, 1, refiner);
     for (const Result& result : results)
     {
@@ -614,46 +613,49 @@ LinkRefinement::Outcome LinkRefinement::RunPass(double threshold, double availab
     }
     const double bytes = 2.0 * static_cast<double>(this->Links.size()) * sizeof(this->Links[0]) +
       vtkExchangeHierarchy::GetEstimatedBytes(static_cast<double>(this->Links.size()));
-    std::string error;
-    if (!PatchScene::Agree(controller, bytes <= availableBytes, error))
+    Outcome fits = bytes <= availableBytes
+      ? Outcome::Done()
+      : Outcome::Failed("The links between clusters of " +
+          std::to_string(this->Scene.GetNumberOfPatches()) + " patches need more than the " +
+          TransportMemory::Format(availableBytes) +
+          " of memory that are free for them: raise LinkTolerance, use fewer patches or processes "
+          "on more machines (each holds a part).");
+    fits = ranks.Agree(fits);
+    if (!fits)
     {
-      return NO_MEMORY;
+      return fits;
     }
-    if (!progress(static_cast<double>(first) / static_cast<double>(units)))
+    if (!monitor.Report(static_cast<double>(first) / static_cast<double>(units)))
     {
-      return ABORTED;
+      return Outcome::Aborted();
     }
   }
-  this->AddUpRanks(controller);
-  return DONE;
+  this->AddUpRanks(ranks);
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-void LinkRefinement::AddUpRanks(vtkMultiProcessController* controller)
+void LinkRefinement::AddUpRanks(const Ranks& ranks)
 {
-  if (!controller || controller->GetNumberOfProcesses() < 2)
+  if (!ranks.AreSeveral())
   {
     return;
   }
   const auto addUp = [&](Sums& sums, std::size_t count)
   {
-    std::vector<vtkTypeInt64> mine(count), all(count);
-    std::copy(sums.get(), sums.get() + count, mine.begin());
-    controller->AllReduce(mine.data(), all.data(), static_cast<vtkIdType>(count),
-      vtkCommunicator::SUM_OP);
+    std::vector<vtkTypeInt64> all(sums.get(), sums.get() + count);
+    ranks.Sum(all);
     std::copy(all.begin(), all.end(), sums.get());
   };
   addUp(this->Deviations, Points * this->Brightness.size());
   addUp(this->Squares, this->Brightness.size());
-  Counters mine = this->Total;
-  double* const values[] = { &mine.Links, &mine.PatchLinks, &mine.PairsExamined,
-    &mine.PairsBackFacing, &mine.PairsUnobstructed, &mine.Rays, &mine.SquaredError };
+  Counters& total = this->Total;
+  double* const values[] = { &total.Links, &total.PatchLinks, &total.PairsExamined,
+    &total.PairsBackFacing, &total.PairsUnobstructed, &total.Rays, &total.SquaredError };
   for (double* value : values)
   {
-    const double part = *value;
-    controller->AllReduce(&part, value, 1, vtkCommunicator::SUM_OP);
+    ranks.Sum(value, 1);
   }
-  this->Total = mine;
 }
 
 //------------------------------------------------------------------------------

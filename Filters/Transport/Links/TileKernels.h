@@ -6,12 +6,12 @@
  * the library is loaded: the default platform's x86-64 baseline would be limited by arithmetic, not
  * by memory.
  */
-#ifndef LinkKernels_h
-#define LinkKernels_h
+#ifndef TileKernels_h
+#define TileKernels_h
 
 namespace LightTransport
 {
-namespace LinkKernels
+namespace TileKernels
 {
 /// Bands that one pass over a tile serves; more bands take another pass.
 constexpr int MaximumBands = 4;
@@ -32,7 +32,7 @@ void MultiplyTileColumns(const float* tile, int bands, long stride, const double
 
 /// The instruction set in use, for reports: "AVX-512", "AVX2" or "baseline".
 const char* GetInstructionSet();
-} // namespace LinkKernels
+} // namespace TileKernels
 } // namespace LightTransport
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ViewFactors/PolygonExchange.h"
+#include "ViewFactors/PairIntegrals.h"
 
-#include "ViewFactors/ExchangeKernels.h"
+#include "ViewFactors/QuadratureKernels.h"
 
 #include <Eigen/Geometry>
 
@@ -14,13 +14,10 @@ namespace LightTransport
 {
 namespace
 {
-using PolygonExchange::Estimate;
-using PolygonExchange::Polygon;
-using PolygonExchange::Vector;
+using PairIntegrals::Estimate;
+using Vector = Polygon::Vector;
 
 constexpr double Pi = 3.14159265358979323846;
-// Corners closer to a clipping plane than this part of the polygon's extent are on it.
-constexpr double ClipTolerance = 1e-12;
 // Bisections of an edge: enough to resolve the logarithm at a shared corner to rounding.
 constexpr int MaximumDepth = 24;
 // The halves of a part may each have this much of its tolerance: not half, since as a rule only one
@@ -30,63 +27,6 @@ constexpr double DepthFactor = 0.7;
 constexpr int MaximumTriangles = 1000;
 // Relative error of a double integral over two edges by rounding, lengths being of order one.
 constexpr double Rounding = 4e-16;
-
-//------------------------------------------------------------------------------
-// Symmetric rules on a triangle (Dunavant, Int. J. Numer. Meth. Eng. 21, 1985; Strang and Fix
-// 1973). An orbit is one point of barycentric coordinates (alpha, beta, gamma) and all its
-// permutations: 1 point where all are equal, 3 where two are, else 6.
-struct Orbit
-{
-  double Weight;
-  double Alpha;
-  double Beta;
-
-  double GetGamma() const { return 1.0 - this->Alpha - this->Beta; }
-  int GetNumberOfPoints() const
-  {
-    return this->Alpha == this->Beta ? 1 : (std::abs(this->GetGamma() - this->Beta) < 1e-9 ? 3 : 6);
-  }
-};
-struct TriangleRule
-{
-  int Points;
-  int Orbits;
-  struct Orbit Orbit[5];
-};
-constexpr double Third = 1.0 / 3.0;
-constexpr TriangleRule TriangleRules[PolygonExchange::NumberOfRules] = {
-  { 1, 1, { { 1.0, Third, Third }, {}, {}, {}, {} } },
-  { 3, 1, { { Third, 2.0 / 3.0, 1.0 / 6.0 }, {}, {}, {}, {} } },
-  { 6, 2,
-    { { 0.223381589678011, 0.108103018168070, 0.445948490915965 },
-      { 0.109951743655322, 0.816847572980459, 0.0915762135097705 }, {}, {}, {} } },
-  { 7, 3,
-    { { 0.225, Third, Third }, { 0.132394152788506, 0.059715871789770, 0.470142064105115 },
-      { 0.125939180544827, 0.797426985353087, 0.1012865073234565 }, {}, {} } },
-  { 16, 5,
-    { { 0.144315607677787, Third, Third },
-      { 0.095091634267285, 0.081414823414554, 0.459292588292723 },
-      { 0.103217370534718, 0.658861384496480, 0.170569307751760 },
-      { 0.032458497623198, 0.898905543365938, 0.050547228317031 },
-      { 0.027230314174435, 0.008394777409958, 0.263112829634638 } } },
-};
-
-// Gauss-Legendre points per side of a quadrilateral: the bilinear map takes polynomials of degree p
-// and its Jacobian to degree p + 1 in each of its parameters.
-constexpr int SidePoints[PolygonExchange::NumberOfRules] = { 1, 2, 3, 4, 5 };
-constexpr double SideNodes[PolygonExchange::NumberOfRules][5] = { { 0.0 },
-  { -0.577350269189625764509, 0.577350269189625764509 },
-  { -0.774596669241483377036, 0.0, 0.774596669241483377036 },
-  { -0.861136311594052575224, -0.339981043584856264803, 0.339981043584856264803,
-    0.861136311594052575224 },
-  { -0.906179845938663992798, -0.538469310105683091036, 0.0, 0.538469310105683091036,
-    0.906179845938663992798 } };
-constexpr double SideWeights[PolygonExchange::NumberOfRules][5] = { { 2.0 }, { 1.0, 1.0 },
-  { 5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0 },
-  { 0.347854845137453857373, 0.652145154862546142627, 0.652145154862546142627,
-    0.347854845137453857373 },
-  { 0.236926885056189087514, 0.478628670499366468041, 0.568888888888888888889,
-    0.478628670499366468041, 0.236926885056189087514 } };
 
 struct Edge
 {
@@ -138,7 +78,7 @@ public:
     const double error = this->GetBound(begin, end);
     if (error <= tolerance || depth == MaximumDepth)
     {
-      return { ExchangeKernels::IntegrateKronrod(this->Segments, begin, end), error };
+      return { QuadratureKernels::IntegrateKronrod(this->Segments, begin, end), error };
     }
     const double center = 0.5 * (begin + end);
     const double part = DepthFactor * tolerance;
@@ -206,7 +146,7 @@ private:
   static constexpr double SingularConstant = 0.034;
   static constexpr double AnalyticConstant = 0.016;
 
-  ExchangeKernels::Segments Segments;
+  QuadratureKernels::Segments Segments;
   // Singularities in the upper half of the plane of s.
   int NumberOfPoints = 0;
   double Real[3];
@@ -244,7 +184,7 @@ public:
   }
 
 private:
-  static constexpr int Most = 2 * ExchangeKernels::Lanes;
+  static constexpr int Most = 2 * QuadratureKernels::Lanes;
 
   void AddTerm(const Vector& x, const Edge& edge, double factor)
   {
@@ -263,7 +203,7 @@ private:
   void Flush()
   {
     double results[Most];
-    ExchangeKernels::IntegrateLogarithms(this->Along, this->Squared, this->Lengths, this->Count,
+    QuadratureKernels::IntegrateLogarithms(this->Along, this->Squared, this->Lengths, this->Count,
       results);
     for (int term = 0; term < this->Count; ++term)
     {
@@ -326,7 +266,7 @@ public:
       total.Error += part.Error;
     }
     // Angles come to some roundings of 1.
-    total.Error += 4.0 * Rounding * PolygonExchange::GetArea(this->Outer);
+    total.Error += 4.0 * Rounding * this->Outer.GetArea();
     return total;
   }
 
@@ -351,12 +291,12 @@ private:
 
   double IntegrateTriangle(const Polygon& triangle) const
   {
-    constexpr int rule = PolygonExchange::NumberOfRules - 1;
-    Vector points[TriangleRules[rule].Points];
-    double weights[TriangleRules[rule].Points];
-    PolygonExchange::MakeRule(triangle, rule, points, weights);
+    constexpr int rule = QuadratureRules::NumberOfRules - 1;
+    Vector points[QuadratureRules::MaximumTrianglePoints];
+    double weights[QuadratureRules::MaximumTrianglePoints];
+    QuadratureRules::Make(triangle, rule, points, weights);
     double sum = 0.0;
-    for (int point = 0; point < TriangleRules[rule].Points; ++point)
+    for (int point = 0; point < QuadratureRules::GetNumberOfPoints(rule); ++point)
     {
       sum += weights[point] * this->GetFactor(points[point]);
     }
@@ -419,164 +359,11 @@ private:
 };
 } // namespace
 
-namespace PolygonExchange
+namespace PairIntegrals
 {
 //------------------------------------------------------------------------------
-void MakePolygon(const PatchScene& scene, vtkIdType patch, Polygon& polygon)
-{
-  polygon.Count = scene.GetNumberOfCorners(patch);
-  polygon.Normal = scene.GetNormal(patch);
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    polygon.Corners[corner] = scene.GetCorner(patch, corner);
-  }
-}
-
-//------------------------------------------------------------------------------
-bool Clip(Polygon& polygon, const Vector& origin, const Vector& normal)
-{
-  std::array<double, MaximumCorners + 2> heights;
-  double extent = 0.0;
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    heights[corner] = (polygon.Corners[corner] - origin).dot(normal);
-    extent = std::max(extent, (polygon.Corners[corner] - origin).squaredNorm());
-  }
-  const double on = ClipTolerance * std::sqrt(extent);
-  bool front = false;
-  bool behind = false;
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    heights[corner] = std::abs(heights[corner]) <= on ? 0.0 : heights[corner];
-    front = front || heights[corner] > 0.0;
-    behind = behind || heights[corner] < 0.0;
-  }
-  if (!front || !behind)
-  {
-    return front;
-  }
-  Polygon clipped;
-  clipped.Normal = polygon.Normal;
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    const int next = (corner + 1) % polygon.Count;
-    if (heights[corner] >= 0.0)
-    {
-      clipped.Corners[clipped.Count++] = polygon.Corners[corner];
-    }
-    if (heights[corner] * heights[next] < 0.0)
-    {
-      const double part = heights[corner] / (heights[corner] - heights[next]);
-      clipped.Corners[clipped.Count++] =
-        polygon.Corners[corner] + part * (polygon.Corners[next] - polygon.Corners[corner]);
-    }
-  }
-  polygon = clipped;
-  return polygon.Count > 2;
-}
-
-//------------------------------------------------------------------------------
-void MakeClippedPair(const PatchScene& scene, vtkIdType i, vtkIdType j, Polygon& a, Polygon& b)
-{
-  MakePolygon(scene, i, a);
-  MakePolygon(scene, j, b);
-  Clip(b, scene.GetCorner(i, 0), a.Normal);
-  Clip(a, scene.GetCorner(j, 0), b.Normal);
-}
-
-//------------------------------------------------------------------------------
-Vector GetMiddle(const Polygon& polygon)
-{
-  Vector sum = Vector::Zero();
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    sum += polygon.Corners[corner];
-  }
-  return sum / polygon.Count;
-}
-
-//------------------------------------------------------------------------------
-double GetArea(const Polygon& polygon)
-{
-  Vector twice = Vector::Zero();
-  for (int corner = 1; corner + 1 < polygon.Count; ++corner)
-  {
-    twice += (polygon.Corners[corner] - polygon.Corners[0])
-               .cross(polygon.Corners[corner + 1] - polygon.Corners[0]);
-  }
-  return 0.5 * twice.norm();
-}
-
-//------------------------------------------------------------------------------
-int GetNumberOfRulePoints(int rule)
-{
-  return TriangleRules[rule].Points;
-}
-
-//------------------------------------------------------------------------------
-void MakeRule(const Polygon& polygon, int rule, Vector* points, double* weights)
-{
-  const TriangleRule& triangle = TriangleRules[rule];
-  for (int corner = 1; corner + 1 < polygon.Count; ++corner)
-  {
-    const Vector& a = polygon.Corners[0];
-    const Vector& b = polygon.Corners[corner];
-    const Vector& c = polygon.Corners[corner + 1];
-    const double area = 0.5 * (b - a).cross(c - a).norm();
-    const Vector* corners[6][3] = { { &a, &b, &c }, { &b, &c, &a }, { &c, &a, &b }, { &a, &c, &b },
-      { &b, &a, &c }, { &c, &b, &a } };
-    for (int index = 0; index < triangle.Orbits; ++index)
-    {
-      const Orbit& orbit = triangle.Orbit[index];
-      for (int point = 0; point < orbit.GetNumberOfPoints(); ++point)
-      {
-        *points++ = orbit.Alpha * *corners[point][0] + orbit.Beta * *corners[point][1] +
-          orbit.GetGamma() * *corners[point][2];
-        *weights++ = area * orbit.Weight;
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-int GetNumberOfRulePoints(int rule, int corners)
-{
-  if (rule == 0)
-  {
-    return 1;
-  }
-  return corners == 4 ? SidePoints[rule] * SidePoints[rule]
-                      : TriangleRules[rule].Points * (corners - 2);
-}
-
-//------------------------------------------------------------------------------
-void MakeCompactRule(const Polygon& polygon, int rule, Vector* points, double* weights)
-{
-  if (polygon.Count != 4)
-  {
-    MakeRule(polygon, rule, points, weights);
-    return;
-  }
-  const Vector& a = polygon.Corners[0];
-  const Vector u = polygon.Corners[1] - a;
-  const Vector v = polygon.Corners[3] - a;
-  const Vector twist = polygon.Corners[2] - polygon.Corners[1] - v;
-  for (int i = 0; i < SidePoints[rule]; ++i)
-  {
-    const double s = 0.5 + 0.5 * SideNodes[rule][i];
-    for (int j = 0; j < SidePoints[rule]; ++j)
-    {
-      const double t = 0.5 + 0.5 * SideNodes[rule][j];
-      const double jacobian = (u + t * twist).cross(v + s * twist).norm();
-      *points++ = a + s * u + t * (v + s * twist);
-      *weights++ = 0.25 * SideWeights[rule][i] * SideWeights[rule][j] * jacobian;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-double IntegrateRules(const RulePoints& a, const Vector& normalA, const RulePoints& b,
-  const Vector& normalB)
+double IntegrateRules(const QuadratureRules::Points& a, const Vector& normalA,
+  const QuadratureRules::Points& b, const Vector& normalB)
 {
   double total = 0.0;
   for (int i = 0; i < a.Count; ++i)
@@ -584,7 +371,7 @@ double IntegrateRules(const RulePoints& a, const Vector& normalA, const RulePoin
     double sum = 0.0;
     for (int j = 0; j < b.Count; ++j)
     {
-      const Vector ray = b.Points[j] - a.Points[i];
+      const Vector ray = b.Places[j] - a.Places[i];
       const double cosines = std::max(0.0, ray.dot(normalA)) * std::max(0.0, -ray.dot(normalB));
       const double squared = ray.squaredNorm();
       sum += b.Weights[j] * cosines / (squared * squared);
@@ -598,14 +385,14 @@ double IntegrateRules(const RulePoints& a, const Vector& normalA, const RulePoin
 Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
 {
   // In units of the pair's own size ln r is of order one, and a change of unit changes nothing.
-  const Vector middleA = GetMiddle(a);
-  double scale = (GetMiddle(b) - middleA).norm();
+  const Vector middleA = a.GetMiddle();
+  double scale = (b.GetMiddle() - middleA).norm();
   for (int corner = 0; corner < a.Count; ++corner)
   {
     scale = std::max(scale, (a.Corners[corner] - middleA).norm());
   }
-  std::array<Edge, MaximumCorners + 2> edgesA;
-  std::array<Edge, MaximumCorners + 2> edgesB;
+  std::array<Edge, Polygon::MaximumCorners + 2> edgesA;
+  std::array<Edge, Polygon::MaximumCorners + 2> edgesB;
   const int countA = MakeEdges(a, middleA, scale, edgesA.data());
   const int countB = MakeEdges(b, middleA, scale, edgesB.data());
   const double share = 2.0 * Pi * tolerance / (scale * scale * countA * countB);
@@ -646,7 +433,7 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
 //------------------------------------------------------------------------------
 Estimate IntegratePoints(const Polygon& a, const Polygon& b, double tolerance)
 {
-  const bool swap = GetArea(a) > GetArea(b);
+  const bool swap = a.GetArea() > b.GetArea();
   const PointIntegral integral(swap ? b : a, swap ? a : b);
   return integral.Integrate(tolerance);
 }
@@ -662,5 +449,5 @@ Estimate Integrate(const Polygon& a, const Polygon& b, double tolerance)
   const Estimate points = IntegratePoints(a, b, tolerance);
   return points.Error < contours.Error ? points : contours;
 }
-} // namespace PolygonExchange
+} // namespace PairIntegrals
 } // namespace LightTransport

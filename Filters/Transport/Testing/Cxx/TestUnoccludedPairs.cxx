@@ -4,8 +4,9 @@
 // blocks against pairs, and of plates and closed boxes against exact values.
 
 #include "LightTransportTesting.h"
+#include "OutcomeTesting.h"
 #include "Scene/PatchTree.h"
-#include "ViewFactors/OpenExchange.h"
+#include "ViewFactors/UnoccludedPairs.h"
 
 #include <Eigen/Geometry>
 
@@ -332,8 +333,7 @@ vtkSmartPointer<vtkPolyData> MakeSurface(const std::vector<Corners>& polygons)
 //------------------------------------------------------------------------------
 bool Build(PatchScene& scene, const std::vector<Corners>& polygons)
 {
-  std::string error;
-  return Check(scene.Build(MakeSurface(polygons), nullptr, error), error);
+  return CheckDone(scene.Build(MakeSurface(polygons), Ranks()), "scene");
 }
 
 //------------------------------------------------------------------------------
@@ -371,7 +371,7 @@ void TestPairs(Kind kind, int count)
       return;
     }
     const double tolerance = std::pow(10.0, -2.0 * (trial % 5 + 1));
-    const PolygonExchange::Estimate result = OpenExchange(scene, tolerance).Compute(0, 1);
+    const PairIntegrals::Estimate result = UnoccludedPairs(scene, tolerance).Compute(0, 1);
     const bool swap = scene.GetAreas()[0] > scene.GetAreas()[1];
     const double smaller = scene.GetAreas()[swap ? 1 : 0];
     const Corners a = GetPatch(scene, swap ? 1 : 0);
@@ -429,14 +429,14 @@ struct Matrix
 {
   std::vector<float> Values; ///< above the diagonal
   std::vector<double> Errors;
-  OpenExchange::Counters Counters;
+  UnoccludedPairs::Counters Counters;
 };
 
 //------------------------------------------------------------------------------
 Matrix FillAll(const PatchScene& scene, double tolerance)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
-  const OpenExchange exchange(scene, tolerance);
+  const UnoccludedPairs exchange(scene, tolerance);
   Matrix matrix;
   matrix.Values.resize(patches * patches, 0.0f);
   matrix.Errors.resize(patches, 0.0);
@@ -463,7 +463,7 @@ void TestBlocks()
     return;
   }
   const vtkIdType patches = scene.GetNumberOfPatches();
-  const OpenExchange exact(scene, 1e-9);
+  const UnoccludedPairs exact(scene, 1e-9);
   for (const double tolerance : { 1e-2, 1e-4, 1e-6 })
   {
     const Matrix matrix = FillAll(scene, tolerance);
@@ -488,7 +488,7 @@ void TestBlocks()
     }
     Check(worst <= 1.0, "errors of blocks are within their bounds: " + std::to_string(worst));
     Check(worst > 0.0 && largest <= tolerance, "bounds of blocks are within the tolerance");
-    const OpenExchange::Counters& counters = matrix.Counters;
+    const UnoccludedPairs::Counters& counters = matrix.Counters;
     Check(counters.Examined == 0.5 * static_cast<double>(patches * (patches - 1)),
       "pairs examined");
     Check(counters.BackFacing + counters.Facing == counters.Examined, "pairs facing or not");
@@ -526,7 +526,7 @@ void TestMayFace()
   {
     return;
   }
-  const OpenExchange exchange(scene, 1e-6);
+  const UnoccludedPairs exchange(scene, 1e-6);
   const std::vector<PatchTree::Node>& nodes = scene.GetTree().GetNodes();
   int apart = 0;
   for (int a = 0; a < static_cast<int>(nodes.size()); ++a)
@@ -585,14 +585,13 @@ void TestPlates(const Vector& origin, const Vector& u, const Vector& v, double e
 void TestRoom()
 {
   PatchScene scene;
-  std::string error;
-  Check(scene.Build(MakeRoom(8), nullptr, error), error);
+  CheckDone(scene.Build(MakeRoom(8), Ranks()), "scene");
   const vtkIdType patches = scene.GetNumberOfPatches();
   // Values of 1/64 of a wall hold 6e-8 of themselves.
   for (const double tolerance : { 1e-2, 1e-4, 1e-6, 1e-10 })
   {
     const Matrix matrix = FillAll(scene, tolerance);
-    const OpenExchange exchange(scene, tolerance);
+    const UnoccludedPairs exchange(scene, tolerance);
     for (vtkIdType i = 0; i < patches; i += 5)
     {
       double row = 0.0;
@@ -623,9 +622,9 @@ void TestReciprocity()
     {
       return;
     }
-    const OpenExchange exchange(scene, 1e-12);
-    const PolygonExchange::Estimate there = exchange.Compute(0, 1);
-    const PolygonExchange::Estimate back = exchange.Compute(1, 0);
+    const UnoccludedPairs exchange(scene, 1e-12);
+    const PairIntegrals::Estimate there = exchange.Compute(0, 1);
+    const PairIntegrals::Estimate back = exchange.Compute(1, 0);
     const double smaller = std::min(scene.GetAreas()[0], scene.GetAreas()[1]);
     CheckClose(there.Value, back.Value, 1e-13, "reciprocity");
     Check(there.Error <= 1e-12 * smaller,
@@ -635,7 +634,7 @@ void TestReciprocity()
 }
 } // namespace
 
-int TestOpenExchange(int, char*[])
+int TestUnoccludedPairs(int, char*[])
 {
   TestReference();
   for (int kind = 0; kind < NumberOfKinds; ++kind)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Links/LinkKernels.h"
+#include "Links/TileKernels.h"
 
 #include "Support/InstructionSets.h"
 #include "vtkExchangeMatrix.h"
@@ -223,16 +223,16 @@ LT_DEFINE_BANDS(4)
 
 using TileFunction = void (*)(const float*, long, const double*, const double*, double*, double*);
 using OneWayFunction = void (*)(const float*, long, const double*, double*);
-const TileFunction TileFunctions[LinkKernels::MaximumBands] = { Tile1, Tile2, Tile3, Tile4 };
-const OneWayFunction RowsFunctions[LinkKernels::MaximumBands] = { Rows1, Rows2, Rows3, Rows4 };
-const OneWayFunction ColumnsFunctions[LinkKernels::MaximumBands] = { Columns1, Columns2, Columns3,
+const TileFunction TileFunctions[TileKernels::MaximumBands] = { Tile1, Tile2, Tile3, Tile4 };
+const OneWayFunction RowsFunctions[TileKernels::MaximumBands] = { Rows1, Rows2, Rows3, Rows4 };
+const OneWayFunction ColumnsFunctions[TileKernels::MaximumBands] = { Columns1, Columns2, Columns3,
   Columns4 };
 
 //------------------------------------------------------------------------------
 void MultiplyOneWay(const OneWayFunction* functions, const float* tile, int bands, long stride,
   const double* x, double* y)
 {
-  constexpr int most = LinkKernels::MaximumBands;
+  constexpr int most = TileKernels::MaximumBands;
   for (int band = 0; band < bands; band += most)
   {
     const int count = bands - band < most ? bands - band : most;
@@ -241,7 +241,7 @@ void MultiplyOneWay(const OneWayFunction* functions, const float* tile, int band
 }
 } // namespace
 
-namespace LinkKernels
+namespace TileKernels
 {
 //------------------------------------------------------------------------------
 void MultiplyTile(const float* tile, int bands, long stride, const double* xRow,
@@ -284,5 +284,5 @@ const char* GetInstructionSet()
 #endif
   return "baseline";
 }
-} // namespace LinkKernels
+} // namespace TileKernels
 } // namespace LightTransport

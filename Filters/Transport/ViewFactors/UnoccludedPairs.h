@@ -4,20 +4,20 @@
  * The exchange between the patches of two nodes of a scene's tree with nothing between them, a
  * block at a time: what cannot face each other (boxes and cones of normals) costs nothing, far
  * blocks take one product of Gauss rules for all their pairs in vector instructions, near pairs go
- * one by one (PolygonExchange). The rule of each block is the cheapest whose error bound keeps
+ * one by one (PairIntegrals). The rule of each block is the cheapest whose error bound keeps
  * the tolerance.
  */
-#ifndef OpenExchange_h
-#define OpenExchange_h
+#ifndef UnoccludedPairs_h
+#define UnoccludedPairs_h
 
 #include "Scene/PatchScene.h"
-#include "ViewFactors/PolygonExchange.h"
+#include "ViewFactors/PairIntegrals.h"
 
 #include <memory>
 
 namespace LightTransport
 {
-class OpenExchange
+class UnoccludedPairs
 {
 public:
   /// Pairs, each counted once. Examined = BackFacing + Facing.
@@ -31,8 +31,8 @@ public:
   };
 
   /// `tolerance`: of the sum of the absolute errors of the view factors of a row.
-  OpenExchange(const PatchScene& scene, double tolerance);
-  ~OpenExchange();
+  UnoccludedPairs(const PatchScene& scene, double tolerance);
+  ~UnoccludedPairs();
 
   /// Whether any patch of one node may face any of the other; false is certain.
   bool MayFace(int nodeI, int nodeJ) const;
@@ -52,7 +52,7 @@ public:
     Counters& counters) const;
 
   /// The exchange of one pair in double precision.
-  PolygonExchange::Estimate Compute(vtkIdType i, vtkIdType j) const;
+  PairIntegrals::Estimate Compute(vtkIdType i, vtkIdType j) const;
 
 private:
   struct Internals;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ViewFactors/OpenExchange.h"
+#include "ViewFactors/UnoccludedPairs.h"
 
 #include "Scene/PatchTree.h"
-#include "ViewFactors/ExchangeKernels.h"
+#include "ViewFactors/QuadratureKernels.h"
 
 #include <Eigen/Geometry>
 
@@ -17,9 +17,8 @@ namespace LightTransport
 {
 namespace
 {
-using PolygonExchange::Estimate;
-using PolygonExchange::NumberOfRules;
-using PolygonExchange::Polygon;
+using PairIntegrals::Estimate;
+using QuadratureRules::NumberOfRules;
 using Vector = PatchScene::Vector;
 using Node = PatchTree::Node;
 
@@ -30,12 +29,12 @@ constexpr double Pi = 3.14159265358979323846;
 constexpr double RuleShare = 1.0 / 32.0;
 constexpr double ContourShare = 0.01;
 // Heights below this part of the extent of what is looked at are rounding: as in
-// PolygonExchange::Clip.
+// PairIntegrals::Clip.
 constexpr double PlaneTolerance = 1e-12;
 // And below this they are the rounding of coordinates: the scene's diagonal is 1.
 constexpr double CoordinateRounding = 1e-15;
 // Nodes of at most this many patches are not cut further: their pairs choose their own rules.
-constexpr vtkIdType RowSize = ExchangeKernels::Lanes;
+constexpr vtkIdType RowSize = QuadratureKernels::Lanes;
 // Nodes of at most this many patches take one rule even where their far pairs could do with less.
 constexpr vtkIdType UniformSize = 32;
 
@@ -157,7 +156,7 @@ struct Plan
 } // namespace
 
 //------------------------------------------------------------------------------
-struct OpenExchange::Internals
+struct UnoccludedPairs::Internals
 {
   const PatchScene& Scene;
   const double Tolerance;
@@ -168,7 +167,7 @@ struct OpenExchange::Internals
   void FillPatches();
   void FillRule(int rule);
   void FillSlabs();
-  ExchangeKernels::Patches GetPatches(int rule) const;
+  QuadratureKernels::Patches GetPatches(int rule) const;
   int GetRuleSize(int rule, vtkIdType first, vtkIdType last) const;
   bool HasLargePolygons(vtkIdType first, vtkIdType last) const
   {
@@ -258,7 +257,7 @@ Pair MakePair(const PatchScene& scene, vtkIdType i, vtkIdType j)
 } // namespace
 
 //------------------------------------------------------------------------------
-OpenExchange::Internals::Internals(const PatchScene& scene, double tolerance)
+UnoccludedPairs::Internals::Internals(const PatchScene& scene, double tolerance)
   : Scene(scene), Tolerance(tolerance)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
@@ -270,7 +269,7 @@ OpenExchange::Internals::Internals(const PatchScene& scene, double tolerance)
     this->Quadrilaterals[patch + 1] = this->Quadrilaterals[patch] + (corners == 4 ? 1 : 0);
     this->LargePolygons[patch + 1] = this->LargePolygons[patch] + (corners > 4 ? 1 : 0);
   }
-  this->Stride = static_cast<long>(patches) + ExchangeKernels::Lanes;
+  this->Stride = static_cast<long>(patches) + QuadratureKernels::Lanes;
   this->FillPatches();
   for (int rule = 0; rule < NumberOfRules; ++rule)
   {
@@ -280,7 +279,7 @@ OpenExchange::Internals::Internals(const PatchScene& scene, double tolerance)
 }
 
 //------------------------------------------------------------------------------
-void OpenExchange::Internals::FillPatches()
+void UnoccludedPairs::Internals::FillPatches()
 {
   const vtkIdType patches = this->Scene.GetNumberOfPatches();
   for (int axis = 0; axis < 3; ++axis)
@@ -301,7 +300,7 @@ void OpenExchange::Internals::FillPatches()
 }
 
 //------------------------------------------------------------------------------
-void OpenExchange::Internals::FillRule(int rule)
+void UnoccludedPairs::Internals::FillRule(int rule)
 {
   const vtkIdType patches = this->Scene.GetNumberOfPatches();
   const int size = this->GetRuleSize(rule, 0, patches);
@@ -312,18 +311,18 @@ void OpenExchange::Internals::FillRule(int rule)
     coordinates.assign(size * this->Stride, 0.0);
   }
   Polygon polygon;
-  Vector points[PolygonExchange::MaximumCompactPoints];
-  double weights[PolygonExchange::MaximumCompactPoints];
+  Vector points[QuadratureRules::MaximumCompactPoints];
+  double weights[QuadratureRules::MaximumCompactPoints];
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
-    PolygonExchange::MakePolygon(this->Scene, patch, polygon);
+    polygon.Set(this->Scene, patch);
     int count = 1;
     points[0] = this->Scene.GetCentroid(patch);
     weights[0] = rule == 0 ? this->Scene.GetAreas()[patch] : 0.0;
     if (rule > 0 && polygon.Count <= 4)
     {
-      count = PolygonExchange::GetNumberOfRulePoints(rule, polygon.Count);
-      PolygonExchange::MakeCompactRule(polygon, rule, points, weights);
+      count = QuadratureRules::GetNumberOfPoints(rule, polygon.Count);
+      QuadratureRules::MakeCompact(polygon, rule, points, weights);
     }
     for (int point = 0; point < size; ++point)
     {
@@ -339,7 +338,7 @@ void OpenExchange::Internals::FillRule(int rule)
 }
 
 //------------------------------------------------------------------------------
-void OpenExchange::Internals::FillSlabs()
+void UnoccludedPairs::Internals::FillSlabs()
 {
   const std::vector<Node>& nodes = this->Scene.GetTree().GetNodes();
   this->Slabs.resize(nodes.size());
@@ -365,10 +364,10 @@ void OpenExchange::Internals::FillSlabs()
 }
 
 //------------------------------------------------------------------------------
-ExchangeKernels::Patches OpenExchange::Internals::GetPatches(int rule) const
+QuadratureKernels::Patches UnoccludedPairs::Internals::GetPatches(int rule) const
 {
   const RulePoints& table = this->Rules[rule];
-  ExchangeKernels::Patches patches;
+  QuadratureKernels::Patches patches;
   for (int axis = 0; axis < 3; ++axis)
   {
     patches.Normals[axis] = this->Normals[axis].data();
@@ -382,16 +381,16 @@ ExchangeKernels::Patches OpenExchange::Internals::GetPatches(int rule) const
 }
 
 //------------------------------------------------------------------------------
-int OpenExchange::Internals::GetRuleSize(int rule, vtkIdType first, vtkIdType last) const
+int UnoccludedPairs::Internals::GetRuleSize(int rule, vtkIdType first, vtkIdType last) const
 {
   const bool quadrilaterals = this->Quadrilaterals[last] > this->Quadrilaterals[first];
-  return PolygonExchange::GetNumberOfRulePoints(rule, quadrilaterals ? 4 : 3);
+  return QuadratureRules::GetNumberOfPoints(rule, quadrilaterals ? 4 : 3);
 }
 
 //------------------------------------------------------------------------------
 // Heights of the points of one node over the planes of the other's patches, by the axis of the
 // other's cone. Points of a plane parallel to it are known better by their slab than by their box.
-Heights OpenExchange::Internals::GetHeights(int over, int of, double extent) const
+Heights UnoccludedPairs::Internals::GetHeights(int over, int of, double extent) const
 {
   const Node& nodeOver = this->Scene.GetTree().GetNode(over);
   const Node& nodeOf = this->Scene.GetTree().GetNode(of);
@@ -413,7 +412,7 @@ Heights OpenExchange::Internals::GetHeights(int over, int of, double extent) con
 }
 
 //------------------------------------------------------------------------------
-View OpenExchange::Internals::GetView(int nodeI, int nodeJ) const
+View UnoccludedPairs::Internals::GetView(int nodeI, int nodeJ) const
 {
   const Node& a = this->Scene.GetTree().GetNode(nodeI);
   const Node& b = this->Scene.GetTree().GetNode(nodeJ);
@@ -438,10 +437,10 @@ View OpenExchange::Internals::GetView(int nodeI, int nodeJ) const
 
 //------------------------------------------------------------------------------
 // One patch with a run of others, the points of all of them as they are.
-void OpenExchange::Internals::IntegrateRow(vtkIdType i, int ruleI, vtkIdType first, int count,
+void UnoccludedPairs::Internals::IntegrateRow(vtkIdType i, int ruleI, vtkIdType first, int count,
   int ruleJ, double* sums, double* margins) const
 {
-  ExchangeKernels::IntegrateRow(this->GetPatches(ruleI), this->GetRuleSize(ruleI, i, i + 1), i,
+  QuadratureKernels::IntegrateRow(this->GetPatches(ruleI), this->GetRuleSize(ruleI, i, i + 1), i,
     this->GetPatches(ruleJ), this->GetRuleSize(ruleJ, first, first + count), first, count, sums,
     margins);
   for (int column = 0; column < count; ++column)
@@ -451,7 +450,7 @@ void OpenExchange::Internals::IntegrateRow(vtkIdType i, int ruleI, vtkIdType fir
 }
 
 //------------------------------------------------------------------------------
-Plan OpenExchange::Internals::MakePlan(vtkIdType i, vtkIdType j) const
+Plan UnoccludedPairs::Internals::MakePlan(vtkIdType i, vtkIdType j) const
 {
   Plan plan;
   const Pair pair = MakePair(this->Scene, i, j);
@@ -481,7 +480,7 @@ Plan OpenExchange::Internals::MakePlan(vtkIdType i, vtkIdType j) const
 }
 
 //------------------------------------------------------------------------------
-Estimate OpenExchange::Internals::Follow(vtkIdType i, vtkIdType j, const Plan& plan) const
+Estimate UnoccludedPairs::Internals::Follow(vtkIdType i, vtkIdType j, const Plan& plan) const
 {
   Estimate pair{ 0.0, plan.Error };
   switch (plan.Method)
@@ -504,7 +503,7 @@ Estimate OpenExchange::Internals::Follow(vtkIdType i, vtkIdType j, const Plan& p
 
 //------------------------------------------------------------------------------
 // Whether the plane of one patch passes through the other.
-bool OpenExchange::Internals::NeedsClip(vtkIdType i, vtkIdType j) const
+bool UnoccludedPairs::Internals::NeedsClip(vtkIdType i, vtkIdType j) const
 {
   const auto reaches = [this](vtkIdType over, vtkIdType of)
   {
@@ -525,16 +524,16 @@ bool OpenExchange::Internals::NeedsClip(vtkIdType i, vtkIdType j) const
 }
 
 //------------------------------------------------------------------------------
-bool OpenExchange::Internals::Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const
+bool UnoccludedPairs::Internals::Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const
 {
-  PolygonExchange::MakePolygon(this->Scene, i, a);
-  PolygonExchange::MakePolygon(this->Scene, j, b);
-  return PolygonExchange::Clip(b, this->Scene.GetCorner(i, 0), a.Normal) &&
-    PolygonExchange::Clip(a, this->Scene.GetCorner(j, 0), b.Normal);
+  a.Set(this->Scene, i);
+  b.Set(this->Scene, j);
+  return b.Clip(this->Scene.GetCorner(i, 0), a.Normal) &&
+    a.Clip(this->Scene.GetCorner(j, 0), b.Normal);
 }
 
 //------------------------------------------------------------------------------
-double OpenExchange::Internals::IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j,
+double UnoccludedPairs::Internals::IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j,
   int ruleJ) const
 {
   Polygon a, b;
@@ -542,19 +541,19 @@ double OpenExchange::Internals::IntegrateClipped(vtkIdType i, int ruleI, vtkIdTy
   {
     return 0.0;
   }
-  constexpr int most = PolygonExchange::MaximumRulePoints;
+  constexpr int most = QuadratureRules::MaximumPoints;
   Vector pointsA[most], pointsB[most];
   double weightsA[most], weightsB[most];
-  PolygonExchange::MakeRule(a, ruleI, pointsA, weightsA);
-  PolygonExchange::MakeRule(b, ruleJ, pointsB, weightsB);
-  const int countA = PolygonExchange::GetNumberOfRulePoints(ruleI) * (a.Count - 2);
-  const int countB = PolygonExchange::GetNumberOfRulePoints(ruleJ) * (b.Count - 2);
-  return PolygonExchange::IntegrateRules({ countA, pointsA, weightsA }, a.Normal,
+  QuadratureRules::Make(a, ruleI, pointsA, weightsA);
+  QuadratureRules::Make(b, ruleJ, pointsB, weightsB);
+  const int countA = QuadratureRules::GetNumberOfPoints(ruleI) * (a.Count - 2);
+  const int countB = QuadratureRules::GetNumberOfPoints(ruleJ) * (b.Count - 2);
+  return PairIntegrals::IntegrateRules({ countA, pointsA, weightsA }, a.Normal,
     { countB, pointsB, weightsB }, b.Normal);
 }
 
 //------------------------------------------------------------------------------
-Estimate OpenExchange::Internals::IntegrateNear(vtkIdType i, vtkIdType j) const
+Estimate UnoccludedPairs::Internals::IntegrateNear(vtkIdType i, vtkIdType j) const
 {
   Polygon a, b;
   if (!this->Clip(i, j, a, b))
@@ -562,16 +561,16 @@ Estimate OpenExchange::Internals::IntegrateNear(vtkIdType i, vtkIdType j) const
     return {};
   }
   const double smaller = std::min(this->Scene.GetAreas()[i], this->Scene.GetAreas()[j]);
-  return PolygonExchange::Integrate(a, b, ContourShare * this->Tolerance * smaller);
+  return PairIntegrals::Integrate(a, b, ContourShare * this->Tolerance * smaller);
 }
 
 //------------------------------------------------------------------------------
-// One call of OpenExchange::Fill.
-class OpenExchange::Internals::Filler
+// One call of UnoccludedPairs::Fill.
+class UnoccludedPairs::Internals::Filler
 {
 public:
   Filler(const Internals& self, int nodeI, int nodeJ, float* values, vtkIdType stride,
-    double* errorsI, double* errorsJ, OpenExchange::Counters& counters)
+    double* errorsI, double* errorsJ, UnoccludedPairs::Counters& counters)
     : Self(self), Tree(self.Scene.GetTree()), FirstI(Tree.GetNode(nodeI).First),
       FirstJ(Tree.GetNode(nodeJ).First), Values(values), Stride(stride), ErrorsI(errorsI),
       ErrorsJ(errorsJ), Counters(counters)
@@ -797,26 +796,26 @@ private:
   const vtkIdType Stride;
   double* const ErrorsI;
   double* const ErrorsJ;
-  OpenExchange::Counters& Counters;
+  UnoccludedPairs::Counters& Counters;
 };
 
 //------------------------------------------------------------------------------
-OpenExchange::OpenExchange(const PatchScene& scene, double tolerance)
+UnoccludedPairs::UnoccludedPairs(const PatchScene& scene, double tolerance)
   : Self(new Internals(scene, tolerance))
 {
 }
 
 //------------------------------------------------------------------------------
-OpenExchange::~OpenExchange() = default;
+UnoccludedPairs::~UnoccludedPairs() = default;
 
 //------------------------------------------------------------------------------
-bool OpenExchange::MayFace(int nodeI, int nodeJ) const
+bool UnoccludedPairs::MayFace(int nodeI, int nodeJ) const
 {
   return this->Self->GetView(nodeI, nodeJ).MayFace();
 }
 
 //------------------------------------------------------------------------------
-double OpenExchange::GetKernelBound(int nodeI, int nodeJ) const
+double UnoccludedPairs::GetKernelBound(int nodeI, int nodeJ) const
 {
   const View view = this->Self->GetView(nodeI, nodeJ);
   if (!view.MayFace())
@@ -834,7 +833,7 @@ double OpenExchange::GetKernelBound(int nodeI, int nodeJ) const
 }
 
 //------------------------------------------------------------------------------
-void OpenExchange::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI,
+void UnoccludedPairs::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI,
   double* errorsJ, Counters& counters) const
 {
   Internals::Filler filler(*this->Self, nodeI, nodeJ, values, stride, errorsI, errorsJ, counters);
@@ -842,7 +841,7 @@ void OpenExchange::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, d
 }
 
 //------------------------------------------------------------------------------
-PolygonExchange::Estimate OpenExchange::Compute(vtkIdType i, vtkIdType j) const
+PairIntegrals::Estimate UnoccludedPairs::Compute(vtkIdType i, vtkIdType j) const
 {
   // In one order, so that exchanging the two changes not even the rounding.
   const vtkIdType first = std::min(i, j);

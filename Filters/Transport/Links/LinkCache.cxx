@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Links/LinkCache.h"
+
+#include "Scene/PatchScene.h"
+#include "Support/Ranks.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+bool LinkKey::IsServedBy(const LinkKey& kept) const
+{
+  if (this->Kind != kept.Kind || this->Parameters != kept.Parameters)
+  {
+    return false;
+  }
+  return kept.Senders.empty() ||
+    (!this->Senders.empty() &&
+      std::equal(this->Senders.begin(), this->Senders.end(), kept.Senders.begin(),
+        [](bool now, bool then) { return then || !now; }));
+}
+
+//------------------------------------------------------------------------------
+bool LinkCache::Serves(const PatchScene& scene, const LinkKey& key, const Ranks& ranks) const
+{
+  const vtkExchange* exchange = this->Kept.GetExchange();
+  return exchange && this->Kept.Fingerprint == scene.GetFingerprint() &&
+    exchange->GetNumberOfParts() == ranks.GetNumber() && key.IsServedBy(this->Key);
+}
+
+//------------------------------------------------------------------------------
+Outcome LinkCache::Update(const PatchScene& scene, const LinkBuilder& builder, const Ranks& ranks,
+  const Monitor& monitor)
+{
+  const LinkKey key = builder.GetKey();
+  this->Made = !this->Serves(scene, key, ranks);
+  if (!this->Made)
+  {
+    return Outcome::Done();
+  }
+  this->Kept = Links();
+  this->Kept.Fingerprint = scene.GetFingerprint();
+  Outcome built = builder.Build(scene, ranks, monitor, this->Kept);
+  if (!built)
+  {
+    this->Kept = Links();
+  }
+  this->Key = key;
+  return built;
+}
+
+//------------------------------------------------------------------------------
+void LinkCache::Put(Links&& links)
+{
+  this->Kept = std::move(links);
+  this->Key = LinkKey();
+  this->Made = false;
+}
+} // namespace LightTransport

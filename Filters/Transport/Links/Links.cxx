@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Links/Links.h"
+
+#include "Links/LinkOperators.h"
+#include "Shared/FieldValues.h"
+#include "Support/Ranks.h"
+#include "vtkCPULinkOperator.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+double Links::GetSummary(const std::string& name) const
+{
+  const auto found = std::find_if(this->Summaries.begin(), this->Summaries.end(),
+    [&](const auto& summary) { return summary.first == name; });
+  return found == this->Summaries.end() ? 0.0 : found->second;
+}
+
+//------------------------------------------------------------------------------
+void Links::AddSummaries(vtkFieldData* fields) const
+{
+  for (const auto& summary : this->Summaries)
+  {
+    FieldValues::Add(fields, summary.first.c_str(), summary.second);
+  }
+  if (this->Hierarchy)
+  {
+    FieldValues::Add(fields, "ClusterTreeUsed", this->ClusterTree);
+  }
+}
+
+//------------------------------------------------------------------------------
+Outcome Links::SumRows(const Ranks& ranks)
+{
+  const std::vector<double>& areas = this->GetExchange()->GetAreas();
+  const std::vector<double> ones(areas.size(), 1.0);
+  this->RowSums.resize(areas.size());
+  auto links = LinkOperators::MakeOnCPU(this->GetExchange(), 1, ranks);
+  if (!links || !links->SetVector(0, ones.data()) || !links->Multiply(1, 0) ||
+    !links->GetVector(1, this->RowSums.data()))
+  {
+    return Outcome::FailedAsReported();
+  }
+  std::transform(this->RowSums.begin(), this->RowSums.end(), areas.begin(), this->RowSums.begin(),
+    std::divides<double>());
+  return Outcome::Done();
+}
+} // namespace LightTransport

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Links of a scene, and all that is known of them. Rows are in the order of the scene's patches
+/// (PatchScene).
+#ifndef Links_h
+#define Links_h
+
+#include "Shared/Outcome.h"
+#include "vtkExchangeHierarchy.h"
+#include "vtkExchangeMatrix.h"
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkFieldData;
+
+namespace LightTransport
+{
+class Ranks;
+
+struct Links
+{
+  std::uint64_t Fingerprint = 0; ///< of the scene
+  double Tolerance = 0.0;
+
+  ///@{ One of the two.
+  vtkSmartPointer<vtkExchangeMatrix> Matrix;
+  vtkSmartPointer<vtkExchangeHierarchy> Hierarchy;
+  ///@}
+  /// Whichever is there, or nullptr.
+  vtkExchange* GetExchange() const
+  {
+    return this->Hierarchy ? static_cast<vtkExchange*>(this->Hierarchy) : this->Matrix;
+  }
+
+  ///@{ Where the links are view factors: one per patch.
+  std::vector<double> RawRowSums; ///< before any closure
+  std::vector<double> RowSums;    ///< of the exchange as it is
+  std::vector<double> RowErrors;  ///< estimate of sum_j |error of F_ij|
+  std::vector<double> SkyFractions;
+  std::vector<double> BackFaceFractions;
+  bool AreRowsClosed = false; ///< those that see no opening
+  ///@}
+
+  /// Names and values of the field data arrays that summarise how the links were made.
+  std::vector<std::pair<std::string, double>> Summaries;
+  std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"
+  /// Not empty where users should doubt the links: why, and the remedy.
+  std::string Warning;
+
+  /// The value of a summary, 0 where there is none of that name.
+  double GetSummary(const std::string& name) const;
+  /// All of them, and the cluster tree.
+  void AddSummaries(vtkFieldData* fields) const;
+
+  /// Row sums of the exchange as it is, into RowSums. Collective.
+  Outcome SumRows(const Ranks& ranks);
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/TransportRun.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkTransportAlgorithm.h"
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+TransportRun::TransportRun(const RunPorts& ports)
+  : Filter(ports.Filter), Input(ports.Input), Output(ports.Output), Table(ports.Table),
+    AllRanks(ports.Filter->GetController()), Progress(ports.Filter, this->AllRanks)
+{
+}
+
+//------------------------------------------------------------------------------
+TransportRun::~TransportRun() = default;
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::Go()
+{
+  Outcome outcome = Outcome::Done();
+  for (const auto step : { &TransportRun::Check, &TransportRun::Gather, &TransportRun::Read,
+         &TransportRun::Link, &TransportRun::Compute })
+  {
+    outcome = outcome ? (this->*step)() : outcome;
+  }
+  if (outcome)
+  {
+    this->Write();
+    this->Filter->UpdateProgress(1.0);
+  }
+  return outcome;
+}
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::Gather()
+{
+  return this->Scene.Build(this->Input, this->AllRanks);
+}
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::GatherForClusters(int clusterTree)
+{
+  const bool usesAtlas = clusterTree == vtkTransportAlgorithm::CLUSTER_TREE_ATLAS ||
+    (clusterTree == vtkTransportAlgorithm::CLUSTER_TREE_AUTO &&
+      PolygonGathering::HasAtlas(this->Input, this->AllRanks));
+  return this->Scene.Build(this->Input, this->AllRanks,
+    usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial);
+}
+
+//------------------------------------------------------------------------------
+void TransportRun::Warn(const std::string& text) const
+{
+  vtkWarningWithObjectMacro(this->Filter, << text);
+}
+
+//------------------------------------------------------------------------------
+std::string TransportRun::GetArrayName(int index, const char* defaultName) const
+{
+  const char* name =
+    this->Filter->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
+  return name && *name ? name : defaultName;
+}
+
+//------------------------------------------------------------------------------
+vtkFieldData* TransportRun::GetOutputFields() const
+{
+  return this->Output->GetFieldData();
+}
+} // namespace LightTransport

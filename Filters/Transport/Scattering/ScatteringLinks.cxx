@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scattering/ScatteringLinks.h"
+
+#include "Links/LinkOperators.h"
+#include "Links/Links.h"
+#include "Scattering/ScatteringAssembly.h"
+#include "Scattering/ScatteringModels.h"
+#include "Scene/PatchScene.h"
+#include "Support/Ranks.h"
+#include "vtkTimerLog.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace LightTransport
+{
+namespace
+{
+// An estimate of the links' error that exceeds their tolerance by more than this is warned of.
+constexpr double MostExcess = 2.0;
+
+//------------------------------------------------------------------------------
+// What came of all ranks' parts.
+void Summarize(ScatteringAssembly::Summary& summary, const Ranks& ranks, double tolerance,
+  Links& links)
+{
+  double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
+  ranks.Sum(counts, 2);
+  ranks.Sum(summary.Errors);
+  const std::vector<double>& areas = links.Matrix->GetAreas();
+  double bound = 0.0;
+  for (std::size_t patch = 0; patch < areas.size(); ++patch)
+  {
+    bound = std::max(bound, summary.Errors[patch] / areas[patch]);
+  }
+  if (bound > MostExcess * tolerance)
+  {
+    std::ostringstream text;
+    text << "The links may be wrong by " << bound
+         << " of the profile's total, more than twice LinkTolerance: the patches are many mean "
+            "free paths wide. Use smaller patches, or check MillimetersPerUnit.";
+    links.Warning = text.str();
+  }
+  links.Summaries = { { "NumberOfLinks", counts[0] }, { "LinksLeftOut", counts[1] },
+    { "LinkErrorBound", bound } };
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+ScatteringLinks::ScatteringLinks(int model, std::vector<ScatteringMedium> bands,
+  double millimetersPerUnit, double tolerance)
+  : Model(model), Bands(std::move(bands)), MillimetersPerUnit(millimetersPerUnit),
+    Tolerance(tolerance)
+{
+}
+
+//------------------------------------------------------------------------------
+LinkKey ScatteringLinks::GetKey() const
+{
+  LinkKey key{ "ScatteringLinks",
+    { static_cast<double>(this->Model), this->MillimetersPerUnit, this->Tolerance }, {} };
+  for (const ScatteringMedium& band : this->Bands)
+  {
+    key.Parameters.insert(key.Parameters.end(),
+      { band.Scattering, band.Absorption, band.RefractiveIndex });
+  }
+  return key;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
+  Links& links) const
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
+  const double scale = scene.GetScale() * this->MillimetersPerUnit;
+  std::vector<double> areas = scene.GetAreas();
+  for (double& area : areas)
+  {
+    area *= scale * scale;
+  }
+  links.Tolerance = this->Tolerance;
+  ScatteringProfiles profiles;
+  ScatteringAssembly::Summary summary;
+  Outcome built =
+    LinkOperators::AllocateMatrix(areas, static_cast<int>(this->Bands.size()), ranks, links.Matrix);
+  built = built ? ScatteringModels::MakeProfiles(this->Model, this->Bands, profiles) : built;
+  built = built ? ScatteringAssembly::Fill(scene, scale, profiles, this->Tolerance, links.Matrix,
+                    monitor, summary)
+                : built;
+  if (!built)
+  {
+    return built;
+  }
+  Summarize(summary, ranks, this->Tolerance, links);
+  links.Summaries.emplace_back("LinkSeconds", vtkTimerLog::GetUniversalTime() - begin);
+  return built;
+}
+} // namespace LightTransport

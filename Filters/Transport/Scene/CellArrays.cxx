@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scene/CellArrays.h"
+
+#include "Scene/Leaves.h"
+#include "Scene/PatchScene.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LightTransport
+{
+namespace
+{
+//------------------------------------------------------------------------------
+// The array, or nullptr where there is none.
+Outcome FindArray(vtkPolyData* data, const std::string& name, vtkDataArray*& numbers)
+{
+  vtkAbstractArray* array = data->GetCellData()->GetAbstractArray(name.c_str());
+  numbers = vtkDataArray::SafeDownCast(array);
+  if (array && !numbers)
+  {
+    return Outcome::Failed("The cell array \"" + name + "\" is not numeric.");
+  }
+  if (!array && data->GetPointData()->HasArray(name.c_str()))
+  {
+    return Outcome::Failed("\"" + name +
+      "\" is a point array and a cell array is needed: pass the input through "
+      "vtkPointDataToCellData.");
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome FailUneven(const std::string& name)
+{
+  return Outcome::Failed("The cell array \"" + name +
+    "\" is missing or has another number of components in some blocks: give it to all of them.");
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+Outcome CellArrays::Read(const std::string& name, bool required, std::vector<double>& values,
+  int& components) const
+{
+  std::vector<double> mine;
+  int found = 0;
+  if (Outcome read = this->AllRanks.Agree(this->ReadLocal(name, mine, found)); !read)
+  {
+    return read;
+  }
+  components = 0;
+  bool missing = false;
+  bool even = true;
+  for (const int rank : this->AllRanks.Gather(std::vector<int>{ found }))
+  {
+    missing = missing || rank < 0;
+    even = even && (rank <= 0 || components == 0 || rank == components);
+    components = std::max(components, rank);
+  }
+  if (missing && components == 0)
+  {
+    values.clear();
+    return required ? Outcome::Failed("The input has no cell array \"" + name + "\".")
+                    : Outcome::Done();
+  }
+  if (missing || !even)
+  {
+    return FailUneven(name);
+  }
+  values = this->Gather(mine, components);
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> CellArrays::SpreadBlockValues(const std::vector<double>& blockValues) const
+{
+  std::vector<double> mine;
+  for (const LocalCell& local : this->Scene.GetLocalCells())
+  {
+    mine.push_back(blockValues[local.Block]);
+  }
+  return this->Gather(mine, 1);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> CellArrays::Gather(const std::vector<double>& mine, int components) const
+{
+  const std::vector<double> all = this->AllRanks.Gather(mine);
+  std::vector<double> values(all.size());
+  for (vtkIdType polygon = 0; polygon < this->Scene.GetNumberOfPatches(); ++polygon)
+  {
+    std::copy_n(all.begin() + polygon * components, components,
+      values.begin() + this->Scene.GetPatch(polygon) * components);
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
+Outcome CellArrays::ReadLocal(const std::string& name, std::vector<double>& values,
+  int& components) const
+{
+  const std::vector<vtkPolyData*> leaves = Leaves::Get(this->Input);
+  int block = -1;
+  vtkDataArray* array = nullptr;
+  for (const LocalCell& local : this->Scene.GetLocalCells())
+  {
+    if (local.Block != block)
+    {
+      block = local.Block;
+      if (Outcome found = FindArray(leaves[block], name, array); !found)
+      {
+        return found;
+      }
+      const int here = array ? array->GetNumberOfComponents() : -1;
+      if (components != 0 && here != components)
+      {
+        return FailUneven(name);
+      }
+      components = here;
+    }
+    for (int component = 0; component < components; ++component)
+    {
+      const double value = array->GetComponent(local.Cell, component);
+      if (!std::isfinite(value))
+      {
+        return Outcome::Failed("The cell array \"" + name +
+          "\" has a value that is not finite at cell " + std::to_string(local.Cell) +
+          ": replace it, for example with vtkArrayCalculator.");
+      }
+      values.push_back(value);
+    }
+  }
+  return Outcome::Done();
+}
+} // namespace LightTransport

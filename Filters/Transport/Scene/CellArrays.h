@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Cell arrays of the input as numbers of the patches of a scene.
+#ifndef CellArrays_h
+#define CellArrays_h
+
+#include "Shared/Outcome.h"
+#include "Support/Ranks.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+
+namespace LightTransport
+{
+class PatchScene;
+
+class CellArrays
+{
+public:
+  /// `input` is the data object that the scene was built from on `ranks`.
+  CellArrays(const PatchScene& scene, vtkDataObject* input, const Ranks& ranks)
+    : Scene(scene), Input(input), AllRanks(ranks)
+  {
+  }
+
+  /**
+   * An array as doubles, for all patches of all ranks: values[patch * components + component].
+   * `required` decides whether an array that is missing everywhere is an error or leaves `values`
+   * empty. Fails, on all ranks alike, where the array is missing in some block, is not numeric, is
+   * a point array, has different component counts, or holds a value that is not finite. Collective.
+   */
+  Outcome Read(const std::string& name, bool required, std::vector<double>& values,
+    int& components) const;
+
+  /**
+   * A value per block of this rank's input, spread over the patches: one value for all patches of
+   * all ranks. Blocks are those of Leaves. Collective.
+   */
+  std::vector<double> SpreadBlockValues(const std::vector<double>& blockValues) const;
+
+private:
+  /// `components` is 0 where this rank has no patches, -1 where the array is missing.
+  Outcome ReadLocal(const std::string& name, std::vector<double>& values, int& components) const;
+  /// Tuples of this rank's polygons in, those of all patches out.
+  std::vector<double> Gather(const std::vector<double>& mine, int components) const;
+
+  const PatchScene& Scene;
+  vtkDataObject* Input;
+  Ranks AllRanks;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The polygons of a data object, of all its blocks and of all ranks, as plain numbers: what a scene
+ * is made of. Ghost cells do not count.
+ */
+#ifndef PolygonGathering_h
+#define PolygonGathering_h
+
+#include "Shared/Outcome.h"
+#include "Support/Ranks.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkDataObject;
+
+namespace LightTransport
+{
+/// A polygon of this rank: which leaf (see Leaves) and which cell of it.
+struct LocalCell
+{
+  int Block;
+  vtkIdType Cell;
+};
+
+struct GatheredPolygons
+{
+  std::vector<LocalCell> LocalCells;
+  vtkIdType FirstLocal = 0; ///< number of polygons on the ranks before this one
+  ///@{ Of all ranks, polygon after polygon: corners, and their coordinates in the input's unit.
+  std::vector<vtkIdType> Counts;
+  std::vector<double> Coordinates;
+  ///@}
+  ///@{ For the order of an atlas: the place of each polygon (PatchTree::GetCode), and the number of
+  /// its surface.
+  std::vector<std::uint64_t> Codes;
+  std::vector<vtkIdType> Surfaces;
+  ///@}
+};
+
+namespace PolygonGathering
+{
+/// Gather the polygons, with their places in atlases or without. Fails, on all ranks alike, for
+/// data that are not polygonal, strips, points that do not exist or are not finite, and surfaces
+/// without an atlas. Collective.
+Outcome Gather(vtkDataObject* input, const Ranks& ranks, bool withAtlas,
+  GatheredPolygons& polygons);
+
+/// Whether all surfaces have an atlas that Gather takes. Collective.
+bool HasAtlas(vtkDataObject* input, const Ranks& ranks);
+} // namespace PolygonGathering
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// View factors for all pairs of patches, in an exchange matrix: the exchange to a tolerance of
+/// each row (ViewFactorAssembly), openings, and where it is asked for the closure of the rows.
+#ifndef DenseViewFactors_h
+#define DenseViewFactors_h
+
+#include "Links/LinkBuilder.h"
+
+#include <vector>
+
+namespace LightTransport
+{
+class DenseViewFactors : public LinkBuilder
+{
+public:
+  /// `senders` tells which patches send anything, empty for all: pairs of which neither does are
+  /// left out, and nothing is known of openings then. A closure needs whole rows and all senders.
+  DenseViewFactors(double tolerance, bool enforceClosure, std::vector<bool> senders);
+
+  LinkKey GetKey() const override;
+  Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
+    Links& links) const override;
+
+private:
+  double Tolerance;
+  bool EnforceClosure;
+  std::vector<bool> Senders;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// View factors between clusters of patches, in an exchange hierarchy (LinkRefinement). Rows are
+/// always closed: those that see no opening sum to 1, others to no more.
+#ifndef HierarchicalViewFactors_h
+#define HierarchicalViewFactors_h
+
+#include "Links/LinkBuilder.h"
+
+#include <vector>
+
+namespace LightTransport
+{
+class HierarchicalViewFactors : public LinkBuilder
+{
+public:
+  /// `brightness` is a radiosity for each patch to refine the links for, empty for one that is the
+  /// same everywhere. The clusters are nodes of the scene's tree.
+  explicit HierarchicalViewFactors(double tolerance, std::vector<double> brightness = {});
+
+  LinkKey GetKey() const override;
+  Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
+    Links& links) const override;
+
+private:
+  double Tolerance;
+  std::vector<double> Brightness;
+};
+} // namespace LightTransport
+
+#endif

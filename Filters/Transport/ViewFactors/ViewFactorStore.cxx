@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFactors/ViewFactorStore.h"
+
+#include "Scene/PatchScene.h"
+#include "Support/Ranks.h"
+#include "ViewFactors/DenseViewFactors.h"
+#include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/ViewFactorsFile.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSettings& settings,
+  const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor)
+{
+  this->Patches.clear();
+  if (!settings.Hierarchical && scene.GetOrder() != PatchScene::Order::Spatial)
+  {
+    return Outcome::Failed("A matrix needs the spatial order of the scene: set ClusterTree to "
+                           "Spatial or switch Hierarchical on.");
+  }
+  Outcome updated = Outcome::Done();
+  if (!this->LoadedFile.empty())
+  {
+    updated = this->CheckLoaded(scene, ranks);
+  }
+  else if (settings.Hierarchical)
+  {
+    // Clusters hold who sends and who does not.
+    updated =
+      this->Cache.Update(scene, HierarchicalViewFactors(settings.LinkTolerance), ranks, monitor);
+  }
+  else
+  {
+    // A closure needs whole rows.
+    const bool all = settings.EnforceClosure ||
+      std::all_of(senders.begin(), senders.end(), [](bool sends) { return sends; });
+    updated = this->Cache.Update(scene,
+      DenseViewFactors(settings.Tolerance, settings.EnforceClosure,
+        all ? std::vector<bool>() : senders),
+      ranks, monitor);
+  }
+  if (updated)
+  {
+    this->Patches = scene.GetPatches();
+  }
+  return updated;
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorStore::CheckLoaded(const PatchScene& scene, const Ranks& ranks) const
+{
+  const Links& links = this->GetLinks();
+  const bool fits = links.Fingerprint == scene.GetFingerprint() &&
+    links.Matrix->GetNumberOfPatches() == scene.GetNumberOfPatches();
+  return ranks.Agree(fits
+      ? Outcome::Done()
+      : Outcome::Failed("The view factors in \"" + this->LoadedFile +
+          "\" were computed for another geometry: give the mesh that they belong to, or compute "
+          "them (Load(nullptr)) and save them again."));
+}
+
+//------------------------------------------------------------------------------
+double ViewFactorStore::GetViewFactor(vtkIdType i, vtkIdType j) const
+{
+  const vtkExchange* exchange = this->GetLinks().GetExchange();
+  const vtkIdType patches = exchange ? static_cast<vtkIdType>(this->Patches.size()) : 0;
+  if (i < 0 || j < 0 || i >= patches || j >= patches)
+  {
+    return 0.0;
+  }
+  const vtkIdType row = this->Patches[i];
+  return exchange->GetValue(row, this->Patches[j]) / exchange->GetAreas()[row];
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorStore::Save(const std::string& fileName, const Ranks& ranks) const
+{
+  if (fileName.empty())
+  {
+    return Outcome::Failed("The name of the file to save view factors in is empty.");
+  }
+  if (ranks.AreSeveral())
+  {
+    return Outcome::Failed(
+      "View factors can be saved on one process only: each of several holds a part.");
+  }
+  if (this->GetLinks().Hierarchy)
+  {
+    return Outcome::Failed(
+      "Links between clusters cannot be saved: switch Hierarchical off and update.");
+  }
+  if (!this->GetLinks().Matrix || !this->Cache.GetKey().Senders.empty())
+  {
+    return Outcome::Failed("There are no view factors to save: call Update first.");
+  }
+  return ViewFactorsFile::Write(fileName, this->GetLinks());
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorStore::Load(const std::string& fileName, const Ranks& ranks)
+{
+  if (ranks.AreSeveral())
+  {
+    return Outcome::Failed(
+      "View factors can be loaded on one process only: each of several holds a part.");
+  }
+  Links loaded;
+  Outcome read = ViewFactorsFile::Read(fileName, loaded);
+  if (read)
+  {
+    this->Cache.Put(std::move(loaded));
+    this->Patches.clear();
+    this->LoadedFile = fileName;
+  }
+  return read;
+}
+
+//------------------------------------------------------------------------------
+void ViewFactorStore::Forget()
+{
+  this->Cache.Put(Links());
+  this->Patches.clear();
+  this->LoadedFile.clear();
+}
+} // namespace LightTransport

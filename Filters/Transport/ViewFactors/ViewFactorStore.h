@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// View factors of scenes, made when they are asked for and kept for as long as they serve, or
+/// taken from a file: what stands behind a vtkViewFactors, and behind a vtkRadiosity that was given
+/// none.
+#ifndef ViewFactorStore_h
+#define ViewFactorStore_h
+
+#include "Links/LinkCache.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+namespace LightTransport
+{
+class PatchScene;
+class Ranks;
+
+/// Properties of vtkViewFactors.
+struct ViewFactorSettings
+{
+  double Tolerance = 0.0;
+  bool EnforceClosure = false;
+  bool Hierarchical = false;
+  double LinkTolerance = 0.0;
+};
+
+class ViewFactorStore
+{
+public:
+  /**
+   * Bring the view factors up to date for a scene. `senders` (one per patch; empty for all) tells
+   * which patches send anything: pairs of which neither does may be left out. Those of a file serve
+   * the scene that they were computed for and no other. Collective.
+   */
+  Outcome Update(const PatchScene& scene, const ViewFactorSettings& settings,
+    const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
+
+  /// What the last update left, or nothing after a failure.
+  const Links& GetLinks() const { return this->Cache.Get(); }
+
+  /// F_ij, patches counted as the polygons of the scene of the last update. 0 where out of range
+  /// and, on several ranks, where another rank holds the pair.
+  double GetViewFactor(vtkIdType i, vtkIdType j) const;
+
+  ///@{ On one process: save what the last update computed; take it from a file until Forget or
+  /// another file.
+  Outcome Save(const std::string& fileName, const Ranks& ranks) const;
+  Outcome Load(const std::string& fileName, const Ranks& ranks);
+  void Forget();
+  ///@}
+  /// Empty where the view factors are no file's.
+  const std::string& GetLoadedFile() const { return this->LoadedFile; }
+
+private:
+  Outcome CheckLoaded(const PatchScene& scene, const Ranks& ranks) const;
+
+  LinkCache Cache;
+  std::vector<vtkIdType> Patches; ///< of each polygon of the scene of the last update
+  std::string LoadedFile;
+};
+} // namespace LightTransport
+
+#endif
