@@ -17,7 +17,7 @@ import importlib
 # The modules these bring in must be there before ours: a wrapped class needs its base class.
 import vtkmodules.vtkCommonCore
 import vtkmodules.vtkCommonDataModel
-import vtkmodules.vtkCommonExecutionModel
+import vtkmodules.vtkCommonExecutionModel  # noqa: F401
 
 from ._build import MODULES as _MODULES
 from ._build import VERSION as __version__

@@ -2,10 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Numbers into data sets and out of them, with numpy; the rest of the package does without it."""
 
+import math
+
 import numpy
+
+from vtklighttransport.summaries import get_summary
 from vtkmodules.util import numpy_support
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+__all__ = [
+    "divide_triangles", "get_area_vectors", "get_areas", "get_cell_array", "get_point_array",
+    "get_points", "get_summary", "get_triangle_corners", "make_surface", "relative_error",
+    "set_cell_array"]
 
 
 def make_surface(points, polygons):
@@ -49,19 +58,20 @@ def get_point_array(surface, name):
     return _get(surface.GetPointData(), name)
 
 
-def get_summary(data, name):
-    """A one-value field data array, as float or str; KeyError where there is none of that name."""
-    array = data.GetFieldData().GetAbstractArray(name)
-    if array is None:
-        raise KeyError(name)
-    return array.GetValue(0)
+def get_points(surface):
+    """Coordinates in double precision: n x 3."""
+    return numpy_support.vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+
+
+def get_triangle_corners(surface):
+    """Point ids of the cells of a triangle mesh: cells x 3."""
+    return numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
 def get_area_vectors(surface):
     """Of each polygon its area along its normal (n x 3), by Newell's formula."""
-    points = numpy_support.vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
     polygons = surface.GetPolys()
-    corners = points[numpy_support.vtk_to_numpy(polygons.GetConnectivityArray())]
+    corners = get_points(surface)[numpy_support.vtk_to_numpy(polygons.GetConnectivityArray())]
     offsets = numpy_support.vtk_to_numpy(polygons.GetOffsetsArray())
     following = numpy.arange(1, len(corners) + 1)
     following[offsets[1:] - 1] = offsets[:-1]
@@ -71,14 +81,26 @@ def get_area_vectors(surface):
     return 0.5 * numpy.add.reduceat(parts, offsets[:-1], axis=0)
 
 
+def get_areas(surface):
+    """The area of each polygon."""
+    return numpy.linalg.norm(get_area_vectors(surface), axis=1)
+
+
+def relative_error(values, exact, areas):
+    """Root mean square over the area and the components, relative to that of the exact values."""
+    weights = areas[:, None]
+    square = (weights * exact ** 2).sum()
+    return math.sqrt((weights * (values - exact) ** 2).sum() / (square or 1.0))
+
+
 def divide_triangles(surface):
     """Each triangle in four, by the middles of its edges, in the order of the input.
 
     Cell arrays are carried along. Neighbours share the new points. Any surface will do, also where
     more than two triangles meet.
     """
-    points = numpy_support.vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-    corners = numpy_support.vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    points = get_points(surface)
+    corners = get_triangle_corners(surface)
     edges = numpy.sort(numpy.stack([corners, numpy.roll(corners, -1, axis=1)], axis=2), axis=2)
     ends, middles = numpy.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
     a, b, c = corners.T

@@ -10,10 +10,9 @@ import math
 import numpy
 
 import vtklighttransport as lt
-import vtkmodules.vtkRenderingFreeType  # Text is drawn by what registers here,
-import vtkmodules.vtkRenderingOpenGL2  # and surfaces by the mappers of OpenGL.
-from vtklighttransport.arrays import get_area_vectors
-from vtkmodules.util.numpy_support import vtk_to_numpy
+import vtkmodules.vtkRenderingFreeType  # noqa: F401 (text is drawn by what registers here,
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 and surfaces by the mappers of OpenGL)
+from vtklighttransport.arrays import get_area_vectors, get_points
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -61,7 +60,7 @@ def find_direction(surface):
 
 def look_at(surface, direction):
     """What places a camera so that the surface, seen from a direction, fills the picture."""
-    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    points = get_points(surface)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     back = numpy.asarray(direction, dtype=float)
     back = back / numpy.linalg.norm(back)

@@ -10,7 +10,7 @@ import math
 
 import numpy
 
-import vtkmodules.vtkRenderingContextOpenGL2  # Charts are drawn by what registers here.
+import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401 (charts are drawn by what registers here)
 from vtklighttransport.pictures import make_window, write_picture
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartLegend, vtkChartXY, vtkPlotPoints

@@ -1,27 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the commands of the shell share: files in, filters with progress, errors as plain lines."""
+"""Filters with progress, errors as plain lines."""
 
-import importlib
-import os
 import re
 import signal
 import sys
 import time
 
-import vtklighttransport as lt
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import (
     VTK_STRING, vtkLogger, vtkOutputWindow, vtkStringOutputWindow)
-from vtkmodules.vtkCommonDataModel import vtkDataObject
-
-READERS = {
-    ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
-    ".vtk": ("vtkIOLegacy", "vtkPolyDataReader"),
-    ".ply": ("vtkIOPLY", "vtkPLYReader"),
-    ".stl": ("vtkIOGeometry", "vtkSTLReader"),
-    ".obj": ("vtkIOGeometry", "vtkOBJReader"),
-}
 
 
 class Failure(Exception):
@@ -53,6 +41,12 @@ class Messages:
     def check(self):
         if self.errors:
             raise Failure
+
+    def take(self):
+        """The errors so far, in one line; they are dealt with then."""
+        text = "; ".join(self.errors)
+        self.errors.clear()
+        return text
 
 
 class Stage:
@@ -100,42 +94,3 @@ def plain(text):
     """A VTK message without the place in the source and without line breaks."""
     match = re.search(r"\((?:0x)?[0-9a-fA-F]+\): (.*)", text, re.DOTALL)
     return " ".join((match.group(1) if match else text).split())
-
-
-def find_class(name):
-    if not hasattr(lt, name):
-        raise Failure(f"this build has no {name}: its module was switched off in CMake")
-    return getattr(lt, name)
-
-
-def find_choices(kind, prefix):
-    return {key[len(prefix):].lower().replace("_", "-"): getattr(kind, key)
-            for key in dir(kind) if key.startswith(prefix)}
-
-
-def read(options, messages):
-    module, name = READERS[os.path.splitext(options.input)[1].lower()]
-    if not os.path.isfile(options.input):
-        raise Failure(f"cannot read {options.input}: no such file")
-    reader = getattr(importlib.import_module("vtkmodules." + module), name)()
-    reader.SetFileName(options.input)
-    try:
-        data = Stage("read", reader, options.quiet).run(messages)
-    except Failure as failure:
-        raise Failure(f"cannot read {options.input}") from failure
-    if data.GetNumberOfPoints() == 0:
-        raise Failure(f"cannot read {options.input}: no surface in it")
-    return data
-
-
-def choose_arrays(options, algorithm, table):
-    for _flag, index, _text in table:
-        name = getattr(options, f"array{index}")
-        if name:
-            algorithm.SetInputArrayToProcess(
-                index, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, name)
-
-
-def get_summary(data, name):
-    array = data.GetFieldData().GetAbstractArray(name)
-    return array.GetValue(0) if array else None

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""scatter IN OUT: diffuse subsurface scattering."""
+
+from vtklighttransport.shell.files import add_output, check_input, check_output, write_patches
+from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
+from vtklighttransport.shell.properties import (
+    Choice, Color, InputArray, Number, add_arrays, add_properties, check_properties, choose_array,
+    choose_arrays, make_filter)
+from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
+from vtklighttransport.shell.stages import Stage
+from vtklighttransport.summaries import get_summary
+from vtkmodules.vtkCommonCore import reference
+
+HELP = "diffuse subsurface scattering"
+DESCRIPTION = (
+    "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
+    "light, or a mesh with the cell array Irradiance.")
+PROPERTIES = (
+    Choice("--material", "Material", "MATERIAL_",
+           "measured material; it wins over the three options below"),
+    Color("--scattering", "ScatteringCoefficient",
+          "reduced scattering coefficient of red, green and blue, per mm"),
+    Color("--absorption", "AbsorptionCoefficient",
+          "absorption coefficient of red, green and blue, per mm"),
+    Number("--refractive-index", "RefractiveIndex", float, "refractive index of the object"),
+    Number("--mm-per-unit", "MillimetersPerUnit", float,
+           "length of the mesh's unit in millimetres; 10 for centimetres"),
+    Choice("--incidence", "Incidence", "INCIDENCE_",
+           "without a light: whether the mesh's array is diffuse irradiance or has entered the "
+           "surface"),
+    Number("--link-tolerance", "LinkTolerance", float,
+           "bound on the relative error of the links of a patch"),
+    Choice("--device", "Device", "DEVICE_",
+           "where the links are applied; auto takes OpenGL on a real GPU"),
+    Number("--feature-angle", "FeatureAngle", float,
+           "edges sharper than this keep their own point values, in degrees"),
+)
+IRRADIANCE = InputArray(
+    "--irradiance", 0,
+    "without a light: cell array of what falls in [Irradiance, or TransmittedIrradiance]")
+
+
+def add_options(parser):
+    add_scene(parser)
+    add_output(parser)
+    add_lights(parser)
+    add_properties(parser, "vtkSubsurfaceScattering", PROPERTIES)
+    add_arrays(parser, [IRRADIANCE])
+
+
+def check(options):
+    check_input(options)
+    check_output(options)
+    check_mesh(options)
+    check_properties(options, "vtkSubsurfaceScattering", PROPERTIES)
+
+
+def run(options, messages):
+    scattering = make_filter(options, "vtkSubsurfaceScattering", PROPERTIES)
+    choose_arrays(options, scattering, [IRRADIANCE])
+    index = find_refractive_index(scattering)
+    surface = light_scene(options, messages, read_scene(options, messages), index)
+    if has_lights(options):
+        if index > 1.0:
+            scattering.SetIncidenceToTransmitted()
+        else:
+            choose_array(scattering, IRRADIANCE.index, "DirectIrradiance")
+    result = Stage("scattering", scattering, options.quiet).run(messages, surface)
+    return write_patches(
+        options, messages, result, f"{get_summary(result, 'NumberOfLinks'):.0f} links")
+
+
+def find_refractive_index(scattering):
+    """That of the material, or of the property where there is none."""
+    index = reference(scattering.GetRefractiveIndex())
+    scattering.GetMaterialProperties(scattering.GetMaterial(), [0.0] * 3, [0.0] * 3, index)
+    return index.get()

@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Values of options: lists of numbers, and vectors."""
+
+import argparse
+import re
+
+
+def parse_numbers(text):
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of numbers") from error
+
+
+def parse_light(text):
+    return parse_vector(text, (3, 4), "X,Y,Z or X,Y,Z,INTENSITY")
+
+
+def parse_direction(text):
+    return parse_vector(text, (3,), "X,Y,Z")
+
+
+def parse_vector(text, counts, form):
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) not in counts or not any(numbers[:3]):
+        raise argparse.ArgumentTypeError(f"'{text}' is not {form}")
+    return numbers
+
+
+def join_negative_values(arguments):
+    """`--light -1,0,0` as `--light=-1,0,0`: to argparse only a plain number is no option."""
+    joined = []
+    for argument in arguments:
+        if (joined and re.fullmatch(r"--[a-z-]+", joined[-1]) and re.match(r"-[\d.]", argument)
+                and not re.fullmatch(r"-\d+|-\d*\.\d+", argument)):
+            joined[-1] += "=" + argument
+        else:
+            joined.append(argument)
+    return joined
+
+
+def check_range(options, flag, value, low, high):
+    """Wrong usage where the value, also one that is not a number, is not from low to high."""
+    if not low <= value <= high:
+        refuse_value(options, flag, value)
+
+
+def refuse_value(options, flag, value):
+    options.parser.error(f"argument {flag}: {value:g} is out of range")

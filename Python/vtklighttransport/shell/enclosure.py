@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What radiosity and its report ask of a scene: links, bands, what is outside, arrays."""
+
+from vtklighttransport.shell.properties import Choice, InputArray, Number, NumberList, Switch
+
+ENCLOSURE = (
+    Choice("--device", "Device", "DEVICE_",
+           "where the links are applied; auto takes OpenGL on a real GPU"),
+    Choice("--links", "LinkMethod", "LINK_METHOD_",
+           "a link for each pair of patches, or between clusters; auto is dense up to 8,192 "
+           "patches"),
+    Number("--link-tolerance", "LinkTolerance", float,
+           "relative error of the irradiance that hierarchical links are allowed"),
+    Switch("--by-brightness", "RefineByBrightness", True,
+           "refine hierarchical links where light is"),
+    Switch("--closure", "EnforceClosure", True,
+           "make the view factors of closed scenes sum to 1"),
+    NumberList("--band-limits", "BandLimit",
+               "limits of spectral bands for temperatures: wavelengths in micrometres, such as "
+               "0,8,14,inf"),
+    Number("--background-temperature", "BackgroundTemperature", float,
+           "temperature in kelvin of what is seen through the openings of the scene"),
+    NumberList("--background-radiance", "BackgroundRadiance",
+               "radiance that enters through them: a value, or one per band with commas between"),
+)
+ARRAYS = (
+    InputArray("--emission", 0, "cell array of emitted flux per area [Emission]"),
+    InputArray("--reflectance", 1, "cell array of diffuse reflectance, 0 to 1 [Reflectance]"),
+    InputArray("--temperature", 2, "cell array of temperatures in kelvin [Temperature]"),
+    InputArray("--emissivity", 3, "cell array of emissivity, 0 to 1 [Emissivity]"),
+    InputArray("--boundary-condition", 5,
+               "cell array: 0 where the temperature is given, 1 where the net flux is "
+               "[BoundaryCondition]"),
+    InputArray("--net-flux", 6,
+               "cell array of given net fluxes, W/m2; 0 without one [PrescribedNetFlux]"),
+)

@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Surfaces from files and into files."""
+
+import importlib
+import os
+
+from vtklighttransport.shell.stages import Failure, Stage
+from vtklighttransport.summaries import get_summary
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+READERS = {
+    ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
+    ".vtk": ("vtkIOLegacy", "vtkPolyDataReader"),
+    ".ply": ("vtkIOPLY", "vtkPLYReader"),
+    ".stl": ("vtkIOGeometry", "vtkSTLReader"),
+    ".obj": ("vtkIOGeometry", "vtkOBJReader"),
+}
+
+
+def add_input(parser):
+    parser.add_argument("input", help="surface mesh: " + ", ".join(READERS))
+
+
+def check_input(options):
+    if get_extension(options.input) not in READERS:
+        options.parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
+
+
+def get_extension(file):
+    return os.path.splitext(file)[1].lower()
+
+
+def make_reader(file):
+    """The reader for the file's extension."""
+    module, name = READERS[get_extension(file)]
+    reader = getattr(importlib.import_module("vtkmodules." + module), name)()
+    reader.SetFileName(file)
+    return reader
+
+
+def read(options, messages):
+    if not os.path.isfile(options.input):
+        raise Failure(f"cannot read {options.input}: no such file")
+    try:
+        data = Stage("read", make_reader(options.input), options.quiet).run(messages)
+    except Failure as failure:
+        raise Failure(f"cannot read {options.input}") from failure
+    if data.GetNumberOfPoints() == 0:
+        raise Failure(f"cannot read {options.input}: no surface in it")
+    return data
+
+
+def add_output(parser):
+    parser.add_argument("output", help="result: .vtp")
+
+
+def check_output(options):
+    if get_extension(options.output) != ".vtp":
+        options.parser.error(f"argument output: '{options.output}' is not a .vtp file")
+    folder = os.path.dirname(options.output)
+    if folder and not os.path.isdir(folder):
+        raise Failure(f"cannot write {options.output}: no such directory")
+
+
+def write_surface(file, surface):
+    """Whether the file could be written."""
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(surface)
+    writer.SetFileName(file)
+    # Encoded: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
+    writer.SetDataModeToBinary()
+    return writer.Write() == 1
+
+
+def write(options, messages, data):
+    """The result in its file, or what was there before."""
+    unfinished = options.output + ".part"
+    try:
+        if not write_surface(unfinished, data) or messages.errors:
+            raise Failure(f"cannot write {options.output}")
+        os.replace(unfinished, options.output)
+    except OSError as error:
+        raise Failure(f"cannot write {options.output}: {error.strerror}") from error
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+
+
+def write_patches(options, messages, result, text):
+    """Writes what a filter has added to patches; returns the line that tells of it."""
+    write(options, messages, result)
+    return (f"{options.output}: {result.GetNumberOfCells()} patches, {text}, "
+            f"{get_summary(result, 'DeviceUsed')}")

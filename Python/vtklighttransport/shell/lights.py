@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lights in place of an array of irradiance."""
+
+from vtklighttransport.shell.arguments import parse_light
+from vtklighttransport.shell.properties import Switch, add_properties, make_filter
+from vtklighttransport.shell.stages import Stage
+
+IRRADIANCE = (
+    Switch("--no-shadows", "Shadows", False, "let lights shine through patches"),
+)
+
+
+def add_lights(parser):
+    for flag, text in (
+            ("--light", "light from the direction (X, Y, Z), infinitely far; INTENSITY is the "
+             "irradiance facing it [1]; repeat for more"),
+            ("--point-light", "light at a point, in the mesh's unit; irradiance facing it is "
+             "INTENSITY / distance^2 [1]; repeat for more")):
+        parser.add_argument(flag, metavar="X,Y,Z[,INTENSITY]", type=parse_light, action="append",
+                            default=[], help=text)
+    add_properties(parser, "vtkDirectIrradiance", IRRADIANCE)
+
+
+def has_lights(options):
+    return bool(options.light or options.point_light)
+
+
+def make_light(position, intensity=1.0, positional=False):
+    """From a direction, infinitely far, or from a point."""
+    from vtkmodules.vtkRenderingCore import vtkLight
+    light = vtkLight()
+    light.SetLightTypeToSceneLight()
+    light.SetPosition(position)
+    light.SetFocalPoint(0.0, 0.0, 0.0)
+    light.SetIntensity(intensity)
+    if positional:
+        light.PositionalOn()
+        # Beyond 90 degrees the light has no cone.
+        light.SetConeAngle(180.0)
+        light.SetAttenuationValues(0.0, 0.0, 1.0)
+    return light
+
+
+def light_scene(options, messages, surface, refractive_index=1.0):
+    """The surface with its direct irradiance where there are lights, else as it is."""
+    if not has_lights(options):
+        return surface
+    irradiance = make_filter(options, "vtkDirectIrradiance", IRRADIANCE)
+    irradiance.SetRefractiveIndex(refractive_index)
+    for positional, lights in ((False, options.light), (True, options.point_light)):
+        for numbers in lights:
+            irradiance.AddLight(make_light(numbers[:3], *numbers[3:], positional=positional))
+    return Stage("direct irradiance", irradiance, options.quiet).run(messages, surface)

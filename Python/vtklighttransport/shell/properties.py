@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Options that set properties of filters, or choose their input arrays.
+
+Tables of them are what a command offers. Defaults, ranges and choices come from the classes; where
+a class was not built, its options are left out.
+"""
+
+import vtklighttransport as lt
+from vtklighttransport.shell.arguments import parse_numbers, refuse_value
+from vtklighttransport.shell.stages import Failure
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+
+
+class Property:
+    """An option of one value, of any type."""
+
+    def __init__(self, flag, name, text):
+        self.flag = flag
+        self.name = name
+        self.text = text
+
+    def add_to(self, parser, model):
+        parser.add_argument(self.flag, dest=self.name, default=None, **self.describe(model))
+
+    def describe(self, model):
+        """What argparse must know; help ends with the default that the model has."""
+        raise NotImplementedError
+
+    def set_on(self, algorithm, value):
+        getattr(algorithm, "Set" + self.name)(value)
+
+    def get_from(self, algorithm):
+        return getattr(algorithm, "Get" + self.name)()
+
+    def is_in_range(self, _model, _value):
+        return True
+
+
+class Number(Property):
+    """A number within the range of the property."""
+
+    def __init__(self, flag, name, kind, text):
+        super().__init__(flag, name, text)
+        self.kind = kind
+
+    def describe(self, model):
+        return {"type": self.kind, "metavar": "VALUE",
+                "help": f"{self.text} [{self.get_from(model):g}]"}
+
+    def is_in_range(self, model, value):
+        return keeps_value(model, self.name, value)
+
+
+class Length(Number):
+    """A length in the mesh's unit; the text tells of the default."""
+
+    def __init__(self, flag, name, text):
+        super().__init__(flag, name, float, text)
+
+    def describe(self, model):
+        return {"type": self.kind, "metavar": "LENGTH", "help": self.text}
+
+    def is_in_range(self, model, value):
+        return 0.0 <= value < float("inf") and super().is_in_range(model, value)
+
+
+class Color(Property):
+    """A number each for red, green and blue."""
+
+    def describe(self, model):
+        default = " ".join(f"{value:g}" for value in self.get_from(model))
+        return {"nargs": 3, "type": float, "metavar": ("R", "G", "B"),
+                "help": f"{self.text} [{default}]"}
+
+    def set_on(self, algorithm, value):
+        getattr(algorithm, "Set" + self.name)(*value)
+
+
+class NumberList(Property):
+    """Any number of values, which are added one by one."""
+
+    def describe(self, model):
+        return {"type": parse_numbers, "metavar": "A,B,...", "help": self.text}
+
+    def set_on(self, algorithm, value):
+        for number in value:
+            getattr(algorithm, "Add" + self.name)(number)
+
+
+class Switch(Property):
+    """An option without a value, which sets the property to `value`."""
+
+    def __init__(self, flag, name, value, text):
+        super().__init__(flag, name, text)
+        self.value = value
+
+    def describe(self, model):
+        return {"action": "store_const", "const": self.value, "help": self.text}
+
+
+class Choice(Property):
+    """One of the class constants that begin with `prefix`."""
+
+    def __init__(self, flag, name, prefix, text):
+        super().__init__(flag, name, text)
+        self.prefix = prefix
+
+    def describe(self, model):
+        choices = find_choices(type(model), self.prefix)
+        names = sorted(choices, key=choices.get)
+        default = next(key for key in names if choices[key] == self.get_from(model))
+        return {"choices": names, "help": f"{self.text} [{default}]"}
+
+    def set_on(self, algorithm, value):
+        super().set_on(algorithm, find_choices(type(algorithm), self.prefix)[value])
+
+
+class InputArray:
+    """An option that names the cell array with an index of SetInputArrayToProcess."""
+
+    def __init__(self, flag, index, text):
+        self.flag = flag
+        self.index = index
+        self.text = text
+        self.destination = f"array{index}"
+
+
+def find_class(name):
+    if not hasattr(lt, name):
+        raise Failure(f"this build has no {name}: its module was switched off in CMake")
+    return getattr(lt, name)
+
+
+def find_choices(kind, prefix):
+    return {key[len(prefix):].lower().replace("_", "-"): getattr(kind, key)
+            for key in dir(kind) if key.startswith(prefix)}
+
+
+def keeps_value(model, name, value):
+    """Setters move a value into the property's range without a word."""
+    getattr(model, "Set" + name)(value)
+    return getattr(model, "Get" + name)() == value
+
+
+def add_properties(parser, class_name, table):
+    if hasattr(lt, class_name):
+        model = find_class(class_name)()
+        for option in table:
+            option.add_to(parser, model)
+
+
+def get_given(options, table):
+    """Pairs of options of the table and their values; those that were not given are left out."""
+    pairs = ((option, getattr(options, option.name)) for option in table)
+    return [(option, value) for option, value in pairs if value is not None]
+
+
+def check_properties(options, class_name, table):
+    """Wrong usage where a value is out of the property's range."""
+    model = find_class(class_name)()
+    for option, value in get_given(options, table):
+        if not option.is_in_range(model, value):
+            refuse_value(options, option.flag, value)
+
+
+def make_filter(options, class_name, table):
+    """A new filter with what the options set."""
+    algorithm = find_class(class_name)()
+    for option, value in get_given(options, table):
+        option.set_on(algorithm, value)
+    return algorithm
+
+
+def add_arrays(parser, table):
+    for array in table:
+        parser.add_argument(array.flag, metavar="NAME", dest=array.destination, help=array.text)
+
+
+def choose_arrays(options, algorithm, table):
+    for array in table:
+        name = getattr(options, array.destination)
+        if name:
+            choose_array(algorithm, array.index, name)
+
+
+def choose_array(algorithm, index, name):
+    algorithm.SetInputArrayToProcess(index, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, name)
