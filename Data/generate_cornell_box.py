@@ -8,10 +8,10 @@ Source: Cornell University Program of Computer Graphics, "Cornell Box Data"
 the reflectance of the three paints from 400 to 700 nm in steps of 4 nm, and the lamp's spectrum.
 The camera there stands at (278, 273, -800) and looks along +z; the box is open towards it.
 
-What is changed, so that the surface can be meshed and no two parts of it lie on each other: the lamp
-is cut out of the ceiling, the footprints of the two blocks are cut out of the floor and the bottoms
-of the blocks are left out. All other points are the published ones, the left wall's four do not lie
-in one plane (it is made of two triangles). All normals point into the air of the room.
+What is changed, so that the surface can be meshed and no two parts of it lie on each other: the
+lamp is cut out of the ceiling, the footprints of the two blocks are cut out of the floor and the
+bottoms of the blocks are left out. All other points are the published ones, the left wall's four do
+not lie in one plane (it is made of two triangles). All normals point into the air of the room.
 
 Spectra become three bands, red (600 to 700 nm), green (500 to 600 nm) and blue (400 to 500 nm), by
 the mean of the measured values over each band (linear between the measurements).
@@ -79,7 +79,8 @@ def band_means(spectrum):
     steps = (len(values) - 1) // 3
     means = []
     for band in (2, 1, 0):
-        part = values[band * steps : (band + 1) * steps + 1]
+        first = band * steps
+        part = values[first:first + steps + 1]
         means.append((sum(part) - 0.5 * (part[0] + part[-1])) / steps)
     return means
 
@@ -190,7 +191,8 @@ def write(path):
     with open(path, "w", encoding="ascii", newline="\n") as file:
         file.write(
             '<?xml version="1.0"?>\n'
-            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"'
+            ' header_type="UInt64">\n'
             "  <PolyData>\n"
             f'    <Piece NumberOfPoints="{len(index)}" NumberOfVerts="0" NumberOfLines="0"'
             f' NumberOfStrips="0" NumberOfPolys="{len(polygons)}">\n'

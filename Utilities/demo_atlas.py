@@ -10,13 +10,21 @@ import tempfile
 import numpy
 
 import vtklighttransport as lt
-from vtklighttransport.arrays import get_cell_array, get_summary
+from vtklighttransport.arrays import (
+    get_areas,
+    get_cell_array,
+    get_points,
+    get_summary,
+    get_triangle_corners,
+    set_cell_array,
+)
 from vtklighttransport.pictures import make_actor, make_window, write_picture
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkTexture
+
+from demo_tools import DATA, DemoError, read_surface, snapshot, update
 
 # An integral over the surface may change by this on its way to the texels and back.
 KEPT = 1e-6
@@ -28,10 +36,7 @@ def read_scan(name):
         plain = os.path.join(folder, "scan.ply")
         with open(plain, "wb") as stream:
             shutil.copyfileobj(packed, stream)
-        reader = vtkPLYReader()
-        reader.SetFileName(plain)
-        reader.Update()
-        return reader.GetOutput()
+        return read_surface(plain)
 
 
 def count_edges(surface):
@@ -84,8 +89,8 @@ def render_atlas(file, surface, maps, direction, up):
     window.Finalize()
 
 
-def transfer(surface, update):
-    """How much an integral changes from cells to texels, and back to cells; relative to the area."""
+def transfer(surface):
+    """An integral over the texels, and the cells' values when they are back from there."""
     to_texels = lt.vtkSurfaceToAtlas()
     to_texels.SetInputData(surface)
     update(to_texels)
@@ -99,47 +104,64 @@ def transfer(surface, update):
     return (at_texels * texel_areas).sum(), get_cell_array(back.GetOutput(), "OriginalHeight")
 
 
-def show_atlas(folder, summary, data, tools):
-    """`tools`: what demo.py has for running filters, areas and errors."""
-    print("Stanford dragon: from scan to atlas")
-    scan = read_scan(os.path.join(data, "dragon_vrip_res3.ply.gz"))
-    borders, bad = count_edges(scan)
-    print(f"  scan: {scan.GetNumberOfCells()} triangles, {borders} edges at borders, {bad} of more than two triangles")
-    mesher = lt.vtkPatchMesher()
-    mesher.SetInputData(scan)
-    meshing = tools.update(mesher)
-    patches = mesher.GetOutput()
-    if count_edges(patches) != (0, 0):
-        raise tools.DemoError("the dragon's patches are no closed manifold")
-    atlas = lt.vtkSurfaceAtlas()
-    atlas.SetInputData(patches)
-    unfolding = tools.update(atlas)
-    surface = tools.snapshot(atlas)
-
-    heights = tools.triangles(surface)[:, :, 1].mean(axis=1)
-    values = numpy_to_vtk(heights, deep=True)
-    values.SetName("OriginalHeight")
-    surface.GetCellData().AddArray(values)
-    areas = tools.cell_areas(surface)
+def demand_kept_integral(surface):
+    """How much the integral of the height changes on the way to texels and back, of its size."""
+    heights = get_points(surface)[get_triangle_corners(surface), 1].mean(axis=1)
+    set_cell_array(surface, "OriginalHeight", heights)
+    areas = get_areas(surface)
     exact = (areas * heights).sum()
-    at_texels, returned = transfer(surface, tools.update)
-    change = max(abs(at_texels - exact), abs((areas * returned).sum() - exact)) / (areas * abs(heights)).sum()
+    at_texels, returned = transfer(surface)
+    change = max(abs(at_texels - exact), abs((areas * returned).sum() - exact))
+    change /= (areas * abs(heights)).sum()
     if not change <= KEPT:
-        raise tools.DemoError(f"the integral over the dragon changes by {change:.1e} in the atlas")
+        raise DemoError(f"the integral over the dragon changes by {change:.1e} in the atlas")
+    return change
 
-    folder.write_surface("dragon_atlas.vtp", surface)
+
+def write_maps(file, maps):
     writer = lt.vtkOpenEXRWriter()
-    writer.SetFileName(folder.name("dragon_maps.exr"))
-    writer.SetInputData(atlas.GetMaps())
+    writer.SetFileName(file)
+    writer.SetInputData(maps)
     writer.SetMipLevels(True)
     writer.SetWeightArray("Area")
     writer.Write()
-    render_atlas(folder.name("dragon_atlas.png"), surface, atlas.GetMaps(), (0.3, 0.2, 1.0), (0.0, 1.0, 0.0))
 
+
+def show_atlas(folder, summary):
+    print("Stanford dragon: from scan to atlas")
+    scan = read_scan(os.path.join(DATA, "dragon_vrip_res3.ply.gz"))
+    borders, bad = count_edges(scan)
+    print(
+        f"  scan: {scan.GetNumberOfCells()} triangles, {borders} edges at borders,"
+        f" {bad} of more than two triangles"
+    )
+    mesher = lt.vtkPatchMesher()
+    mesher.SetInputData(scan)
+    meshing = update(mesher)
+    patches = mesher.GetOutput()
+    if count_edges(patches) != (0, 0):
+        raise DemoError("the dragon's patches are no closed manifold")
+    atlas = lt.vtkSurfaceAtlas()
+    atlas.SetInputData(patches)
+    unfolding = update(atlas)
+    surface = snapshot(atlas)
+    change = demand_kept_integral(surface)
+
+    folder.write_surface("dragon_atlas.vtp", surface)
+    write_maps(folder.name("dragon_maps.exr"), atlas.GetMaps())
+    render_atlas(
+        folder.name("dragon_atlas.png"), surface, atlas.GetMaps(), (0.3, 0.2, 1.0), (0.0, 1.0, 0.0)
+    )
     name = "dragon"
     summary.add(name, "patches of the mended scan", patches.GetNumberOfCells(), "")
     summary.add(name, "meshing", meshing, "s")
     summary.add(name, "atlas and texel maps", unfolding, "s")
-    for quantity in ("NumberOfCharts", "L2Stretch", "AreaDistortion", "TexelUse", "DeepestLeakFreeLevel"):
+    for quantity in (
+        "NumberOfCharts",
+        "L2Stretch",
+        "AreaDistortion",
+        "TexelUse",
+        "DeepestLeakFreeLevel",
+    ):
         summary.add(name, quantity, get_summary(surface, quantity), "")
     summary.add(name, "change of an integral, to texels and back", change, "of it")

@@ -25,7 +25,7 @@ def look_into_cornell_box(renderer):
 
 
 def render_colored_by_array(file, surface, name, color_range, look, size=512):
-    """As ParaView colours a surface by an array: a lookup table through a scalar mapper. `look` places the camera."""
+    """As ParaView colours a surface by an array. `look` places the camera."""
     actor = make_actor(surface)
     actor.GetProperty().BackfaceCullingOff()
     color_by_array(actor, name, color_range)
@@ -43,7 +43,7 @@ def render_cornell_box(file, surface, size=512):
 
 
 def render_bunny(file, surface, refractive_index, light, size=512):
-    """What is scattered, weighted for the eye, added to the mirror-like reflection of the light itself."""
+    """What is scattered, weighted for the eye, added to the mirror-like reflection of the light."""
     normals = vtkPolyDataNormals()
     normals.SetInputData(surface)
     normals.SplittingOff()

@@ -15,7 +15,7 @@ def plot_convergence(file, histories):
 
 
 def plot_error_against_time(file, rows):
-    """Error against the time of form factors and solver, one line per solver through the numbers of patches."""
+    """Error against the time of form factors and solver, a line per solver through the sizes."""
     lines = []
     for family, label in enumerate(dict.fromkeys(row["Solver"] for row in rows)):
         own = [row for row in rows if row["Solver"] == label]

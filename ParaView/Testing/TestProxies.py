@@ -49,7 +49,10 @@ def check_enumeration(label, domain, kind):
     prefix = "".join("_" + c if c.isupper() else c for c in label).upper().lstrip("_") + "_"
     constants = {getattr(kind, key): key[len(prefix):]
                  for key in dir(kind) if key.startswith(prefix)}
-    squeeze = lambda text: "".join(c for c in text.upper() if c.isalnum())
+
+    def squeeze(text):
+        return "".join(c for c in text.upper() if c.isalnum())
+
     if {k: squeeze(v) for k, v in names.items()} != {k: squeeze(v) for k, v in constants.items()}:
         return [f"{kind.__name__} {label}: {names} in the XML, {constants} in the class"]
     return []

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """TestPictures.py CASE BASELINE OUTPUT: draws one picture and compares it with its baseline.
 
-Renderers differ by a grey level here and there, and along edges; so two numbers are compared: the mean difference of all values,
-which a wrong brightness raises, and the share of pixels that are clearly different, which a wrong shape raises.
+Renderers differ by a grey level here and there, and along edges; so two numbers are compared: the
+mean difference of all values, which a wrong brightness raises, and the share of pixels that are
+clearly different, which a wrong shape raises.
 """
 
 import os
@@ -14,9 +15,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 import vtklighttransport as lt
+from vtklighttransport.shell.lights import make_light
 
-import demo
 import demo_pictures
+from demo_bunny import FROM_FRONT, Translucent, read_bunny
+from demo_cornell_box import RadiosityScene
 
 SIZE = 256
 
@@ -27,7 +30,7 @@ LARGEST_CLEAR_SHARE = 0.005
 
 
 def solve_cornell_box():
-    scene = demo.RadiosityScene(500)
+    scene = RadiosityScene(500)
     surface, _ = scene.solve(lt.vtkRadiosity.SOLVER_AUTO, lt.vtkRadiosity.DEVICE_CPU, 1e-6)
     return surface
 
@@ -48,10 +51,10 @@ def draw_colored_by_array(file):
 
 
 def draw_bunny(file):
-    marble = demo.Translucent(lt.vtkSubsurfaceScattering.MATERIAL_MARBLE)
-    lit, _ = marble.light(demo.read_bunny(), demo.FROM_FRONT)
+    marble = Translucent(lt.vtkSubsurfaceScattering.MATERIAL_MARBLE)
+    lit, _ = marble.light(read_bunny(), FROM_FRONT)
     surface, _ = marble.scatter(lit, marble.filter.DEVICE_CPU)
-    light = demo.light_from(demo.FROM_FRONT)
+    light = make_light(FROM_FRONT)
     demo_pictures.render_bunny(file, surface, marble.refractive_index, light, SIZE)
 
 
@@ -79,14 +82,16 @@ def compare(picture, baseline):
     mean = difference.mean()
     share = (difference.max(axis=2) > CLEAR_DIFFERENCE).mean()
     print(f"mean difference {mean:.3f} of 255 (at most {LARGEST_MEAN_DIFFERENCE})")
-    print(f"pixels off by more than {CLEAR_DIFFERENCE}: {share:.4%} (at most {LARGEST_CLEAR_SHARE:.2%})")
+    print(f"pixels off by more than {CLEAR_DIFFERENCE}: {share:.4%}"
+          f" (at most {LARGEST_CLEAR_SHARE:.2%})")
     return mean <= LARGEST_MEAN_DIFFERENCE and share <= LARGEST_CLEAR_SHARE
 
 
 def main(case, baseline, output):
     CASES[case](output)
     if not os.path.isfile(baseline):
-        print(f"There is no baseline {baseline}. The picture is in {output}: look at it, then copy it there.")
+        print(f"There is no baseline {baseline}.")
+        print(f"The picture is in {output}: look at it, then copy it there.")
         return 1
     if not compare(read_picture(output), read_picture(baseline)):
         print(f"{output} differs from {baseline}.")
