@@ -11,7 +11,7 @@ import sys
 import PluginTools  # noqa: F401 (loads the plugin)
 
 from paraview import simple
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from TestingTools import write_surface
 
 case, folder = sys.argv[1:]
 scripts = os.path.dirname(os.path.abspath(__file__))
@@ -38,10 +38,5 @@ results = {
     "scattering": simple.ViewFactors(Input=scattering)}
 for name, result in results.items():
     result.UpdatePipeline()
-    writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(simple.servermanager.Fetch(result))
-    # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
-    writer.SetDataModeToBinary()
-    writer.SetFileName(os.path.join(folder, name + ".vtp"))
-    writer.Write()
+    write_surface(os.path.join(folder, name + ".vtp"), simple.servermanager.Fetch(result))
 print("the script came to its end", flush=True)

@@ -10,28 +10,14 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkPoints, 
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
+from TestingTools import make_box
+
 GHOSTS_ON_EACH_SIDE = 7
 
 
-def make_box(low, high, outside, count):
-    """Patches of a box, as lists of corners: count x count on each side."""
-    for axis in range(3):
-        for end in (0, 1):
-            for i in range(count):
-                for j in range(count):
-                    square = []
-                    for steps in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
-                        corner = [0.0, 0.0, 0.0]
-                        corner[axis] = high[axis] if end else low[axis]
-                        for place, step in zip(((axis + 1) % 3, (axis + 2) % 3), steps):
-                            corner[place] = low[place] + (high[place] - low[place]) * step / count
-                        square.append(tuple(corner))
-                    yield square if (end == 1) == outside else square[::-1]
-
-
 def make_patches():
-    return (list(make_box((0, 0, 0), (1, 1, 1), False, 5)) +
-            list(make_box((0.3, 0.3, 0.05), (0.6, 0.7, 0.5), True, 3)))
+    return (make_box((0, 0, 0), (1, 1, 1), count=5) +
+            make_box((0.3, 0.3, 0.05), (0.6, 0.7, 0.5), outside=True, count=3))
 
 
 def choose_patches(case, rank, ranks, count):

@@ -7,6 +7,8 @@ import sys
 
 from paraview import simple
 
+from TestingTools import get_tuples
+
 simple.LoadPlugin(os.environ["LIGHT_TRANSPORT_PLUGIN"], remote=False, ns=vars(simple))
 
 
@@ -30,10 +32,6 @@ def get_arrays(attributes):
 def get_summary(data, name):
     array = data.GetFieldData().GetAbstractArray(name)
     return array.GetValue(0) if array else None
-
-
-def get_tuples(array):
-    return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
 
 
 def compare_arrays(name, expected, found, tolerance):

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from TestingTools import read_surface
 
 ARRAYS = {
     "radiosity": ("Radiosity", "Irradiance", "NetFlux"),
@@ -35,10 +35,7 @@ def run(command, case, folder):
 
 
 def load(folder, name):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(os.path.join(folder, name + ".vtp"))
-    reader.Update()
-    return reader.GetOutput()
+    return read_surface(os.path.join(folder, name + ".vtp"))
 
 
 def get_values(data, name):

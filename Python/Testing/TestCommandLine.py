@@ -4,46 +4,29 @@
 
 import math
 import os
+import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import vtklighttransport as lt
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+from vtklighttransport import commands
 
-FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+from TestingTools import (
+    CUBE_CORNERS, CUBE_FACES, add_array, get_tuples, join_points, make_surface, read_surface,
+    write_surface)
 
 
 def make_cube(outside=False, first=0.0):
     """The unit cube, seen from inside or from outside."""
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    for corner in range(8):
-        points.InsertNextPoint(corner & 1 or first, corner >> 1 & 1, corner >> 2)
-    cells = vtkCellArray()
-    for face in FACES:
-        cells.InsertNextCell(4, face[::-1] if outside else face)
-    cube = vtkPolyData()
-    cube.SetPoints(points)
-    cube.SetPolys(cells)
-    return cube
-
-
-def add_array(surface, name, values):
-    array = vtkDoubleArray()
-    array.SetName(name)
-    for value in values:
-        array.InsertNextValue(value)
-    surface.GetCellData().AddArray(array)
-    return surface
+    corners = [(x or first, y, z) for x, y, z in CUBE_CORNERS]
+    return join_points(corners, [face[::-1] if outside else face for face in CUBE_FACES])
 
 
 def get_values(surface, name):
-    array = surface.GetCellData().GetArray(name)
-    return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+    return get_tuples(surface.GetCellData().GetArray(name))
 
 
 class TestCommandLine(unittest.TestCase):
@@ -56,19 +39,11 @@ class TestCommandLine(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def save(self, name, surface):
-        writer = vtkXMLPolyDataWriter()
-        writer.SetInputData(surface)
-        # Encoded, not raw: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
-        writer.SetDataModeToBinary()
-        writer.SetFileName(self.path(name))
-        self.assertEqual(writer.Write(), 1)
+        self.assertTrue(write_surface(self.path(name), surface))
         return self.path(name)
 
     def load(self, name):
-        reader = vtkXMLPolyDataReader()
-        reader.SetFileName(self.path(name))
-        reader.Update()
-        return reader.GetOutput()
+        return read_surface(self.path(name))
 
     def run_command(self, *arguments):
         return subprocess.run(
@@ -97,6 +72,35 @@ class TestCommandLine(unittest.TestCase):
         for text in ("--material", "marble", "[custom]", "per mm [1 1 1]", "millimetres; 10 for"):
             self.assertIn(text, " ".join(result.stdout.split()))
         self.assertEqual(self.run_command("--version").stdout.strip(), lt.__version__)
+
+    def test_commands(self):
+        """Each file of the folder is a command, and says what it is."""
+        files = {file.stem for file in pathlib.Path(commands.__file__).parent.glob("[a-z]*.py")}
+        self.assertEqual(files, set(commands.MODULES))
+        overview = self.run_command("--help").stdout
+        for name, module in commands.load_commands().items():
+            self.assertIn(f"{name} ", overview)
+            self.assertIn(module.HELP, " ".join(overview.split()))
+            result = self.run_command(name, "--help")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn(module.DESCRIPTION, " ".join(result.stdout.split()))
+
+    def test_interrupted(self):
+        # Enough patches for a second or more of view factors.
+        wall = [[(x, y, z), (x + 1, y, z), (x + 1, y + 1, z), (x, y + 1, z)]
+                for x in range(40) for y in range(40) for z in (0.0, 9.0)]
+        wall = [square if square[0][2] == 0.0 else square[::-1] for square in wall]
+        surface = add_array(make_surface(wall), "Emission", [1.0] * len(wall))
+        source = self.save("in.vtp", add_array(surface, "Reflectance", [0.5] * len(wall)))
+        command = [sys.executable, "-m", "vtklighttransport", "radiosity", source,
+                   self.path("out.vtp"), "--view-factor-tolerance", "1e-8"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
+            self.assertIn("read: ", process.stderr.readline())
+            process.send_signal(signal.SIGINT)
+            output, errors = process.communicate(timeout=100)
+        self.assertEqual((process.returncode, output, errors), (130, "", "interrupted\n"))
+        self.assertEqual(os.listdir(self.folder), ["in.vtp"])
 
     def test_radiosity(self):
         source = self.make_lit_cube()

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The package has every class of every module that was built."""
 
+import ast
+import graphlib
 import os
 import pathlib
 import re
@@ -9,6 +11,8 @@ import unittest
 
 import vtklighttransport as lt
 from vtklighttransport import _build
+
+from TestingTools import CUBE_CORNERS, CUBE_FACES
 
 SOURCE = pathlib.Path(os.environ["LIGHT_TRANSPORT_SOURCE"])
 FOLDERS = {
@@ -25,6 +29,21 @@ FILTERS = {
     "vtkLightTransportRendering": (),
     "vtkLightTransportIO": ("vtkOpenEXRReader", "vtkOpenEXRWriter"),
 }
+
+
+def find_imports():
+    """Pairs of modules of the package of which the first imports the second, at once or later."""
+    root = SOURCE / "Python" / "vtklighttransport"
+    files = {".".join(("vtklighttransport", *file.relative_to(root).with_suffix("").parts))
+             .replace(".__init__", ""): file for file in root.rglob("*.py")}
+    for name, file in files.items():
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.ImportFrom) and node.level == 0:
+                for alias in node.names:
+                    full = f"{node.module}.{alias.name}"
+                    imported = full if full in files else node.module
+                    if imported in files and imported != "vtklighttransport":
+                        yield name, imported
 
 
 class TestImport(unittest.TestCase):
@@ -51,6 +70,17 @@ class TestImport(unittest.TestCase):
             if module not in _build.MODULES:
                 for name in names:
                     self.assertFalse(hasattr(lt, name), name)
+
+    def test_no_circles(self):
+        """No module of the package imports what imports it, nor does any folder."""
+        for find_place in (str, lambda name: ".".join(name.split(".")[:2])):
+            arrows = {}
+            for name, imported in find_imports():
+                if find_place(name) != find_place(imported):
+                    arrows.setdefault(find_place(name), set()).add(find_place(imported))
+            self.assertTrue(arrows)
+            # Raises CycleError, which names the circle.
+            graphlib.TopologicalSorter(arrows).prepare()
 
     @unittest.skipUnless("vtkLightTransportFilters" in _build.MODULES, "module not built")
     def test_constants_and_setters(self):
@@ -81,9 +111,7 @@ class TestImport(unittest.TestCase):
             self.skipTest("no numpy")
         from vtklighttransport import arrays
         # The unit cube, seen from inside; one face emits.
-        points = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
-        faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-        cube = arrays.make_surface(points, faces)
+        cube = arrays.make_surface(CUBE_CORNERS, CUBE_FACES)
         arrays.set_cell_array(cube, "Emission", numpy.array([1.0, 0, 0, 0, 0, 0]))
         arrays.set_cell_array(cube, "Reflectance", 0.5)
         radiosity = lt.vtkRadiosity()

@@ -18,22 +18,19 @@ import numpy
 import vtklighttransport as lt
 from vtklighttransport.arrays import (
     divide_triangles, get_area_vectors, get_cell_array, make_surface, set_cell_array)
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from TestingTools import CUBE_CORNERS, CUBE_FACES, read_picture, write_surface
 
 NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all", "bytes",
            "links", "iterations", "error_bound")
 ERRORS = ("error_l2", "error_max", "error_irradiance")
 COLUMNS = {"method", "solver", "reference", "device", *NUMBERS, *ERRORS}
-FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
 def make_room(bands=3):
     """A lit cube seen from inside, without its far side (z = 1), and a screen that hides much."""
-    points = [(corner & 1, corner >> 1 & 1, corner >> 2) for corner in range(8)]
-    points += [(0.3, 0.2, 0.5), (0.7, 0.2, 0.45), (0.7, 0.8, 0.5), (0.3, 0.8, 0.55)]
-    polygons = [face for face in FACES if face != (4, 6, 7, 5)]
+    points = CUBE_CORNERS + [(0.3, 0.2, 0.5), (0.7, 0.2, 0.45), (0.7, 0.8, 0.5), (0.3, 0.8, 0.55)]
+    polygons = [face for face in CUBE_FACES if face != (4, 6, 7, 5)]
     polygons = [(a, b, c) for a, b, c, d in polygons] + [(a, c, d) for a, b, c, d in polygons]
     polygons += [(8, 9, 10), (8, 10, 11), (10, 9, 8), (11, 10, 8)]
     room = make_surface(points, polygons)
@@ -42,13 +39,6 @@ def make_room(bands=3):
     set_cell_array(room, "Emission", emission)
     set_cell_array(room, "Reflectance", numpy.full(len(polygons), 0.6))
     return room
-
-
-def read_values(file):
-    reader = vtkPNGReader()
-    reader.SetFileName(file)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(float)
 
 
 class TestReport(unittest.TestCase):
@@ -61,12 +51,7 @@ class TestReport(unittest.TestCase):
         return os.path.join(self.folder, *names)
 
     def save(self, name, surface):
-        writer = vtkXMLPolyDataWriter()
-        writer.SetInputData(surface)
-        # Encoded: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
-        writer.SetDataModeToBinary()
-        writer.SetFileName(self.path(name))
-        self.assertEqual(writer.Write(), 1)
+        self.assertTrue(write_surface(self.path(name), surface))
         return self.path(name)
 
     def make_command(self, source, *arguments, folder="report"):
@@ -93,7 +78,7 @@ class TestReport(unittest.TestCase):
 
     def check_pictures(self, names):
         for name in names:
-            values = read_values(self.path("report", name))
+            values = read_picture(self.path("report", name)).reshape(-1, 3)
             self.assertGreater(values.std(), 5.0, name)
             self.assertGreater(len(numpy.unique(values, axis=0)), 10, name)
 

@@ -7,49 +7,18 @@ import tempfile
 import unittest
 
 import vtklighttransport as lt
+from vtklighttransport.summaries import get_summary
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPolyData)
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPolyData
+
+from TestingTools import add_array, make_box, make_surface
 
 # Opposite and neighboring faces of a cube.
 OPPOSITE = 0.19982489569838746
 BESIDE = (1.0 - OPPOSITE) / 4.0
 # Single precision entries.
 SINGLE = 1e-7
-
-
-def make_box(low, high, outside=False, count=1):
-    """The polygons of a box: two faces for each axis, of count x count patches."""
-    polygons = []
-    for axis in range(3):
-        for end in (0, 1):
-            for i in range(count):
-                for j in range(count):
-                    square = []
-                    for steps in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
-                        corner = [0.0, 0.0, 0.0]
-                        corner[axis] = (low, high)[end][axis]
-                        for place, step in zip(((axis + 1) % 3, (axis + 2) % 3), steps):
-                            corner[place] = low[place] + (high[place] - low[place]) * step / count
-                        square.append(corner)
-                    polygons.append(square if (end == 1) == outside else square[::-1])
-    return polygons
-
-
-def make_surface(polygons):
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    cells = vtkCellArray()
-    for polygon in polygons:
-        cells.InsertNextCell(len(polygon))
-        for corner in polygon:
-            cells.InsertCellPoint(points.InsertNextPoint(corner))
-    surface = vtkPolyData()
-    surface.SetPoints(points)
-    surface.SetPolys(cells)
-    return surface
 
 
 def make_cube(size=1.0):
@@ -62,23 +31,9 @@ def make_room():
                         make_box((0.3, 0.3, 0.2), (0.6, 0.7, 0.5), outside=True, count=2))
 
 
-def add_array(surface, name, values, components=1):
-    array = vtkDoubleArray()
-    array.SetName(name)
-    array.SetNumberOfComponents(components)
-    for value in values:
-        array.InsertNextTuple((value,) * components)
-    surface.GetCellData().AddArray(array)
-    return surface
-
-
 def get_values(surface, name):
     array = surface.GetCellData().GetArray(name)
     return [array.GetValue(i) for i in range(array.GetNumberOfTuples())]
-
-
-def get_summary(surface, name):
-    return surface.GetFieldData().GetArray(name).GetValue(0)
 
 
 def get_table(factors):

@@ -11,8 +11,6 @@ import os
 import sys
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 
 import vtklighttransport as lt
 from vtklighttransport.shell.lights import make_light
@@ -20,6 +18,7 @@ from vtklighttransport.shell.lights import make_light
 import demo_pictures
 from demo_bunny import FROM_FRONT, Translucent, read_bunny
 from demo_cornell_box import RadiosityScene
+from TestingTools import read_picture
 
 SIZE = 256
 
@@ -63,15 +62,6 @@ CASES = {
     "ColoredByArray": draw_colored_by_array,
     "BunnyDirectAndScattered": draw_bunny,
 }
-
-
-def read_picture(file):
-    reader = vtkPNGReader()
-    reader.SetFileName(file)
-    reader.Update()
-    image = reader.GetOutput()
-    values = vtk_to_numpy(image.GetPointData().GetScalars())
-    return values.reshape(image.GetDimensions()[1], image.GetDimensions()[0], -1)[:, :, :3].astype(int)
 
 
 def compare(picture, baseline):
