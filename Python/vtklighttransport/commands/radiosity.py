@@ -53,4 +53,5 @@ def run(options, messages):
     return write_patches(
         options, messages, result,
         f"{get_summary(result, 'NumberOfIterations'):.0f} iterations, "
-        f"error bound {get_summary(result, 'ErrorBound'):.2g}")
+        f"error bound {get_summary(result, 'ErrorBound'):.2g}, "
+        f"{get_summary(result, 'DeviceUsed')}")

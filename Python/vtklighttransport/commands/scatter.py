@@ -68,7 +68,8 @@ def run(options, messages):
             choose_array(scattering, IRRADIANCE.index, "DirectIrradiance")
     result = Stage("scattering", scattering, options.quiet).run(messages, surface)
     return write_patches(
-        options, messages, result, f"{get_summary(result, 'NumberOfLinks'):.0f} links")
+        options, messages, result,
+        f"{get_summary(result, 'NumberOfLinks'):.0f} links, {get_summary(result, 'DeviceUsed')}")
 
 
 def find_refractive_index(scattering):

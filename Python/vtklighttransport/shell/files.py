@@ -6,7 +6,6 @@ import importlib
 import os
 
 from vtklighttransport.shell.stages import Failure, Stage
-from vtklighttransport.summaries import get_summary
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 READERS = {
@@ -90,5 +89,4 @@ def write(options, messages, data):
 def write_patches(options, messages, result, text):
     """Writes what a filter has added to patches; returns the line that tells of it."""
     write(options, messages, result)
-    return (f"{options.output}: {result.GetNumberOfCells()} patches, {text}, "
-            f"{get_summary(result, 'DeviceUsed')}")
+    return f"{options.output}: {result.GetNumberOfCells()} patches, {text}"
