@@ -3,7 +3,7 @@
 #include "vtkCPULinkOperator.h"
 
 #include "Shared/Threads.h"
-#include "vtkCommunicator.h"
+#include "Support/Ranks.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkHierarchicalLinkOperator.h"
@@ -64,7 +64,7 @@ bool vtkCPULinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
     return false;
   }
   if (exchange->GetNumberOfParts() > 1 &&
-    (!this->Controller || this->Controller->GetNumberOfProcesses() != exchange->GetNumberOfParts()))
+    Ranks(this->Controller).GetNumber() != exchange->GetNumberOfParts())
   {
     vtkErrorMacro("The exchange matrix is in "
       << exchange->GetNumberOfParts()
@@ -162,13 +162,8 @@ bool vtkCPULinkOperator::Multiply(int y, int x)
   }
   Vector& target = this->MakeVector(y);
   this->MultiplyPart(*source, target);
-  if (this->NumberOfParts > 1)
-  {
-    const Vector part = target;
-    return this->Controller->AllReduce(part.data(), target.data(),
-             static_cast<vtkIdType>(target.size()), vtkCommunicator::SUM_OP) != 0;
-  }
-  return true;
+  return this->NumberOfParts == 1 ||
+    Ranks(this->Controller).Sum(target.data(), static_cast<std::size_t>(target.size()));
 }
 
 //------------------------------------------------------------------------------

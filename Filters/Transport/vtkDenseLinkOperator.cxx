@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDenseLinkOperator.h"
 
-#include "Links/TileKernels.h"
+#include "Operators/TileKernels.h"
 #include "Shared/Threads.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkObjectFactory.h"

@@ -44,8 +44,8 @@ struct vtkDirectIrradiance::LightList
 class vtkDirectIrradiance::Run : public TransportRun
 {
 public:
-  Run(vtkDirectIrradiance* self, const RunPorts& ports)
-    : TransportRun(ports), Self(self), StartTime(vtkTimerLog::GetUniversalTime())
+  Run(vtkDirectIrradiance* owner, const RunPorts& ports)
+    : TransportRun(ports), Owner(owner), StartTime(vtkTimerLog::GetUniversalTime())
   {
   }
 
@@ -59,7 +59,7 @@ private:
   Outcome ReadLights();
   void ComputePatch(vtkIdType patch);
 
-  vtkDirectIrradiance* Self;
+  vtkDirectIrradiance* Owner;
   double StartTime;
   std::vector<std::unique_ptr<LightSource>> Sources;
   SceneRayCaster Caster;
@@ -73,7 +73,7 @@ private:
 //------------------------------------------------------------------------------
 Outcome vtkDirectIrradiance::Run::Check()
 {
-  const double index = this->Self->RefractiveIndex;
+  const double index = this->Owner->RefractiveIndex;
   if (!(index >= 1.0) || !std::isfinite(index))
   {
     std::ostringstream text;
@@ -87,11 +87,11 @@ Outcome vtkDirectIrradiance::Run::Check()
 Outcome vtkDirectIrradiance::Run::Read()
 {
   Outcome read = this->ReadLights();
-  if (read && this->Self->Environment)
+  if (read && this->Owner->Environment)
   {
     auto environment =
-      std::make_unique<LightTransport::Environment>(this->Self->EnvironmentSamples);
-    read = environment->Read(this->Self->Environment);
+      std::make_unique<LightTransport::Environment>(this->Owner->EnvironmentSamples);
+    read = environment->Read(this->Owner->Environment);
     this->Sources.push_back(std::move(environment));
   }
   return read;
@@ -100,9 +100,9 @@ Outcome vtkDirectIrradiance::Run::Read()
 //------------------------------------------------------------------------------
 Outcome vtkDirectIrradiance::Run::ReadLights()
 {
-  for (int index = 0; index < this->Self->GetNumberOfLights(); ++index)
+  for (int index = 0; index < this->Owner->GetNumberOfLights(); ++index)
   {
-    vtkLight* object = this->Self->GetLight(index);
+    vtkLight* object = this->Owner->GetLight(index);
     if (!object->GetSwitch())
     {
       continue;
@@ -114,14 +114,14 @@ Outcome vtkDirectIrradiance::Run::ReadLights()
         " is a headlight or camera light, which follows a camera, and a filter has none: call "
         "SetLightTypeToSceneLight().");
     }
-    auto light = std::make_unique<PunctualLight>(this->Self->ShadowSamples);
+    auto light = std::make_unique<PunctualLight>(this->Owner->ShadowSamples);
     if (Outcome read = light->Read(object, this->Scene); !read)
     {
       return Outcome::Failed(name + read.GetMessage());
     }
     this->Sources.push_back(std::move(light));
   }
-  if (this->Sources.empty() && !this->Self->Environment)
+  if (this->Sources.empty() && !this->Owner->Environment)
   {
     this->Warn("No light is on and there is no environment: the irradiance is 0. Add one with "
                "AddLight or SetEnvironment.");
@@ -133,7 +133,7 @@ Outcome vtkDirectIrradiance::Run::ReadLights()
 // Each rank lights its own patches.
 Outcome vtkDirectIrradiance::Run::Compute()
 {
-  const Outcome built = this->Self->Shadows ? this->Caster.Build(this->Scene) : Outcome::Done();
+  const Outcome built = this->Owner->Shadows ? this->Caster.Build(this->Scene) : Outcome::Done();
   if (Outcome agreed = this->AllRanks.Agree(built); !agreed)
   {
     return agreed;
@@ -171,8 +171,8 @@ Outcome vtkDirectIrradiance::Run::Compute()
 //------------------------------------------------------------------------------
 void vtkDirectIrradiance::Run::ComputePatch(vtkIdType patch)
 {
-  const LitPatch lit(this->Scene, this->Self->Shadows ? &this->Caster : nullptr,
-    this->Self->RefractiveIndex, patch);
+  const LitPatch lit(this->Scene, this->Owner->Shadows ? &this->Caster : nullptr,
+    this->Owner->RefractiveIndex, patch);
   LightSum sum;
   for (const auto& source : this->Sources)
   {
@@ -185,14 +185,14 @@ void vtkDirectIrradiance::Run::ComputePatch(vtkIdType patch)
 //------------------------------------------------------------------------------
 void vtkDirectIrradiance::Run::Write()
 {
-  const SmoothPoints points(this->Scene, this->Self->FeatureAngle);
+  const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
   const SceneOutput output(this->Scene, &points, this->Input, this->Output);
   output.AddArray(ArrayNames::DirectIrradiance, this->Incident, LightBands);
   vtkFieldData* fields = this->GetOutputFields();
-  if (this->Self->RefractiveIndex > 1.0)
+  if (this->Owner->RefractiveIndex > 1.0)
   {
     output.AddArray(ArrayNames::TransmittedIrradiance, this->Transmitted, LightBands);
-    FieldValues::Add(fields, ArrayNames::RefractiveIndex, this->Self->RefractiveIndex);
+    FieldValues::Add(fields, ArrayNames::RefractiveIndex, this->Owner->RefractiveIndex);
   }
   double rays = 0.0;
   double flux[LightBands] = {};
@@ -206,7 +206,7 @@ void vtkDirectIrradiance::Run::Write()
     }
   }
   FieldValues::Add(fields, "DirectFlux", flux, LightBands);
-  FieldValues::Add(fields, "DirectIrradianceRays", this->Self->Shadows ? rays : 0.0);
+  FieldValues::Add(fields, "DirectIrradianceRays", this->Owner->Shadows ? rays : 0.0);
   FieldValues::Add(fields, "DirectIrradianceSeconds",
     vtkTimerLog::GetUniversalTime() - this->StartTime);
 }

@@ -116,7 +116,7 @@ void PrintValues(ostream& os, const std::vector<double>& values)
 class vtkRadiosity::Run : public TransportRun
 {
 public:
-  Run(vtkRadiosity* self, const RunPorts& ports) : TransportRun(ports), Self(self) {}
+  Run(vtkRadiosity* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner) {}
 
 protected:
   Outcome Check() override;
@@ -144,7 +144,7 @@ private:
   void WriteThermal(const std::vector<double>& flux, const SceneOutput& output);
   void WriteSummaries() const;
 
-  vtkRadiosity* Self;
+  vtkRadiosity* Owner;
   RadiosityMaterials Materials;
   const LightTransport::Links* Links = nullptr; // null where the solver needs none
   LightTransport::Links BrightLinks;            // serve this run's light alone
@@ -161,15 +161,15 @@ private:
 // Southwell on OpenGL finds what patches see while it goes, and keeps no links.
 bool vtkRadiosity::Run::ShootsOnDevice() const
 {
-  return this->Self->Solver == SOLVER_SOUTHWELL && this->Self->Device == DEVICE_OPENGL;
+  return this->Owner->Solver == SOLVER_SOUTHWELL && this->Owner->Device == DEVICE_OPENGL;
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Check()
 {
-  const vtkViewFactors* given = this->ShootsOnDevice() ? nullptr : this->Self->ViewFactors;
+  const vtkViewFactors* given = this->ShootsOnDevice() ? nullptr : this->Owner->ViewFactors;
   const bool givenHierarchical = given && given->LinksClusters();
-  const int method = this->Self->LinkMethod;
+  const int method = this->Owner->LinkMethod;
   if (given && method != LINK_METHOD_AUTO &&
     givenHierarchical != (method == LINK_METHOD_HIERARCHICAL))
   {
@@ -178,7 +178,7 @@ Outcome vtkRadiosity::Run::Check()
                   "Hierarchical of vtkViewFactors ") +
       (givenHierarchical ? "off." : "on."));
   }
-  if (this->Self->Solver == SOLVER_GAUSS_SEIDEL &&
+  if (this->Owner->Solver == SOLVER_GAUSS_SEIDEL &&
     (givenHierarchical || method == LINK_METHOD_HIERARCHICAL))
   {
     return Outcome::Failed(
@@ -191,12 +191,12 @@ Outcome vtkRadiosity::Run::Check()
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::CheckSolver() const
 {
-  const int solver = this->Self->Solver;
+  const int solver = this->Owner->Solver;
   if (!RadiositySolvers::IsSequential(solver) || this->ShootsOnDevice())
   {
-    return LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Self->Device), this->AllRanks);
+    return LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Owner->Device), this->AllRanks);
   }
-  if (this->Self->Device == DEVICE_OPENGL || this->AllRanks.AreSeveral())
+  if (this->Owner->Device == DEVICE_OPENGL || this->AllRanks.AreSeveral())
   {
     return Outcome::Failed(std::string(RadiositySolvers::GetName(solver)) +
       " goes from patch to patch and runs on the CPU of one process: set Device to Auto or CPU on "
@@ -212,8 +212,8 @@ Outcome vtkRadiosity::Run::Gather()
   Outcome gathered = this->TransportRun::Gather();
   if (gathered && !this->ShootsOnDevice() && this->IsHierarchical())
   {
-    const vtkViewFactors* given = this->Self->ViewFactors;
-    gathered = this->GatherForClusters(given ? given->ClusterTree : this->Self->ClusterTree);
+    const vtkViewFactors* given = this->Owner->ViewFactors;
+    gathered = this->GatherForClusters(given ? given->ClusterTree : this->Owner->ClusterTree);
   }
   return gathered;
 }
@@ -221,14 +221,14 @@ Outcome vtkRadiosity::Run::Gather()
 //------------------------------------------------------------------------------
 bool vtkRadiosity::Run::IsHierarchical() const
 {
-  if (this->Self->ViewFactors)
+  if (this->Owner->ViewFactors)
   {
-    return this->Self->ViewFactors->LinksClusters();
+    return this->Owner->ViewFactors->LinksClusters();
   }
-  return this->Self->LinkMethod == LINK_METHOD_HIERARCHICAL ||
-    (this->Self->LinkMethod == LINK_METHOD_AUTO &&
+  return this->Owner->LinkMethod == LINK_METHOD_HIERARCHICAL ||
+    (this->Owner->LinkMethod == LINK_METHOD_AUTO &&
       this->Scene.GetNumberOfPatches() > MostDensePatches &&
-      this->Self->Solver != SOLVER_GAUSS_SEIDEL);
+      this->Owner->Solver != SOLVER_GAUSS_SEIDEL);
 }
 
 //------------------------------------------------------------------------------
@@ -239,9 +239,9 @@ Outcome vtkRadiosity::Run::Read()
   {
     names.push_back(this->GetArrayName(array, RadiosityMaterials::GetDefaultName(array)));
   }
-  this->Materials.BandLimits = this->Self->BandLimits;
-  this->Materials.BackgroundTemperature = this->Self->BackgroundTemperature;
-  this->Materials.BackgroundRadiance = this->Self->BackgroundRadiances;
+  this->Materials.BandLimits = this->Owner->BandLimits;
+  this->Materials.BackgroundTemperature = this->Owner->BackgroundTemperature;
+  this->Materials.BackgroundRadiance = this->Owner->BackgroundRadiances;
   std::string error;
   const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
   return this->Materials.Read(arrays, this->Scene, names, error) ? Outcome::Done()
@@ -258,8 +258,8 @@ Outcome vtkRadiosity::Run::Link()
     return Outcome::Done();
   }
   const bool isBright =
-    this->Self->RefineByBrightness && !this->Self->ViewFactors && this->IsHierarchical();
-  const double tolerance = this->Self->LinkTolerance;
+    this->Owner->RefineByBrightness && !this->Owner->ViewFactors && this->IsHierarchical();
+  const double tolerance = this->Owner->LinkTolerance;
   const double coarse = std::max(std::min(CoarseLinks * tolerance, CoarsestLinks), tolerance);
   const bool isCoarse = isBright && !this->Materials.HasBackground();
   Outcome linked = this->UpdateLinks(isCoarse ? coarse : tolerance,
@@ -274,10 +274,10 @@ Outcome vtkRadiosity::Run::Link()
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const Monitor& monitor)
 {
-  vtkViewFactors* given = this->Self->ViewFactors;
-  ViewFactorStore& store = given ? *given->Store : *this->Self->OwnViewFactors;
-  const bool needsAll = given || this->Self->EnforceClosure || this->Materials.HasBackground();
-  const ViewFactorSettings own{ this->Self->ViewFactorTolerance, this->Self->EnforceClosure,
+  vtkViewFactors* given = this->Owner->ViewFactors;
+  ViewFactorStore& store = given ? *given->Store : *this->Owner->OwnViewFactors;
+  const bool needsAll = given || this->Owner->EnforceClosure || this->Materials.HasBackground();
+  const ViewFactorSettings own{ this->Owner->ViewFactorTolerance, this->Owner->EnforceClosure,
     this->IsHierarchical(), linkTolerance };
   this->Links = &store.GetLinks();
   return store.Update(this->Scene, given ? given->GetSettings() : own,
@@ -298,9 +298,9 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
   const Monitor second = monitor.GetStage(CoarseSolved, LinksDone);
   if (!isKnown)
   {
-    return this->UpdateLinks(this->Self->LinkTolerance, second);
+    return this->UpdateLinks(this->Owner->LinkTolerance, second);
   }
-  const HierarchicalViewFactors builder(this->Self->LinkTolerance,
+  const HierarchicalViewFactors builder(this->Owner->LinkTolerance,
     FindBrightness(this->Solution.Radiosity, this->Scene.GetAreas()));
   this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
   this->Links = &this->BrightLinks;
@@ -323,9 +323,9 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
   vtkExchange* exchange = this->Links->GetExchange();
-  const LinkDevice device = RadiositySolvers::IsSequential(this->Self->Solver)
+  const LinkDevice device = RadiositySolvers::IsSequential(this->Owner->Solver)
     ? LinkDevice::CPU
-    : static_cast<LinkDevice>(this->Self->Device);
+    : static_cast<LinkDevice>(this->Owner->Device);
   vtkSmartPointer<vtkLinkOperator> links;
   Outcome made = LinkOperators::Make(device, exchange, this->Materials.NumberOfBands,
     this->AllRanks, links, this->DeviceExplanation);
@@ -374,7 +374,7 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
   RadiosityProblem equation = this->DescribeEquation();
   const vtkIdType patches = equation.NumberOfPatches;
   equation.MaximumNumberOfIterations = static_cast<int>(
-    std::min<vtkIdType>(VTK_INT_MAX, patches * this->Self->MaximumNumberOfIterations));
+    std::min<vtkIdType>(VTK_INT_MAX, patches * this->Owner->MaximumNumberOfIterations));
   this->RecordConvergence(equation, begin, monitor);
 
   this->Solution = ProgressiveRadiosity::Solve(shooter, this->Scene, equation, this->Irradiance);
@@ -394,7 +394,7 @@ RadiosityProblem vtkRadiosity::Run::DescribeEquation() const
 {
   const RadiosityMaterials& materials = this->Materials;
   RadiosityProblem equation;
-  equation.Solver = this->Self->Solver;
+  equation.Solver = this->Owner->Solver;
   equation.NumberOfBands = materials.NumberOfBands;
   equation.Reflectance = materials.Reflectance;
   equation.Emission = materials.Emission;
@@ -404,8 +404,8 @@ RadiosityProblem vtkRadiosity::Run::DescribeEquation() const
   }
   equation.NumberOfPatches =
     static_cast<vtkIdType>(equation.Emission.size()) / equation.NumberOfBands;
-  equation.Tolerance = this->Self->Tolerance;
-  equation.MaximumNumberOfIterations = this->Self->MaximumNumberOfIterations;
+  equation.Tolerance = this->Owner->Tolerance;
+  equation.MaximumNumberOfIterations = this->Owner->MaximumNumberOfIterations;
   return equation;
 }
 
@@ -429,7 +429,7 @@ void vtkRadiosity::Run::RecordConvergence(RadiosityProblem& equation, double beg
   }
   vtkIntArray* count = iterations;
   const double most = equation.MaximumNumberOfIterations;
-  const double tolerance = this->Self->Tolerance;
+  const double tolerance = this->Owner->Tolerance;
   double first = 0.0;
   equation.Report = [=](int iteration, double residual, double bound) mutable
   {
@@ -494,7 +494,7 @@ bool vtkRadiosity::Run::Finish()
 void vtkRadiosity::Run::Write()
 {
   const int bands = this->Materials.NumberOfBands;
-  const SmoothPoints points(this->Scene, this->Self->FeatureAngle,
+  const SmoothPoints points(this->Scene, this->Owner->FeatureAngle,
     this->Materials.GetPointMaterials(), 2 * bands);
   const SceneOutput output(this->Scene, &points, this->Input, this->Output);
   const std::vector<double>& radiosity = this->Solution.Radiosity;

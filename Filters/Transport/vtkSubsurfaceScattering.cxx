@@ -70,7 +70,7 @@ vtkDataArray* FindFieldArray(vtkDataObject* data, const char* name)
 class vtkSubsurfaceScattering::Run : public TransportRun
 {
 public:
-  Run(vtkSubsurfaceScattering* self, const RunPorts& ports) : TransportRun(ports), Self(self) {}
+  Run(vtkSubsurfaceScattering* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner) {}
 
 protected:
   Outcome Check() override;
@@ -85,7 +85,7 @@ private:
   void CompareIndices() const;
   double GetEntering() const;
 
-  vtkSubsurfaceScattering* Self;
+  vtkSubsurfaceScattering* Owner;
   std::vector<ScatteringMedium> Media; ///< of each band
   ///@{ patches x bands
   std::vector<double> Irradiance;
@@ -100,7 +100,7 @@ private:
 Outcome vtkSubsurfaceScattering::Run::Check()
 {
   if (Outcome device =
-        LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Self->Device), this->AllRanks);
+        LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Owner->Device), this->AllRanks);
       !device)
   {
     return device;
@@ -108,11 +108,11 @@ Outcome vtkSubsurfaceScattering::Run::Check()
   double scattering[Bands];
   double absorption[Bands];
   double index;
-  if (!GetMaterialProperties(this->Self->Material, scattering, absorption, index))
+  if (!GetMaterialProperties(this->Owner->Material, scattering, absorption, index))
   {
-    std::copy_n(this->Self->ScatteringCoefficient, Bands, scattering);
-    std::copy_n(this->Self->AbsorptionCoefficient, Bands, absorption);
-    index = this->Self->RefractiveIndex;
+    std::copy_n(this->Owner->ScatteringCoefficient, Bands, scattering);
+    std::copy_n(this->Owner->AbsorptionCoefficient, Bands, absorption);
+    index = this->Owner->RefractiveIndex;
   }
   for (int band = 0; band < Bands; ++band)
   {
@@ -150,7 +150,7 @@ Outcome vtkSubsurfaceScattering::Run::CheckMedia() const
          << ": it must be at least 1 (1.3 for water, 1.5 for glass and marble).";
     return Outcome::Failed(text.str());
   }
-  const double unit = this->Self->MillimetersPerUnit;
+  const double unit = this->Owner->MillimetersPerUnit;
   if (!(unit > 0.0) || !std::isfinite(unit))
   {
     text << "MillimetersPerUnit is " << unit
@@ -175,8 +175,8 @@ Outcome vtkSubsurfaceScattering::Run::Read()
 Outcome vtkSubsurfaceScattering::Run::ReadIrradiance()
 {
   const std::string name = this->GetArrayName(0,
-    this->Self->Incidence == INCIDENCE_DIFFUSE ? ArrayNames::Irradiance
-                                               : ArrayNames::TransmittedIrradiance);
+    this->Owner->Incidence == INCIDENCE_DIFFUSE ? ArrayNames::Irradiance
+                                                : ArrayNames::TransmittedIrradiance);
   std::vector<double> values;
   int components = 0;
   const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
@@ -206,7 +206,7 @@ Outcome vtkSubsurfaceScattering::Run::ReadIrradiance()
 void vtkSubsurfaceScattering::Run::CompareIndices() const
 {
   vtkDataArray* recorded = FindFieldArray(this->Input, ArrayNames::RefractiveIndex);
-  if (this->Self->Incidence != INCIDENCE_TRANSMITTED || !recorded ||
+  if (this->Owner->Incidence != INCIDENCE_TRANSMITTED || !recorded ||
     recorded->GetNumberOfTuples() == 0)
   {
     return;
@@ -226,9 +226,9 @@ void vtkSubsurfaceScattering::Run::CompareIndices() const
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::Link()
 {
-  const ScatteringLinks builder(this->Self->Model, this->Media, this->Self->MillimetersPerUnit,
-    this->Self->LinkTolerance);
-  LinkCache& cache = *this->Self->Links;
+  const ScatteringLinks builder(this->Owner->Model, this->Media, this->Owner->MillimetersPerUnit,
+    this->Owner->LinkTolerance);
+  LinkCache& cache = *this->Owner->Links;
   Outcome updated = cache.Update(this->Scene, builder, this->AllRanks,
     this->Progress.GetMonitor().GetStage(0.0, LinksDone));
   if (updated && cache.WereMade() && !cache.Get().Warning.empty())
@@ -242,7 +242,7 @@ Outcome vtkSubsurfaceScattering::Run::Link()
 /// Part of the input array that enters the surface.
 double vtkSubsurfaceScattering::Run::GetEntering() const
 {
-  return this->Self->Incidence == INCIDENCE_DIFFUSE
+  return this->Owner->Incidence == INCIDENCE_DIFFUSE
     ? 1.0 - Fresnel::GetMeanExternalReflectance(this->Media[0].RefractiveIndex)
     : 1.0;
 }
@@ -259,9 +259,9 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
     SCRATCH
   };
   const double start = vtkTimerLog::GetUniversalTime();
-  vtkExchange* exchange = this->Self->Links->Get().GetExchange();
+  vtkExchange* exchange = this->Owner->Links->Get().GetExchange();
   vtkSmartPointer<vtkLinkOperator> links;
-  if (Outcome made = LinkOperators::Make(static_cast<LinkDevice>(this->Self->Device), exchange,
+  if (Outcome made = LinkOperators::Make(static_cast<LinkDevice>(this->Owner->Device), exchange,
         Bands, this->AllRanks, links, this->DeviceExplanation);
       !made)
   {
@@ -290,7 +290,7 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
 //------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::Write()
 {
-  const SmoothPoints points(this->Scene, this->Self->FeatureAngle);
+  const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
   SceneOutput(this->Scene, &points, this->Input, this->Output)
     .AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
 
@@ -303,7 +303,7 @@ void vtkSubsurfaceScattering::Run::Write()
     enteringFlux[k % Bands] += area * entering * this->Irradiance[k];
     leavingFlux[k % Bands] += area * this->Scattered[k];
   }
-  const LightTransport::Links& links = this->Self->Links->Get();
+  const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);

@@ -19,13 +19,13 @@ vtkStandardNewMacro(vtkViewFactors);
 class vtkViewFactors::Run : public TransportRun
 {
 public:
-  Run(vtkViewFactors* self, const RunPorts& ports) : TransportRun(ports), Self(self) {}
+  Run(vtkViewFactors* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner) {}
 
 protected:
   Outcome Gather() override
   {
-    return this->Self->LinksClusters() ? this->GatherForClusters(this->Self->ClusterTree)
-                                       : this->TransportRun::Gather();
+    return this->Owner->LinksClusters() ? this->GatherForClusters(this->Owner->ClusterTree)
+                                        : this->TransportRun::Gather();
   }
 
   Outcome Read() override
@@ -36,19 +36,19 @@ protected:
 
   Outcome Link() override
   {
-    return this->Self->Store->Update(this->Scene, this->Self->GetSettings(), {}, this->AllRanks,
+    return this->Owner->Store->Update(this->Scene, this->Owner->GetSettings(), {}, this->AllRanks,
       this->Progress.GetMonitor());
   }
 
   Outcome Compute() override
   {
-    return ViewFactorGroups::FillTable(this->Self->Store->GetLinks(), this->Groups,
+    return ViewFactorGroups::FillTable(this->Owner->Store->GetLinks(), this->Groups,
       this->Scene.GetScale(), this->AllRanks, this->Table);
   }
 
   void Write() override
   {
-    const Links& links = this->Self->Store->GetLinks();
+    const Links& links = this->Owner->Store->GetLinks();
     const SceneOutput output(this->Scene, nullptr, this->Input, this->Output);
     output.AddArray("ViewFactorSum", links.RawRowSums, 1);
     output.AddArray("ViewFactorError", links.RowErrors, 1);
@@ -58,7 +58,7 @@ protected:
   }
 
 private:
-  vtkViewFactors* Self;
+  vtkViewFactors* Owner;
   ViewFactorGroups::Groups Groups;
 };
 

@@ -27,7 +27,7 @@ constexpr double RowTolerance = 1e-4;
 //------------------------------------------------------------------------------
 struct ExactRows::Worker
 {
-  ExactRows& Self;
+  ExactRows& Outer;
   const std::vector<const Values*>& Vectors;
   const UnoccludedPairs& Open;
   const ShaftCuller& Culler;
@@ -47,7 +47,7 @@ struct ExactRows::Worker
   {
     for (vtkIdType index = begin; index < end; ++index)
     {
-      const vtkIdType patch = this->Self.Patches[index];
+      const vtkIdType patch = this->Outer.Patches[index];
       Row row{ static_cast<std::size_t>(index), patch, this->Leaves[patch], {}, {} };
       this->Descend(0, !this->Culler.HasOccluders(), row);
     }
@@ -60,7 +60,7 @@ struct ExactRows::Worker
       return;
     }
     isFree = isFree || !this->Culler.MayBlock(row.Leaf, node);
-    const PatchTree::Node& there = this->Self.Scene.GetTree().GetNode(node);
+    const PatchTree::Node& there = this->Outer.Scene.GetTree().GetNode(node);
     if (!there.IsLeaf())
     {
       this->Descend(there.Left, isFree, row);
@@ -81,21 +81,21 @@ struct ExactRows::Worker
     {
       return;
     }
-    const double factor = open.Value / this->Self.Scene.GetAreas()[row.Patch];
+    const double factor = open.Value / this->Outer.Scene.GetAreas()[row.Patch];
     const PairVisibility::Share share =
       isFree ? PairVisibility::Share() : this->See(j, open.Value, factor, row);
-    this->Self.Errors[row.Index] +=
-      factor * share.Error + open.Error / this->Self.Scene.GetAreas()[row.Patch];
+    this->Outer.Errors[row.Index] +=
+      factor * share.Error + open.Error / this->Outer.Scene.GetAreas()[row.Patch];
     for (std::size_t k = 0; k < this->Vectors.size(); ++k)
     {
-      this->Self.Products[row.Index][k] += factor * share.Value * (*this->Vectors[k])[j];
+      this->Outer.Products[row.Index][k] += factor * share.Value * (*this->Vectors[k])[j];
     }
   }
 
   /// The visible part of a pair.
   PairVisibility::Share See(vtkIdType j, double open, double factor, Row& row) const
   {
-    const PatchScene& scene = this->Self.Scene;
+    const PatchScene& scene = this->Outer.Scene;
     this->Culler.FindBetween(row.Patch, j, row.Between);
     if (row.Between.empty())
     {

@@ -172,7 +172,7 @@ void LinkRefinement::Counters::Add(const Counters& other)
 // One pass: links and counters of every Step-th unit.
 struct LinkRefinement::Refiner
 {
-  const LinkRefinement& Self;
+  const LinkRefinement& Outer;
   double Threshold;
   vtkIdType First; ///< unit of the first result
   vtkIdType Step;  ///< from one result to the next
@@ -184,33 +184,33 @@ struct LinkRefinement::Refiner
     for (vtkIdType index = begin; index < end; ++index)
     {
       const vtkIdType unit = this->First + index * this->Step;
-      if (unit < static_cast<vtkIdType>(this->Self.Units.size()))
+      if (unit < static_cast<vtkIdType>(this->Outer.Units.size()))
       {
-        this->Visit(this->Self.Units[unit], this->Results[index], visibility);
+        this->Visit(this->Outer.Units[unit], this->Results[index], visibility);
       }
     }
   }
 
-  bool IsPatch(int slot) const { return slot >= this->Self.NumberOfNodes; }
-  vtkIdType GetPatch(int slot) const { return slot - this->Self.NumberOfNodes; }
+  bool IsPatch(int slot) const { return slot >= this->Outer.NumberOfNodes; }
+  vtkIdType GetPatch(int slot) const { return slot - this->Outer.NumberOfNodes; }
   int GetNode(int slot) const
   {
-    return this->IsPatch(slot) ? this->Self.Leaves[this->GetPatch(slot)] : slot;
+    return this->IsPatch(slot) ? this->Outer.Leaves[this->GetPatch(slot)] : slot;
   }
   double GetArea(int slot) const
   {
-    return this->IsPatch(slot) ? this->Self.Scene.GetAreas()[this->GetPatch(slot)]
-                               : this->Self.Scene.GetTree().GetNode(slot).Area;
+    return this->IsPatch(slot) ? this->Outer.Scene.GetAreas()[this->GetPatch(slot)]
+                               : this->Outer.Scene.GetTree().GetNode(slot).Area;
   }
 
   // Slots below a slot.
   std::pair<int, int> GetChildren(int slot) const
   {
-    const PatchTree::Node& node = this->Self.Scene.GetTree().GetNode(slot);
+    const PatchTree::Node& node = this->Outer.Scene.GetTree().GetNode(slot);
     if (node.IsLeaf())
     {
-      return { this->Self.NumberOfNodes + static_cast<int>(node.First),
-        this->Self.NumberOfNodes + static_cast<int>(node.Last) };
+      return { this->Outer.NumberOfNodes + static_cast<int>(node.First),
+        this->Outer.NumberOfNodes + static_cast<int>(node.Last) };
     }
     return { node.Left, node.Left + 2 };
   }
@@ -226,7 +226,7 @@ struct LinkRefinement::Refiner
     const int nodeI = this->GetNode(pair.I);
     const int nodeJ = this->GetNode(pair.J);
     const double highest = nodeI == nodeJ ? std::numeric_limits<double>::infinity()
-                                          : this->Self.Open.GetKernelBound(nodeI, nodeJ);
+                                          : this->Outer.Open.GetKernelBound(nodeI, nodeJ);
     if (highest <= 0.0)
     {
       ++result.Count.PairsBackFacing;
@@ -234,11 +234,11 @@ struct LinkRefinement::Refiner
     }
     const bool arePatches = this->IsPatch(pair.I) && this->IsPatch(pair.J);
     pair.IsFree =
-      pair.IsFree || (nodeI != nodeJ && !arePatches && !this->Self.Culler.MayBlock(nodeI, nodeJ));
+      pair.IsFree || (nodeI != nodeJ && !arePatches && !this->Outer.Culler.MayBlock(nodeI, nodeJ));
     const Estimate estimate =
       arePatches ? this->Integrate(pair, visibility) : this->Look(pair, highest, result);
     const double error =
-      estimate.ErrorI / this->Self.Shares[pair.I] + estimate.ErrorJ / this->Self.Shares[pair.J];
+      estimate.ErrorI / this->Outer.Shares[pair.I] + estimate.ErrorJ / this->Outer.Shares[pair.J];
     if (arePatches || error <= this->Threshold)
     {
       this->Keep(pair, estimate, result);
@@ -250,7 +250,7 @@ struct LinkRefinement::Refiner
   // Pairs within one node.
   void VisitWithin(const Pair& pair, Result& result, PairVisibility& visibility) const
   {
-    if (this->IsPatch(pair.I) || !this->Self.Open.MayFace(pair.I, pair.I))
+    if (this->IsPatch(pair.I) || !this->Outer.Open.MayFace(pair.I, pair.I))
     {
       return;
     }
@@ -304,17 +304,17 @@ struct LinkRefinement::Refiner
   {
     for (int k = 0; k < Points; ++k)
     {
-      this->Self.Deviations[Points * slot + k] += std::llround(deviations[k] * DeviationParts);
+      this->Outer.Deviations[Points * slot + k] += std::llround(deviations[k] * DeviationParts);
     }
-    this->Self.Squares[slot] += std::llround(error * SquareParts);
+    this->Outer.Squares[slot] += std::llround(error * SquareParts);
   }
 
   // One point of each of equal parts of the area, in the order of the tree: neighbours in it are
   // neighbours in space.
   void TakeSamples(int slot, Randomness& random, Sample* samples) const
   {
-    const std::vector<double>& before = this->Self.AreaBefore;
-    const PatchTree::Node& node = this->Self.Scene.GetTree().GetNode(this->GetNode(slot));
+    const std::vector<double>& before = this->Outer.AreaBefore;
+    const PatchTree::Node& node = this->Outer.Scene.GetTree().GetNode(this->GetNode(slot));
     const vtkIdType first = this->IsPatch(slot) ? this->GetPatch(slot) : node.First;
     const vtkIdType last = this->IsPatch(slot) ? first + 1 : node.Last;
     const double area = before[last] - before[first];
@@ -325,15 +325,15 @@ struct LinkRefinement::Refiner
       const vtkIdType patch = std::min<vtkIdType>(next - before.begin(), last) - 1;
       const double within = (target - before[patch]) / (before[patch + 1] - before[patch]);
       samples[k] = { patch,
-        GetPoint(this->Self.Scene, patch, std::min(std::max(within, 0.0), 1.0), random.Get()) };
+        GetPoint(this->Outer.Scene, patch, std::min(std::max(within, 0.0), 1.0), random.Get()) };
     }
   }
 
   double GetKernel(const Sample& a, const Sample& b) const
   {
     const Vector ray = b.Point - a.Point;
-    const double cosines = std::max(this->Self.Scene.GetNormal(a.Patch).dot(ray), 0.0) *
-      std::max(-this->Self.Scene.GetNormal(b.Patch).dot(ray), 0.0);
+    const double cosines = std::max(this->Outer.Scene.GetNormal(a.Patch).dot(ray), 0.0) *
+      std::max(-this->Outer.Scene.GetNormal(b.Patch).dot(ray), 0.0);
     const double squared = ray.squaredNorm();
     return cosines > 0.0 ? cosines / (Pi * squared * squared) : 0.0;
   }
@@ -358,7 +358,7 @@ struct LinkRefinement::Refiner
         if (kernel > 0.0 && !pair.IsFree)
         {
           ++result.Count.Rays;
-          kernel = this->Self.Caster.IsOccluded(a[i].Point, b[j].Point, a[i].Patch, b[j].Patch)
+          kernel = this->Outer.Caster.IsOccluded(a[i].Point, b[j].Point, a[i].Patch, b[j].Patch)
             ? 0.0
             : kernel;
         }
@@ -404,8 +404,8 @@ struct LinkRefinement::Refiner
   {
     const double areaI = this->GetArea(pair.I);
     const double areaJ = this->GetArea(pair.J);
-    const double sentI = areaI * this->Self.Brightness[pair.I];
-    const double sentJ = areaJ * this->Self.Brightness[pair.J];
+    const double sentI = areaI * this->Outer.Brightness[pair.I];
+    const double sentJ = areaJ * this->Outer.Brightness[pair.J];
     // The mean is off by about half of how much rows and columns vary, in both directions.
     const double mean = (spread.ErrorI + spread.ErrorJ) / (2 * Points) + unseen;
     spread.Value = seen;
@@ -425,32 +425,32 @@ struct LinkRefinement::Refiner
   {
     const vtkIdType i = this->GetPatch(pair.I);
     const vtkIdType j = this->GetPatch(pair.J);
-    const double areaI = this->Self.Scene.GetAreas()[i];
-    const double areaJ = this->Self.Scene.GetAreas()[j];
-    const double open = this->Self.Open.Compute(i, j).Value;
+    const double areaI = this->Outer.Scene.GetAreas()[i];
+    const double areaJ = this->Outer.Scene.GetAreas()[j];
+    const double open = this->Outer.Open.Compute(i, j).Value;
     Estimate estimate;
     estimate.Value = open / (areaI * areaJ);
-    if (pair.IsFree || estimate.Value <= 0.0 || !this->Self.Culler.HasOccluders())
+    if (pair.IsFree || estimate.Value <= 0.0 || !this->Outer.Culler.HasOccluders())
     {
       return estimate;
     }
     std::vector<vtkIdType> between;
-    this->Self.Culler.FindBetween(i, j, between);
+    this->Outer.Culler.FindBetween(i, j, between);
     if (between.empty())
     {
       return estimate;
     }
     Polygon a, b;
-    Polygon::SetToClippedPair(this->Self.Scene, i, j, a, b);
+    Polygon::SetToClippedPair(this->Outer.Scene, i, j, a, b);
     const std::uint64_t key = static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
-    if (!visibility.SetPair(a, b, this->Self.Scene, between, key,
-          this->Self.Scene.AreTouching(i, j) ? open : 0.0))
+    if (!visibility.SetPair(a, b, this->Outer.Scene, between, key,
+          this->Outer.Scene.AreTouching(i, j) ? open : 0.0))
     {
       return estimate;
     }
     PairVisibility::Share share = visibility.Look();
-    const double sentI = open / areaJ * this->Self.Brightness[pair.I];
-    const double sentJ = open / areaI * this->Self.Brightness[pair.J];
+    const double sentI = open / areaJ * this->Outer.Brightness[pair.I];
+    const double sentJ = open / areaI * this->Outer.Brightness[pair.J];
     const double weight = areaI * sentJ * sentJ + areaJ * sentI * sentI;
     const double allowed = weight > 0.0 ? std::sqrt(this->Threshold / weight) : 1.0;
     if (share.Error > allowed)

@@ -571,7 +571,7 @@ class UnoccludedPairs::Internals::Filler
 public:
   Filler(const Internals& self, int nodeI, int nodeJ, float* values, vtkIdType stride,
     double* errorsI, double* errorsJ, UnoccludedPairs::Counters& counters)
-    : Self(self), Tree(self.Scene.GetTree()), FirstI(Tree.GetNode(nodeI).First),
+    : Outer(self), Tree(self.Scene.GetTree()), FirstI(Tree.GetNode(nodeI).First),
       FirstJ(Tree.GetNode(nodeJ).First), Values(values), Stride(stride), ErrorsI(errorsI),
       ErrorsJ(errorsJ), Counters(counters)
   {
@@ -583,7 +583,7 @@ public:
     const Node& b = this->Tree.GetNode(nodeJ);
     const double pairs = nodeI == nodeJ ? 0.5 * a.GetSize() * (a.GetSize() - 1.0)
                                         : static_cast<double>(a.GetSize()) * b.GetSize();
-    const View view = this->Self.GetView(nodeI, nodeJ);
+    const View view = this->Outer.GetView(nodeI, nodeJ);
     if (!view.MayFace())
     {
       this->Counters.Examined += pairs;
@@ -631,14 +631,14 @@ private:
 
   bool FillByOneRule(const Node& a, const Node& b, const View& view)
   {
-    if (this->Self.HasLargePolygons(a.First, a.Last) ||
-      this->Self.HasLargePolygons(b.First, b.Last))
+    if (this->Outer.HasLargePolygons(a.First, a.Last) ||
+      this->Outer.HasLargePolygons(b.First, b.Last))
     {
       return false;
     }
-    const double* constantsI = this->Self.GetConstants(a.First, a.Last);
-    const double* constantsJ = this->Self.GetConstants(b.First, b.Last);
-    const double tolerance = RuleShare * this->Self.Tolerance;
+    const double* constantsI = this->Outer.GetConstants(a.First, a.Last);
+    const double* constantsJ = this->Outer.GetConstants(b.First, b.Last);
+    const double tolerance = RuleShare * this->Outer.Tolerance;
     const auto sideOfI = [&](double distance) -> Side
     {
       const double d = distance - b.Radius;
@@ -679,7 +679,7 @@ private:
 
   void AddErrors(const Node& a, const Node& b, double error)
   {
-    const std::vector<double>& areas = this->Self.Scene.GetAreas();
+    const std::vector<double>& areas = this->Outer.Scene.GetAreas();
     for (vtkIdType i = a.First; i < a.Last; ++i)
     {
       this->ErrorsI[i - this->FirstI] += error * areas[i] * b.Area;
@@ -698,7 +698,7 @@ private:
     double facing = 0.0;
     for (vtkIdType i = a.First; i < a.Last; ++i)
     {
-      this->Self.IntegrateRow(i, ruleI, b.First, size, ruleJ, sums, clear ? nullptr : margins);
+      this->Outer.IntegrateRow(i, ruleI, b.First, size, ruleJ, sums, clear ? nullptr : margins);
       if (!clear)
       {
         this->CorrectRow(i, ruleI, b.First, ruleJ, size, sums, margins, error);
@@ -723,11 +723,11 @@ private:
   {
     for (int column = 0; column < size; ++column)
     {
-      if (std::abs(margins[column]) < 1.0 && this->Self.NeedsClip(i, first + column))
+      if (std::abs(margins[column]) < 1.0 && this->Outer.NeedsClip(i, first + column))
       {
         const vtkIdType j = first + column;
-        sums[column] = this->Self.IntegrateClipped(i, ruleI, j, ruleJ);
-        const std::vector<double>& areas = this->Self.Scene.GetAreas();
+        sums[column] = this->Outer.IntegrateClipped(i, ruleI, j, ruleJ);
+        const std::vector<double>& areas = this->Outer.Scene.GetAreas();
         const double more = (ClippedFactor - 1.0) * error * areas[i] * areas[j];
         this->ErrorsI[i - this->FirstI] += more;
         this->ErrorsJ[j - this->FirstJ] += more;
@@ -749,7 +749,7 @@ private:
       for (int column = 0; column < size; ++column)
       {
         Plan& plan = plans[column];
-        plan = this->Self.MakePlan(i, first + column);
+        plan = this->Outer.MakePlan(i, first + column);
         if (plan.Method == Plan::Rules)
         {
           ruleI = std::max(ruleI, plan.RuleI);
@@ -758,7 +758,7 @@ private:
       }
       if (ruleI >= 0)
       {
-        this->Self.IntegrateRow(i, ruleI, first, size, ruleJ, sums.data(), nullptr);
+        this->Outer.IntegrateRow(i, ruleI, first, size, ruleJ, sums.data(), nullptr);
       }
       for (int column = 0; column < size; ++column)
       {
@@ -766,7 +766,7 @@ private:
         const vtkIdType j = first + column;
         this->AddPair(i, j, plan,
           plan.Method == Plan::Rules ? Estimate{ sums[column], plan.Error }
-                                     : this->Self.Follow(i, j, plan));
+                                     : this->Outer.Follow(i, j, plan));
       }
     }
   }
@@ -784,11 +784,11 @@ private:
     this->ErrorsI[i - this->FirstI] += pair.Error;
     this->ErrorsJ[j - this->FirstJ] += pair.Error;
     this->Values[(i - this->FirstI) * this->Stride + (j - this->FirstJ)] =
-      static_cast<float>(this->Self.Limit(i, j, pair.Value));
+      static_cast<float>(this->Outer.Limit(i, j, pair.Value));
   }
 
 private:
-  const Internals& Self;
+  const Internals& Outer;
   const PatchTree& Tree;
   const vtkIdType FirstI;
   const vtkIdType FirstJ;
@@ -801,7 +801,7 @@ private:
 
 //------------------------------------------------------------------------------
 UnoccludedPairs::UnoccludedPairs(const PatchScene& scene, double tolerance)
-  : Self(new Internals(scene, tolerance))
+  : Internal(new Internals(scene, tolerance))
 {
 }
 
@@ -811,19 +811,19 @@ UnoccludedPairs::~UnoccludedPairs() = default;
 //------------------------------------------------------------------------------
 bool UnoccludedPairs::MayFace(int nodeI, int nodeJ) const
 {
-  return this->Self->GetView(nodeI, nodeJ).MayFace();
+  return this->Internal->GetView(nodeI, nodeJ).MayFace();
 }
 
 //------------------------------------------------------------------------------
 double UnoccludedPairs::GetKernelBound(int nodeI, int nodeJ) const
 {
-  const View view = this->Self->GetView(nodeI, nodeJ);
+  const View view = this->Internal->GetView(nodeI, nodeJ);
   if (!view.MayFace())
   {
     return 0.0;
   }
-  const Node& a = this->Self->Scene.GetTree().GetNode(nodeI);
-  const Node& b = this->Self->Scene.GetTree().GetNode(nodeJ);
+  const Node& a = this->Internal->Scene.GetTree().GetNode(nodeI);
+  const Node& b = this->Internal->Scene.GetTree().GetNode(nodeJ);
   const Vector gap = (a.Lower - b.Upper).cwiseMax(b.Lower - a.Upper).cwiseMax(0.0);
   const double squared = gap.squaredNorm();
   const double distance = std::sqrt(squared);
@@ -836,7 +836,8 @@ double UnoccludedPairs::GetKernelBound(int nodeI, int nodeJ) const
 void UnoccludedPairs::Fill(int nodeI, int nodeJ, float* values, vtkIdType stride, double* errorsI,
   double* errorsJ, Counters& counters) const
 {
-  Internals::Filler filler(*this->Self, nodeI, nodeJ, values, stride, errorsI, errorsJ, counters);
+  Internals::Filler filler(*this->Internal, nodeI, nodeJ, values, stride, errorsI, errorsJ,
+    counters);
   filler.Fill(nodeI, nodeJ);
 }
 
@@ -846,6 +847,6 @@ PairIntegrals::Estimate UnoccludedPairs::Compute(vtkIdType i, vtkIdType j) const
   // In one order, so that exchanging the two changes not even the rounding.
   const vtkIdType first = std::min(i, j);
   const vtkIdType second = std::max(i, j);
-  return this->Self->Follow(first, second, this->Self->MakePlan(first, second));
+  return this->Internal->Follow(first, second, this->Internal->MakePlan(first, second));
 }
 } // namespace LightTransport

@@ -51,7 +51,7 @@ struct ViewFactorAssembly::UnitResult
 // Stage 1 for units [First, First + Results.size()).
 struct ViewFactorAssembly::Looker
 {
-  const ViewFactorAssembly& Self;
+  const ViewFactorAssembly& Outer;
   vtkExchangeMatrix* Exchange;
   vtkIdType First;
   std::vector<UnitResult> Results;
@@ -85,10 +85,10 @@ struct ViewFactorAssembly::Looker
   void operator()(vtkIdType begin, vtkIdType end)
   {
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
-    const PatchTree& tree = this->Self.Scene.GetTree();
+    const PatchTree& tree = this->Outer.Scene.GetTree();
     for (vtkIdType index = begin; index < end; ++index)
     {
-      const Unit& unit = this->Self.Units[index];
+      const Unit& unit = this->Outer.Units[index];
       vtkExchangeMatrix::Tile& tile = this->Exchange->GetTiles()[unit.Tile];
       const vtkIdType firstI = tree.GetNode(unit.I).First;
       const vtkIdType firstJ = tree.GetNode(unit.J).First;
@@ -96,9 +96,9 @@ struct ViewFactorAssembly::Looker
         tile.Values + (firstI - tile.Row * N) * N + (firstJ - tile.Column * N),
         this->Results[index - this->First], {}, {}, {} };
       this->Fill(unit.I, unit.J, work);
-      if (this->Self.Culler.HasOccluders())
+      if (this->Outer.Culler.HasOccluders())
       {
-        this->Self.Culler.Find(unit.I, unit.J, work.GetList(0));
+        this->Outer.Culler.Find(unit.I, unit.J, work.GetList(0));
         this->Descend(unit.I, unit.J, 0, work);
       }
       else
@@ -119,8 +119,8 @@ struct ViewFactorAssembly::Looker
     const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
     const vtkIdType pairs =
       nodeI == nodeJ ? i.GetSize() * (i.GetSize() - 1) / 2 : i.GetSize() * j.GetSize();
-    const vtkIdType sendersI = this->Self.NodeSenders[nodeI];
-    const vtkIdType sendersJ = this->Self.NodeSenders[nodeJ];
+    const vtkIdType sendersI = this->Outer.NodeSenders[nodeI];
+    const vtkIdType sendersJ = this->Outer.NodeSenders[nodeJ];
     if (sendersI == 0 && sendersJ == 0)
     {
       work.Result.Count.NotSending += pairs;
@@ -133,7 +133,7 @@ struct ViewFactorAssembly::Looker
     }
     if (sendersI == i.GetSize() || sendersJ == j.GetSize())
     {
-      this->Self.Open.Fill(nodeI, nodeJ, &work.GetValue(i.First, j.First),
+      this->Outer.Open.Fill(nodeI, nodeJ, &work.GetValue(i.First, j.First),
         vtkExchangeMatrix::TileSize, work.Result.ErrorsI + (i.First - work.FirstI),
         work.Result.ErrorsJ + (j.First - work.FirstJ), work.Result.Count.Open);
       return;
@@ -146,7 +146,7 @@ struct ViewFactorAssembly::Looker
   {
     const PatchTree::Node& i = work.Tree.GetNode(nodeI);
     const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
-    const std::vector<bool>& senders = *this->Self.Senders;
+    const std::vector<bool>& senders = *this->Outer.Senders;
     Counters& count = work.Result.Count;
     for (vtkIdType row = i.First; row < i.Last; ++row)
     {
@@ -157,7 +157,7 @@ struct ViewFactorAssembly::Looker
           ++count.NotSending;
           continue;
         }
-        const PairIntegrals::Estimate pair = this->Self.Open.Compute(row, column);
+        const PairIntegrals::Estimate pair = this->Outer.Open.Compute(row, column);
         ++count.Open.Examined;
         ++(pair.Value > 0.0 ? count.Open.Facing : count.Open.BackFacing);
         work.GetValue(row, column) = static_cast<float>(pair.Value);
@@ -223,7 +223,7 @@ struct ViewFactorAssembly::Looker
       [&](int childI, int childJ)
       {
         work.GetList(depth + 1);
-        this->Self.Culler.Narrow(childI, childJ, work.GetList(depth), work.GetList(depth + 1));
+        this->Outer.Culler.Narrow(childI, childJ, work.GetList(depth), work.GetList(depth + 1));
         this->Descend(childI, childJ, depth + 1, work);
       });
   }
@@ -250,16 +250,16 @@ struct ViewFactorAssembly::Looker
     }
     Counters& count = work.Result.Count;
     std::vector<vtkIdType>& between = work.Between;
-    this->Self.Culler.NarrowBetween(i, j, work.GetList(depth), between);
+    this->Outer.Culler.NarrowBetween(i, j, work.GetList(depth), between);
     Polygon a, b;
     if (between.empty())
     {
       ++count.Free;
       return;
     }
-    Polygon::SetToClippedPair(this->Self.Scene, i, j, a, b);
-    if (!work.Visibility.SetPair(a, b, this->Self.Scene, between, GetKey(i, j),
-          this->Self.Scene.AreTouching(i, j) ? value : 0.0))
+    Polygon::SetToClippedPair(this->Outer.Scene, i, j, a, b);
+    if (!work.Visibility.SetPair(a, b, this->Outer.Scene, between, GetKey(i, j),
+          this->Outer.Scene.AreTouching(i, j) ? value : 0.0))
     {
       ++count.Free;
       return;
@@ -299,7 +299,7 @@ struct ViewFactorAssembly::Looker
 // Stage 2.
 struct ViewFactorAssembly::Refiner
 {
-  ViewFactorAssembly& Self;
+  ViewFactorAssembly& Outer;
   vtkExchangeMatrix* Exchange;
 
   void operator()(vtkIdType begin, vtkIdType end) const
@@ -309,17 +309,17 @@ struct ViewFactorAssembly::Refiner
     std::vector<vtkIdType> between;
     for (vtkIdType index = begin; index < end; ++index)
     {
-      PartlyVisiblePair& pair = this->Self.Pairs[index];
-      const double allowed = this->Self.GetAllowedError(pair);
+      PartlyVisiblePair& pair = this->Outer.Pairs[index];
+      const double allowed = this->Outer.GetAllowedError(pair);
       if (pair.Error <= allowed)
       {
         continue;
       }
-      this->Self.Culler.FindBetween(pair.I, pair.J, between);
+      this->Outer.Culler.FindBetween(pair.I, pair.J, between);
       Polygon a, b;
-      Polygon::SetToClippedPair(this->Self.Scene, pair.I, pair.J, a, b);
-      if (visibility.SetPair(a, b, this->Self.Scene, between, GetKey(pair.I, pair.J),
-            this->Self.Scene.AreTouching(pair.I, pair.J) ? pair.Open : 0.0))
+      Polygon::SetToClippedPair(this->Outer.Scene, pair.I, pair.J, a, b);
+      if (visibility.SetPair(a, b, this->Outer.Scene, between, GetKey(pair.I, pair.J),
+            this->Outer.Scene.AreTouching(pair.I, pair.J) ? pair.Open : 0.0))
       {
         const PairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
         pair.Value = share.Value * pair.Open;

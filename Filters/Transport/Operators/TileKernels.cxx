@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Links/TileKernels.h"
+#include "Operators/TileKernels.h"
 
 #include "Support/InstructionSets.h"
 #include "vtkExchangeMatrix.h"
