@@ -12,8 +12,7 @@ namespace LightTransport
 namespace
 {
 ///@{ Spacing of the table in t, its end (radii up to exp(30) depths), and the points of the rule
-///that
-/// fills an interval.
+/// that fills an interval.
 constexpr double TableStep = 1.0 / 32.0;
 constexpr int TableIntervals = 32 * 30;
 constexpr int PointsOfInterval = 4;
