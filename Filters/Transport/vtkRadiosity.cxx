@@ -562,7 +562,8 @@ void vtkRadiosity::Run::WriteThermal(const std::vector<double>& flux, const Scen
   }
   const std::vector<double>& areas = this->Scene.GetAreas();
   const double power = std::inner_product(areas.begin(), areas.end(), totals.begin(), 0.0);
-  FieldValues::Add(this->GetOutputFields(), "NetPower", power * this->GetAreaUnit());
+  FieldValues::Add(this->GetOutputFields(), "NetPower",
+    power * this->Scene.GetScale() * this->Scene.GetScale());
 }
 
 //------------------------------------------------------------------------------

@@ -30,7 +30,10 @@ Outcome TransportRun::Go()
   if (outcome)
   {
     this->Write();
-    this->Filter->UpdateProgress(1.0);
+    if (this->Filter->GetProgress() < 1.0)
+    {
+      this->Filter->UpdateProgress(1.0);
+    }
   }
   return outcome;
 }
