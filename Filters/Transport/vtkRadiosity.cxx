@@ -4,8 +4,10 @@
 
 #include "Links/LinkOperators.h"
 #include "Radiosity/ProgressiveRadiosity.h"
+#include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
-#include "Radiosity/RadiositySolvers.h"
+#include "Radiosity/RadiositySolver.h"
+#include "Radiosity/SolverSettings.h"
 #include "Run/TransportRun.h"
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
@@ -134,8 +136,8 @@ private:
   Outcome UpdateLinks(double linkTolerance, const Monitor& monitor);
   Outcome LinkByBrightness();
 
-  RadiosityProblem DescribeEquation() const;
-  void RecordConvergence(RadiosityProblem& equation, double begin, const Monitor& monitor);
+  RadiosityEquation DescribeEquation() const;
+  SolverSettings MakeSettings(int mostIterations, double begin, const Monitor& monitor);
   Outcome Solve(const Monitor& monitor);
   Outcome Shoot(const Monitor& monitor);
   Outcome CheckSolution() const;
@@ -192,13 +194,13 @@ Outcome vtkRadiosity::Run::Check()
 Outcome vtkRadiosity::Run::CheckSolver() const
 {
   const int solver = this->Owner->Solver;
-  if (!RadiositySolvers::IsSequential(solver) || this->ShootsOnDevice())
+  if (!RadiositySolver::IsSequential(solver) || this->ShootsOnDevice())
   {
     return LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Owner->Device), this->AllRanks);
   }
   if (this->Owner->Device == DEVICE_OPENGL || this->AllRanks.AreSeveral())
   {
-    return Outcome::Failed(std::string(RadiositySolvers::GetName(solver)) +
+    return Outcome::Failed(std::string(RadiositySolver::GetName(solver)) +
       " goes from patch to patch and runs on the CPU of one process: set Device to Auto or CPU on "
       "one process, or use Jacobi, Chebyshev or ConjugateGradient.");
   }
@@ -291,7 +293,7 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
   const Monitor monitor = this->Progress.GetMonitor();
   const bool isKnown = this->Solve(monitor.GetStage(CoarseDone, CoarseSolved)) &&
     this->Solution.Error.empty() && this->Finish();
-  if (this->Solution.Status == RadiosityStatus::Aborted)
+  if (this->Solution.Status == SolverStatus::Aborted)
   {
     return Outcome::Aborted();
   }
@@ -323,7 +325,7 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
   vtkExchange* exchange = this->Links->GetExchange();
-  const LinkDevice device = RadiositySolvers::IsSequential(this->Owner->Solver)
+  const LinkDevice device = RadiositySolver::IsSequential(this->Owner->Solver)
     ? LinkDevice::CPU
     : static_cast<LinkDevice>(this->Owner->Device);
   vtkSmartPointer<vtkLinkOperator> links;
@@ -339,16 +341,17 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
   {
     return Outcome::FailedAsReported();
   }
-  RadiosityProblem equation = this->DescribeEquation();
+  RadiosityEquation equation = this->DescribeEquation();
   equation.Operator = links;
   equation.Reference = this->Reference;
   equation.Areas = &exchange->GetAreas();
   equation.RowSums = &this->Links->RowSums;
   equation.RowSumError = GetRowSumError(*this->Links);
   equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
-  this->RecordConvergence(equation, begin, monitor);
+  const SolverSettings settings =
+    this->MakeSettings(this->Owner->MaximumNumberOfIterations, begin, monitor);
 
-  this->Solution = RadiositySolvers::Solve(equation);
+  this->Solution = RadiositySolver::Solve(equation, settings);
   this->DeviceUsed = links->GetDeviceName();
   this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
   return Outcome::Done();
@@ -371,13 +374,14 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
       "Southwell on OpenGL computes no sky fractions, which a background needs: set "
       "Device to Auto or CPU, or use another solver.");
   }
-  RadiosityProblem equation = this->DescribeEquation();
+  const RadiosityEquation equation = this->DescribeEquation();
   const vtkIdType patches = equation.NumberOfPatches;
-  equation.MaximumNumberOfIterations = static_cast<int>(
-    std::min<vtkIdType>(VTK_INT_MAX, patches * this->Owner->MaximumNumberOfIterations));
-  this->RecordConvergence(equation, begin, monitor);
+  const vtkIdType mostShots =
+    std::min<vtkIdType>(VTK_INT_MAX, patches * this->Owner->MaximumNumberOfIterations);
+  const SolverSettings settings = this->MakeSettings(static_cast<int>(mostShots), begin, monitor);
 
-  this->Solution = ProgressiveRadiosity::Solve(shooter, this->Scene, equation, this->Irradiance);
+  this->Solution =
+    ProgressiveRadiosity::Solve(shooter, this->Scene, equation, settings, this->Irradiance);
   this->Shots = this->Solution.NumberOfIterations;
   this->Solution.NumberOfIterations = static_cast<int>((this->Shots + patches - 1) / patches);
   this->DeviceUsed = shooter->GetDeviceName();
@@ -390,11 +394,10 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
 
 //------------------------------------------------------------------------------
 // What the equation is, whatever solves it.
-RadiosityProblem vtkRadiosity::Run::DescribeEquation() const
+RadiosityEquation vtkRadiosity::Run::DescribeEquation() const
 {
   const RadiosityMaterials& materials = this->Materials;
-  RadiosityProblem equation;
-  equation.Solver = this->Owner->Solver;
+  RadiosityEquation equation;
   equation.NumberOfBands = materials.NumberOfBands;
   equation.Reflectance = materials.Reflectance;
   equation.Emission = materials.Emission;
@@ -404,17 +407,19 @@ RadiosityProblem vtkRadiosity::Run::DescribeEquation() const
   }
   equation.NumberOfPatches =
     static_cast<vtkIdType>(equation.Emission.size()) / equation.NumberOfBands;
-  equation.Tolerance = this->Owner->Tolerance;
-  equation.MaximumNumberOfIterations = this->Owner->MaximumNumberOfIterations;
   return equation;
 }
 
 //------------------------------------------------------------------------------
 // One row of the table per iteration; progress follows the logarithm of the error bound, which
 // falls steadily.
-void vtkRadiosity::Run::RecordConvergence(RadiosityProblem& equation, double begin,
+SolverSettings vtkRadiosity::Run::MakeSettings(int mostIterations, double begin,
   const Monitor& monitor)
 {
+  SolverSettings settings;
+  settings.Solver = this->Owner->Solver;
+  settings.Tolerance = this->Owner->Tolerance;
+  settings.MaximumNumberOfIterations = mostIterations;
   vtkNew<vtkIntArray> iterations;
   iterations->SetName("Iteration");
   this->Table->Initialize();
@@ -428,10 +433,10 @@ void vtkRadiosity::Run::RecordConvergence(RadiosityProblem& equation, double beg
     this->Table->AddColumn(columns[column]);
   }
   vtkIntArray* count = iterations;
-  const double most = equation.MaximumNumberOfIterations;
+  const double most = mostIterations;
   const double tolerance = this->Owner->Tolerance;
   double first = 0.0;
-  equation.Report = [=](int iteration, double residual, double bound) mutable
+  settings.Report = [=](int iteration, double residual, double bound) mutable
   {
     count->InsertNextValue(iteration);
     columns[0]->InsertNextValue(vtkTimerLog::GetUniversalTime() - begin);
@@ -442,6 +447,7 @@ void vtkRadiosity::Run::RecordConvergence(RadiosityProblem& equation, double beg
     const double byResidual = gained / -std::log(tolerance);
     return monitor.Report(std::max(byResidual, iteration / most));
   };
+  return settings;
 }
 
 //------------------------------------------------------------------------------
@@ -456,7 +462,7 @@ Outcome vtkRadiosity::Run::CheckSolution() const
       : "";
     return Outcome::Failed(this->Solution.Error + hint);
   }
-  if (this->Solution.Status == RadiosityStatus::Aborted)
+  if (this->Solution.Status == SolverStatus::Aborted)
   {
     return Outcome::Aborted();
   }
@@ -516,9 +522,9 @@ void vtkRadiosity::Run::WriteSummaries() const
 {
   vtkFieldData* fields = this->GetOutputFields();
   const RadiositySolution& solution = this->Solution;
-  FieldValues::Add(fields, "SolverUsed", std::string(RadiositySolvers::GetName(solution.Solver)));
+  FieldValues::Add(fields, "SolverUsed", std::string(RadiositySolver::GetName(solution.Solver)));
   FieldValues::Add(fields, "SolverExplanation", solution.Explanation);
-  FieldValues::Add(fields, "SolverStatus", std::string(RadiositySolvers::GetName(solution.Status)));
+  FieldValues::Add(fields, "SolverStatus", std::string(GetName(solution.Status)));
   FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
   FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
   FieldValues::Add(fields, "NumberOfIterations", solution.NumberOfIterations);
@@ -653,7 +659,7 @@ double vtkRadiosity::GetBackgroundRadiance(int band) const
 void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Solver: " << RadiositySolvers::GetName(this->Solver) << "\n";
+  os << indent << "Solver: " << RadiositySolver::GetName(this->Solver) << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumNumberOfIterations: " << this->MaximumNumberOfIterations << "\n";
   PrintValues(os << indent << "BandLimits:", this->BandLimits);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Radiosity/ProgressiveRadiosity.h"
 
+#include "Radiosity/RadiosityEquation.h"
+#include "Radiosity/SolverSettings.h"
 #include "Scene/PatchScene.h"
 #include "vtkDeviceShooter.h"
 
@@ -55,7 +57,7 @@ std::vector<double> FindLargest(const std::vector<double>& values, int bands)
 // The error bound from what is unshot, and whether that is all there is to do. B is nowhere below
 // its source, so the tolerance is met for B where it is met for the source.
 bool IsOver(const std::vector<double>& unshot, const std::vector<double>& reflectances,
-  const std::vector<double>& sources, const RadiosityProblem& problem, RadiositySolution& solution)
+  const std::vector<double>& sources, const SolverSettings& settings, RadiositySolution& solution)
 {
   bool converged = true;
   bool exhausted = true;
@@ -67,33 +69,33 @@ bool IsOver(const std::vector<double>& unshot, const std::vector<double>& reflec
     // Written so that a NaN does not pass for an answer.
     const double bound = unshot[band] == 0.0 ? 0.0 : gain * unshot[band];
     solution.ErrorBound = bound <= solution.ErrorBound ? solution.ErrorBound : bound;
-    converged = converged && bound <= problem.Tolerance * sources[band];
+    converged = converged && bound <= settings.Tolerance * sources[band];
     exhausted = exhausted && unshot[band] <= SinglePrecision * sources[band];
   }
   const double residual = *std::max_element(unshot.begin(), unshot.end());
-  const bool aborted = !problem.Report(solution.NumberOfIterations, residual, solution.ErrorBound);
-  solution.Status = aborted ? RadiosityStatus::Aborted
-    : converged             ? RadiosityStatus::Converged
-    : exhausted             ? RadiosityStatus::Stagnated
-                            : RadiosityStatus::IterationsUsedUp;
+  const bool aborted = !settings.Report(solution.NumberOfIterations, residual, solution.ErrorBound);
+  solution.Status = aborted ? SolverStatus::Aborted
+    : converged             ? SolverStatus::Converged
+    : exhausted             ? SolverStatus::Stagnated
+                            : SolverStatus::IterationsUsedUp;
   return aborted || converged || exhausted ||
-    solution.NumberOfIterations >= problem.MaximumNumberOfIterations;
+    solution.NumberOfIterations >= settings.MaximumNumberOfIterations;
 }
 
 //------------------------------------------------------------------------------
-void Warn(const RadiosityProblem& problem, RadiositySolution& solution)
+void Warn(const SolverSettings& settings, RadiositySolution& solution)
 {
-  if (solution.HasConverged() || solution.Status == RadiosityStatus::Aborted)
+  if (solution.HasConverged() || solution.Status == SolverStatus::Aborted)
   {
     return;
   }
   std::ostringstream text;
   text << "Southwell stopped after " << solution.NumberOfIterations
        << " shots with an error bound of " << solution.ErrorBound << ": "
-       << (solution.Status == RadiosityStatus::Stagnated
+       << (solution.Status == SolverStatus::Stagnated
               ? "what is left is nothing to single precision. Raise Tolerance above "
               : "raise MaximumNumberOfIterations, or Tolerance above ")
-       << problem.Tolerance << ", or use ConjugateGradient.";
+       << settings.Tolerance << ", or use ConjugateGradient.";
   solution.Warning = text.str();
 }
 } // namespace
@@ -102,41 +104,42 @@ namespace ProgressiveRadiosity
 {
 //------------------------------------------------------------------------------
 RadiositySolution Solve(vtkDeviceShooter* shooter, const PatchScene& scene,
-  const RadiosityProblem& problem, std::vector<double>& irradiance)
+  const RadiosityEquation& equation, const SolverSettings& settings,
+  std::vector<double>& irradiance)
 {
   RadiositySolution solution;
-  solution.Solver = problem.Solver;
+  solution.Solver = settings.Solver;
   solution.Explanation = "Southwell: asked for, by item buffers without view factors";
-  const int bands = problem.NumberOfBands;
-  const std::vector<double> reflectances = FindLargest(problem.Reflectance, bands);
-  const std::vector<double> sources = FindLargest(problem.Emission, bands);
+  const int bands = equation.NumberOfBands;
+  const std::vector<double> reflectances = FindLargest(equation.Reflectance, bands);
+  const std::vector<double> sources = FindLargest(equation.Emission, bands);
   std::vector<double> unshot = sources;
-  bool good = shooter->Initialize(DescribePatches(scene), bands, problem.Emission.data(),
-    problem.Reflectance.data());
-  while (good && !IsOver(unshot, reflectances, sources, problem, solution))
+  bool good = shooter->Initialize(DescribePatches(scene), bands, equation.Emission.data(),
+    equation.Reflectance.data());
+  while (good && !IsOver(unshot, reflectances, sources, settings, solution))
   {
-    const vtkIdType left = problem.MaximumNumberOfIterations - solution.NumberOfIterations;
+    const vtkIdType left = settings.MaximumNumberOfIterations - solution.NumberOfIterations;
     const vtkIdType shots = shooter->Shoot(std::min(ShotsPerReport, left));
     good = shots >= 0 && shooter->GetLargestUnshot(unshot.data());
     solution.NumberOfIterations += static_cast<int>(shots);
     if (shots == 0)
     {
       // What is left has no power that single precision could tell.
-      solution.Status = RadiosityStatus::Stagnated;
+      solution.Status = SolverStatus::Stagnated;
       break;
     }
   }
-  irradiance.resize(problem.Emission.size());
-  solution.Radiosity = problem.Emission;
+  irradiance.resize(equation.Emission.size());
+  solution.Radiosity = equation.Emission;
   if (!good || !shooter->GetIrradiance(irradiance.data()))
   {
     solution.Error = "The device could not shoot (see the message before this one).";
     return solution;
   }
-  Warn(problem, solution);
+  Warn(settings, solution);
   for (std::size_t k = 0; k < irradiance.size(); ++k)
   {
-    solution.Radiosity[k] += problem.Reflectance[k] * irradiance[k];
+    solution.Radiosity[k] += equation.Reflectance[k] * irradiance[k];
   }
   return solution;
 }

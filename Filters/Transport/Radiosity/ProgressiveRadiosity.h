@@ -12,13 +12,16 @@
 #ifndef ProgressiveRadiosity_h
 #define ProgressiveRadiosity_h
 
-#include "Radiosity/RadiositySolvers.h"
+#include "Radiosity/RadiositySolution.h"
+#include "vtkType.h"
 
 class vtkDeviceShooter;
 
 namespace LightTransport
 {
 class PatchScene;
+struct RadiosityEquation;
+struct SolverSettings;
 
 namespace ProgressiveRadiosity
 {
@@ -26,12 +29,13 @@ namespace ProgressiveRadiosity
 constexpr vtkIdType ShotsPerReport = 16;
 
 /**
- * Solve with a shooter that has been opened. Of the problem, Operator, Reference and what belongs
- * to view factors is not used; an iteration is one shot. `irradiance` (patches x bands) is what
+ * Solve with a shooter that has been opened. Of the equation nothing that belongs to links is used;
+ * an iteration is one shot. `irradiance` (patches x bands) is what
  * shots have brought.
  */
 RadiositySolution Solve(vtkDeviceShooter* shooter, const PatchScene& scene,
-  const RadiosityProblem& problem, std::vector<double>& irradiance);
+  const RadiosityEquation& equation, const SolverSettings& settings,
+  std::vector<double>& irradiance);
 } // namespace ProgressiveRadiosity
 } // namespace LightTransport
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Radiosity/RadiosityIteration.h"
 
-#include "Radiosity/RadiosityBound.h"
+#include "Radiosity/ErrorBound.h"
+#include "Radiosity/RadiosityEquation.h"
+#include "Radiosity/SolverSettings.h"
 #include "vtkLinkOperator.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace LightTransport
 {
@@ -21,8 +21,6 @@ constexpr double NearlyRounding = 100.0;
 // Residuals so many times larger than the first error bound never come back: even a method that
 // sends more than there is (Southwell with overshooting) has no reason to go beyond that bound.
 constexpr double Growth = 100.0;
-// Roundings of one residual: the product, the scaling and two sums.
-constexpr int RoundingsOfResidual = 4;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -40,46 +38,19 @@ struct RadiosityIteration::Look
 };
 
 //------------------------------------------------------------------------------
-RadiosityIteration::RadiosityIteration(const RadiosityProblem& problem, vtkLinkOperator* links,
-  const double* source, const RadiosityBound* bound)
-  : Problem(problem), Links(links), Bound(bound), Ones(problem.NumberOfBands, 1.0),
-    MinusOnes(problem.NumberOfBands, -1.0), Zeros(problem.NumberOfBands, 0.0), Scales(Zeros),
+RadiosityIteration::RadiosityIteration(const RadiosityEquation& equation,
+  const SolverSettings& settings, const ErrorBound& bound, vtkLinkOperator* links,
+  const double* source)
+  : RadiosityVectors(equation, links, source), Settings(settings), Bound(bound), Scales(Zeros),
     Largest(Zeros)
 {
-  const std::size_t size = problem.Reflectance.size();
-  std::vector<double> reflection(size), symmetric(size);
-  for (std::size_t k = 0; k < size; ++k)
-  {
-    reflection[k] = problem.Reflectance[k] / (*problem.Areas)[k / problem.NumberOfBands];
-    symmetric[k] = std::sqrt(reflection[k]);
-  }
-  this->Ok = links->SetVector(SOURCE, source) && links->SetVector(SOLUTION, source) &&
-    links->SetVector(REFLECTION, reflection.data()) &&
-    links->SetVector(SYMMETRIC, symmetric.data()) &&
-    (!bound || links->SetVector(BOUND_WEIGHT, bound->Inverse.data()));
-}
-
-//------------------------------------------------------------------------------
-bool RadiosityIteration::ComputeResidual()
-{
-  return this->Links->Multiply(RESIDUAL, SOLUTION) &&
-    this->Links->Scale(RESIDUAL, REFLECTION, RESIDUAL) &&
-    this->Links->Combine(RESIDUAL, this->Ones.data(), RESIDUAL, this->MinusOnes.data(), SOLUTION) &&
-    this->Links->Combine(RESIDUAL, this->Ones.data(), RESIDUAL, this->Ones.data(), SOURCE);
-}
-
-//------------------------------------------------------------------------------
-double RadiosityIteration::GetRounding(bool isSinglePrecision, double size, int steps)
-{
-  const double epsilon = isSinglePrecision ? std::numeric_limits<float>::epsilon()
-                                           : std::numeric_limits<double>::epsilon();
-  return epsilon * (RoundingsOfResidual + steps) * size;
+  this->Ok = this->Ok && links->SetVector(BOUND_WEIGHT, bound.Inverse.data());
 }
 
 //------------------------------------------------------------------------------
 bool RadiosityIteration::Measure(bool isRecurrence, Look& look)
 {
-  const int bands = this->Problem.NumberOfBands;
+  const int bands = this->Equation.NumberOfBands;
   Bands residuals(bands), weighted(bands), sizes(bands);
   if (!this->Links->MaxNorm(RESIDUAL, residuals.data()) ||
     !this->Links->Scale(SCRATCH, RESIDUAL, BOUND_WEIGHT) ||
@@ -102,13 +73,13 @@ bool RadiosityIteration::Measure(bool isRecurrence, Look& look)
     this->Largest[band] = std::max(this->Largest[band], sizes[band]);
     const double rounding =
       GetRounding(this->Links->IsSinglePrecision(), this->Largest[band], steps);
-    const double bound = this->Bound->Get(band, weighted[band], rounding);
+    const double bound = this->Bound.Get(band, weighted[band], rounding);
     this->FirstBounds[band] = std::max(this->FirstBounds[band], isFirst ? bound : 0.0);
     // Written so that a NaN does not pass for an answer.
     look.HasGrown = look.HasGrown || !(residual <= Growth * this->FirstBounds[band]);
     look.Residual = std::max(look.Residual, residual);
     look.ErrorBound = bound >= look.ErrorBound ? bound : look.ErrorBound;
-    if (bound <= this->Problem.Tolerance * std::max(sizes[band], this->Scales[band]))
+    if (bound <= this->Settings.Tolerance * std::max(sizes[band], this->Scales[band]))
     {
       continue;
     }
@@ -137,7 +108,7 @@ bool RadiosityIteration::Continue(bool isRecurrence)
   bool aborted = false;
   if (this->Count > this->LastReport)
   {
-    aborted = !this->Problem.Report(this->Count, look.Residual, look.ErrorBound);
+    aborted = !this->Settings.Report(this->Count, look.Residual, look.ErrorBound);
     this->LastReport = this->Count;
   }
   this->NearRounding = look.IsNearRounding;
@@ -145,24 +116,24 @@ bool RadiosityIteration::Continue(bool isRecurrence)
   const int patience = look.IsNearRounding ? PatienceNearRounding : Patience;
   if (aborted)
   {
-    this->Status = RadiosityStatus::Aborted;
+    this->Status = SolverStatus::Aborted;
   }
   else if (look.HasGrown)
   {
-    this->Status = RadiosityStatus::Diverged;
+    this->Status = SolverStatus::Diverged;
   }
   else if (look.Reached)
   {
-    this->Status = RadiosityStatus::Converged;
+    this->Status = SolverStatus::Converged;
   }
   else if (look.IsAtRounding || this->SinceSmallest > patience)
   {
-    this->Status = look.IsAboveFirst ? RadiosityStatus::Diverged : RadiosityStatus::Stagnated;
+    this->Status = look.IsAboveFirst ? SolverStatus::Diverged : SolverStatus::Stagnated;
   }
   else
   {
-    this->Status = RadiosityStatus::IterationsUsedUp;
-    return this->Count < this->Problem.MaximumNumberOfIterations;
+    this->Status = SolverStatus::IterationsUsedUp;
+    return this->Count < this->Settings.MaximumNumberOfIterations;
   }
   return false;
 }

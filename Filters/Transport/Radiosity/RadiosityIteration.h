@@ -1,47 +1,25 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What all iterative solvers of B = E + (rho / A) G B share: the vectors in their slots, the
- * residual and its error bound after each iteration, and when to stop. Written against
- * vtkLinkOperator, so that it runs wherever the links are.
+ * What all iterative solvers of the radiosity equation share beside their vectors: the error bound
+ * of the residual after each iteration, and when to stop.
  */
 #ifndef RadiosityIteration_h
 #define RadiosityIteration_h
 
-#include "Radiosity/RadiositySolvers.h"
-
-#include <vector>
+#include "Radiosity/RadiositySolution.h"
+#include "Radiosity/RadiosityVectors.h"
 
 namespace LightTransport
 {
-struct RadiosityBound;
+struct ErrorBound;
+struct SolverSettings;
 
-class RadiosityIteration
+class RadiosityIteration : public RadiosityVectors
 {
 public:
-  enum Slot
-  {
-    SOURCE,       // E
-    REFLECTION,   // rho / A
-    SYMMETRIC,    // sqrt(rho / A)
-    BOUND_WEIGHT, // 1 / d
-    SOLUTION,     // B
-    RESIDUAL,     // E + rho F B - B
-    UNKNOWN,      // y of the symmetrised system
-    DIRECTION,
-    IMAGE,
-    GRADIENT,
-    SCRATCH
-  };
-  using Bands = std::vector<double>;
-
-  /// Writes the vectors of the problem with `source` for its right-hand side; B = `source` at
-  /// first. Without a bound Continue must not be called.
-  RadiosityIteration(const RadiosityProblem& problem, vtkLinkOperator* links, const double* source,
-    const RadiosityBound* bound = nullptr);
-
-  /// RESIDUAL from SOLUTION.
-  bool ComputeResidual();
+  RadiosityIteration(const RadiosityEquation& equation, const SolverSettings& settings,
+    const ErrorBound& bound, vtkLinkOperator* links, const double* source);
 
   /**
    * To be asked with a RESIDUAL that belongs to SOLUTION: reports it with its error bound. False
@@ -53,19 +31,13 @@ public:
   /// Whether the residual that Continue saw last was about what rounding allows.
   bool IsNearRounding() const { return this->NearRounding; }
 
-  /// What rounding may add to a residual where values are as large as `size`, on an operator.
-  static double GetRounding(bool isSinglePrecision, double size, int steps);
-
-  const RadiosityProblem& Problem;
-  vtkLinkOperator* Links;
-  const RadiosityBound* Bound;
-  const Bands Ones, MinusOnes, Zeros;
+  const SolverSettings& Settings;
+  const ErrorBound& Bound;
   /// Largest |B| of the whole solution, where this iteration finds a correction of it.
   Bands Scales;
   int Count = 0;
   int LastReport = -1; ///< number of the iteration that was reported last
-  bool Ok = true;      ///< false after an error of the link operator
-  RadiosityStatus Status = RadiosityStatus::IterationsUsedUp;
+  SolverStatus Status = SolverStatus::IterationsUsedUp;
 
 private:
   struct Look;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Radiosity/RadiosityMethods.h"
 
-#include "Radiosity/RadiosityBound.h"
+#include "Radiosity/ErrorBound.h"
+#include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityIteration.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkRadiosity.h"
@@ -56,15 +57,15 @@ class Shooter
 public:
   explicit Shooter(Iteration& state)
     : State(state), Links(vtkCPULinkOperator::SafeDownCast(state.Links)),
-      Areas(*state.Problem.Areas), Patches(state.Problem.NumberOfPatches),
-      Bands(state.Problem.NumberOfBands), Unshot(state.Problem.Emission.size()),
+      Areas(*state.Equation.Areas), Patches(state.Equation.NumberOfPatches),
+      Bands(state.Equation.NumberOfBands), Unshot(state.Equation.Emission.size()),
       Radiosity(Unshot.size()), Row(Patches), Ambient(Bands), Shot(Bands), Losses(Bands, 0.0)
   {
   }
 
   bool Begin()
   {
-    const std::vector<double>& reflectance = this->State.Problem.Reflectance;
+    const std::vector<double>& reflectance = this->State.Equation.Reflectance;
     Iteration::Bands returned(this->Bands);
     if (!this->Links || !this->Links->SetVector(Iteration::DIRECTION, reflectance.data()) ||
       !this->Links->Multiply(Iteration::IMAGE, Iteration::DIRECTION) ||
@@ -135,7 +136,7 @@ private:
   double GetShot(vtkIdType patch, int band) const
   {
     const std::size_t k = patch * this->Bands + band;
-    return this->Unshot[k] + this->State.Problem.Reflectance[k] * this->Ambient[band];
+    return this->Unshot[k] + this->State.Equation.Reflectance[k] * this->Ambient[band];
   }
 
   vtkIdType FindBrightest() const
@@ -170,7 +171,7 @@ private:
       for (int band = 0; share != 0.0 && band < this->Bands; ++band)
       {
         const std::size_t k = patch * this->Bands + band;
-        this->Unshot[k] += this->State.Problem.Reflectance[k] * share * this->Shot[band];
+        this->Unshot[k] += this->State.Equation.Reflectance[k] * share * this->Shot[band];
       }
     }
   }
@@ -212,9 +213,9 @@ void IterateSouthwell(Iteration& state)
 void IterateChebyshev(Iteration& state)
 {
   vtkLinkOperator* links = state.Links;
-  const int bands = state.Problem.NumberOfBands;
+  const int bands = state.Equation.NumberOfBands;
   // The spectrum of I - rho F lies in [1 - radius, 1 + radius].
-  const Bands& radii = state.Bound->SpectralRadii;
+  const Bands& radii = state.Bound.SpectralRadii;
   Bands ratios = radii; // rho_k of the recurrence: 1 / sigma at first
   state.Ok = state.Ok && state.ComputeResidual() &&
     links->Combine(Iteration::DIRECTION, state.Ones.data(), Iteration::RESIDUAL, state.Zeros.data(),
@@ -251,8 +252,7 @@ void IterateConjugateGradients(Iteration& state)
     ++state.Count;
     if (gradients.IsIndefinite())
     {
-      state.Status =
-        state.IsNearRounding() ? RadiosityStatus::Stagnated : RadiosityStatus::Diverged;
+      state.Status = state.IsNearRounding() ? SolverStatus::Stagnated : SolverStatus::Diverged;
       return;
     }
   }
@@ -260,8 +260,8 @@ void IterateConjugateGradients(Iteration& state)
 } // namespace
 
 //------------------------------------------------------------------------------
-RadiosityMethods::ConjugateGradients::ConjugateGradients(RadiosityIteration& state)
-  : State(state), Squares(state.Problem.NumberOfBands), Indefinite(state.Zeros)
+RadiosityMethods::ConjugateGradients::ConjugateGradients(RadiosityVectors& vectors)
+  : Vectors(vectors), Squares(vectors.Equation.NumberOfBands), Indefinite(vectors.Zeros)
 {
 }
 
@@ -269,29 +269,30 @@ RadiosityMethods::ConjugateGradients::ConjugateGradients(RadiosityIteration& sta
 // y = 0, r = p = s G E
 bool RadiosityMethods::ConjugateGradients::Begin()
 {
-  vtkLinkOperator* links = this->State.Links;
-  const double* ones = this->State.Ones.data();
-  const double* zeros = this->State.Zeros.data();
-  const int image = Iteration::IMAGE;
-  return links->Multiply(image, Iteration::SOURCE) &&
-    links->Scale(image, Iteration::SYMMETRIC, image) &&
-    links->Combine(Iteration::DIRECTION, ones, image, zeros, image) &&
-    links->Combine(Iteration::UNKNOWN, zeros, image, zeros, image) &&
-    links->Combine(Iteration::GRADIENT, ones, image, zeros, image) &&
-    links->Dot(Iteration::GRADIENT, Iteration::GRADIENT, this->Squares.data()) && this->Translate();
+  vtkLinkOperator* links = this->Vectors.Links;
+  const double* ones = this->Vectors.Ones.data();
+  const double* zeros = this->Vectors.Zeros.data();
+  const int image = RadiosityVectors::IMAGE;
+  return links->Multiply(image, RadiosityVectors::SOURCE) &&
+    links->Scale(image, RadiosityVectors::SYMMETRIC, image) &&
+    links->Combine(RadiosityVectors::DIRECTION, ones, image, zeros, image) &&
+    links->Combine(RadiosityVectors::UNKNOWN, zeros, image, zeros, image) &&
+    links->Combine(RadiosityVectors::GRADIENT, ones, image, zeros, image) &&
+    links->Dot(RadiosityVectors::GRADIENT, RadiosityVectors::GRADIENT, this->Squares.data()) &&
+    this->Translate();
 }
 
 //------------------------------------------------------------------------------
 // IMAGE = (I - s G s) p, and how far to go along p in each band.
 bool RadiosityMethods::ConjugateGradients::ComputeSteps(std::vector<double>& steps)
 {
-  vtkLinkOperator* links = this->State.Links;
+  vtkLinkOperator* links = this->Vectors.Links;
   Bands curvatures(steps.size());
-  if (!links->Apply(Iteration::IMAGE, Iteration::SYMMETRIC, Iteration::SYMMETRIC,
-        Iteration::DIRECTION, Iteration::SCRATCH) ||
-    !links->Combine(Iteration::IMAGE, this->State.Ones.data(), Iteration::DIRECTION,
-      this->State.MinusOnes.data(), Iteration::IMAGE) ||
-    !links->Dot(Iteration::DIRECTION, Iteration::IMAGE, curvatures.data()))
+  if (!links->Apply(RadiosityVectors::IMAGE, RadiosityVectors::SYMMETRIC,
+        RadiosityVectors::SYMMETRIC, RadiosityVectors::DIRECTION, RadiosityVectors::SCRATCH) ||
+    !links->Combine(RadiosityVectors::IMAGE, this->Vectors.Ones.data(), RadiosityVectors::DIRECTION,
+      this->Vectors.MinusOnes.data(), RadiosityVectors::IMAGE) ||
+    !links->Dot(RadiosityVectors::DIRECTION, RadiosityVectors::IMAGE, curvatures.data()))
   {
     return false;
   }
@@ -308,8 +309,8 @@ bool RadiosityMethods::ConjugateGradients::ComputeSteps(std::vector<double>& ste
 //------------------------------------------------------------------------------
 bool RadiosityMethods::ConjugateGradients::Step()
 {
-  vtkLinkOperator* links = this->State.Links;
-  const double* ones = this->State.Ones.data();
+  vtkLinkOperator* links = this->Vectors.Links;
+  const double* ones = this->Vectors.Ones.data();
   const std::size_t bands = this->Squares.size();
   Bands steps(bands), back(bands), next(bands), ratios(bands);
   if (!this->ComputeSteps(steps) || this->IsIndefinite())
@@ -317,11 +318,11 @@ bool RadiosityMethods::ConjugateGradients::Step()
     return this->IsIndefinite();
   }
   std::transform(steps.begin(), steps.end(), back.begin(), std::negate<double>());
-  if (!links->Combine(Iteration::UNKNOWN, ones, Iteration::UNKNOWN, steps.data(),
-        Iteration::DIRECTION) ||
-    !links->Combine(Iteration::GRADIENT, ones, Iteration::GRADIENT, back.data(),
-      Iteration::IMAGE) ||
-    !links->Dot(Iteration::GRADIENT, Iteration::GRADIENT, next.data()))
+  if (!links->Combine(RadiosityVectors::UNKNOWN, ones, RadiosityVectors::UNKNOWN, steps.data(),
+        RadiosityVectors::DIRECTION) ||
+    !links->Combine(RadiosityVectors::GRADIENT, ones, RadiosityVectors::GRADIENT, back.data(),
+      RadiosityVectors::IMAGE) ||
+    !links->Dot(RadiosityVectors::GRADIENT, RadiosityVectors::GRADIENT, next.data()))
   {
     return false;
   }
@@ -330,8 +331,8 @@ bool RadiosityMethods::ConjugateGradients::Step()
     ratios[band] = this->Squares[band] > 0.0 ? next[band] / this->Squares[band] : 0.0;
   }
   this->Squares = next;
-  return links->Combine(Iteration::DIRECTION, ones, Iteration::GRADIENT, ratios.data(),
-           Iteration::DIRECTION) &&
+  return links->Combine(RadiosityVectors::DIRECTION, ones, RadiosityVectors::GRADIENT,
+           ratios.data(), RadiosityVectors::DIRECTION) &&
     this->Translate();
 }
 
@@ -345,22 +346,26 @@ bool RadiosityMethods::ConjugateGradients::IsIndefinite() const
 //------------------------------------------------------------------------------
 bool RadiosityMethods::ConjugateGradients::GetIndefiniteDirection(double* direction)
 {
-  vtkLinkOperator* links = this->State.Links;
-  return links->Scale(Iteration::SCRATCH, Iteration::SYMMETRIC, Iteration::DIRECTION) &&
-    links->Combine(Iteration::SCRATCH, this->Indefinite.data(), Iteration::SCRATCH,
-      this->State.Zeros.data(), Iteration::SCRATCH) &&
-    links->GetVector(Iteration::SCRATCH, direction);
+  vtkLinkOperator* links = this->Vectors.Links;
+  return links->Scale(RadiosityVectors::SCRATCH, RadiosityVectors::SYMMETRIC,
+           RadiosityVectors::DIRECTION) &&
+    links->Combine(RadiosityVectors::SCRATCH, this->Indefinite.data(), RadiosityVectors::SCRATCH,
+      this->Vectors.Zeros.data(), RadiosityVectors::SCRATCH) &&
+    links->GetVector(RadiosityVectors::SCRATCH, direction);
 }
 
 //------------------------------------------------------------------------------
 // B = E + s y, and its residual s r.
 bool RadiosityMethods::ConjugateGradients::Translate()
 {
-  vtkLinkOperator* links = this->State.Links;
-  const double* ones = this->State.Ones.data();
-  return links->Scale(Iteration::SOLUTION, Iteration::SYMMETRIC, Iteration::UNKNOWN) &&
-    links->Combine(Iteration::SOLUTION, ones, Iteration::SOURCE, ones, Iteration::SOLUTION) &&
-    links->Scale(Iteration::RESIDUAL, Iteration::SYMMETRIC, Iteration::GRADIENT);
+  vtkLinkOperator* links = this->Vectors.Links;
+  const double* ones = this->Vectors.Ones.data();
+  return links->Scale(RadiosityVectors::SOLUTION, RadiosityVectors::SYMMETRIC,
+           RadiosityVectors::UNKNOWN) &&
+    links->Combine(RadiosityVectors::SOLUTION, ones, RadiosityVectors::SOURCE, ones,
+      RadiosityVectors::SOLUTION) &&
+    links->Scale(RadiosityVectors::RESIDUAL, RadiosityVectors::SYMMETRIC,
+      RadiosityVectors::GRADIENT);
 }
 
 //------------------------------------------------------------------------------

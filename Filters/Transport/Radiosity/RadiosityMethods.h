@@ -16,6 +16,7 @@
 namespace LightTransport
 {
 class RadiosityIteration;
+class RadiosityVectors;
 
 namespace RadiosityMethods
 {
@@ -34,7 +35,7 @@ double EstimateProducts(int solver, double radius, double tolerance);
 class ConjugateGradients
 {
 public:
-  explicit ConjugateGradients(RadiosityIteration& state);
+  explicit ConjugateGradients(RadiosityVectors& vectors);
 
   bool Begin();
   bool Step();
@@ -50,7 +51,7 @@ private:
   bool ComputeSteps(std::vector<double>& steps);
   bool Translate();
 
-  RadiosityIteration& State;
+  RadiosityVectors& Vectors;
   std::vector<double> Squares;
   std::vector<double> Indefinite; // 1 in bands that are, else 0
 };

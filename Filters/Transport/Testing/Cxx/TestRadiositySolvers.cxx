@@ -4,8 +4,10 @@
 // iterations they take, that the error bound holds after each of them, and how they end.
 #include "LightTransportTesting.h"
 #include "OutcomeTesting.h"
-#include "Radiosity/RadiosityIteration.h"
-#include "Radiosity/RadiositySolvers.h"
+#include "Radiosity/RadiosityEquation.h"
+#include "Radiosity/RadiositySolver.h"
+#include "Radiosity/RadiosityVectors.h"
+#include "Radiosity/SolverSettings.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkDenseLinkOperator.h"
@@ -26,6 +28,16 @@ namespace
 {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
+
+//------------------------------------------------------------------------------
+// What a solver gets.
+struct Task
+{
+  RadiositySolution Solve() const { return RadiositySolver::Solve(this->Equation, this->Settings); }
+
+  RadiosityEquation Equation;
+  SolverSettings Settings;
+};
 
 //------------------------------------------------------------------------------
 // A scene, its view factors, and what its patches are made of.
@@ -76,39 +88,40 @@ public:
 
   Vector GetExact() const { return this->K.lu().solve(this->Emission); }
 
-  // Everything but Report; several bands are copies of the one.
-  RadiosityProblem MakeProblem(int solver, int bands = 1)
+  // Several bands are copies of the one.
+  Task MakeTask(int solver, int bands = 1)
   {
     this->Links = vtkSmartPointer<vtkDenseLinkOperator>::New();
     this->Reference = vtkSmartPointer<vtkDenseLinkOperator>::New();
     Check(this->Links->Initialize(this->Exchange, bands) &&
         this->Reference->Initialize(this->Exchange, bands),
       "link operators");
-    RadiosityProblem problem;
-    problem.Operator = this->Links;
-    problem.Reference = this->Reference;
-    problem.Solver = solver;
-    problem.NumberOfPatches = this->GetNumberOfPatches();
-    problem.NumberOfBands = bands;
-    problem.Areas = &this->Exchange->GetAreas();
-    problem.RowSums = &this->Factors.GetLinks().RowSums;
-    problem.RowSumError = 1e-14;
+    Task task;
+    RadiosityEquation& equation = task.Equation;
+    equation.Operator = this->Links;
+    equation.Reference = this->Reference;
+    equation.NumberOfPatches = this->GetNumberOfPatches();
+    equation.NumberOfBands = bands;
+    equation.Areas = &this->Exchange->GetAreas();
+    equation.RowSums = &this->Factors.GetLinks().RowSums;
+    equation.RowSumError = 1e-14;
     for (vtkIdType patch = 0; patch < this->GetNumberOfPatches(); ++patch)
     {
-      problem.Emission.insert(problem.Emission.end(), bands, this->Emission[patch]);
-      problem.Reflectance.insert(problem.Reflectance.end(), bands, this->Reflectance[patch]);
+      equation.Emission.insert(equation.Emission.end(), bands, this->Emission[patch]);
+      equation.Reflectance.insert(equation.Reflectance.end(), bands, this->Reflectance[patch]);
     }
-    problem.MaximumNumberOfIterations = 20000;
-    problem.Report = [](int, double, double) { return true; };
-    problem.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
-    return problem;
+    equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
+    task.Settings.Solver = solver;
+    task.Settings.MaximumNumberOfIterations = 20000;
+    task.Settings.Report = [](int, double, double) { return true; };
+    return task;
   }
 
   // B as it is while a solver reports.
   Vector GetCurrent() const
   {
     Vector current(this->GetNumberOfPatches());
-    this->Links->GetVector(RadiosityIteration::SOLUTION, current.data());
+    this->Links->GetVector(RadiosityVectors::SOLUTION, current.data());
     return current;
   }
 
@@ -135,10 +148,10 @@ vtkSmartPointer<vtkPolyData> MakePlates(double gap)
 int CountIterations(Case& scene, int solver, const std::string& what)
 {
   const Vector exact = scene.GetExact();
-  RadiosityProblem problem = scene.MakeProblem(solver);
-  problem.Tolerance = 1e-15;
+  Task task = scene.MakeTask(solver);
+  task.Settings.Tolerance = 1e-15;
   int count = -1;
-  problem.Report = [&](int iteration, double residual, double bound)
+  task.Settings.Report = [&](int iteration, double residual, double bound)
   {
     const Vector current = scene.GetCurrent();
     const Vector difference = scene.Emission - scene.K * current;
@@ -156,8 +169,8 @@ int CountIterations(Case& scene, int solver, const std::string& what)
     }
     return count < 0;
   };
-  const RadiositySolution solution = RadiositySolvers::Solve(problem);
-  Check(solution.Status == RadiosityStatus::Aborted && solution.Error.empty(),
+  const RadiositySolution solution = task.Solve();
+  Check(solution.Status == SolverStatus::Aborted && solution.Error.empty(),
     what + ": stopped by us " + solution.Error);
   return count;
 }
@@ -183,7 +196,7 @@ void TestCounts(Case& scene, const std::vector<Expected>& rows, const std::strin
     {
       const int most = row.Most[solver - 1];
       const std::string what =
-        name + " at " + std::to_string(row.Reflectance) + ", " + RadiositySolvers::GetName(solver);
+        name + " at " + std::to_string(row.Reflectance) + ", " + RadiositySolver::GetName(solver);
       const int count = most > 0 ? CountIterations(scene, solver, what) : 0;
       Check(count >= 0 && count <= most + most / 20 + 1,
         what + " takes " + std::to_string(count) + " iterations, not " + std::to_string(most));
@@ -240,10 +253,10 @@ void TestAnswers()
            solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT; ++solver)
       {
         const std::string what =
-          std::string(RadiositySolvers::GetName(solver)) + " to " + std::to_string(tolerance);
-        RadiosityProblem problem = cube.MakeProblem(solver, bands);
-        problem.Tolerance = tolerance;
-        const RadiositySolution solution = RadiositySolvers::Solve(problem);
+          std::string(RadiositySolver::GetName(solver)) + " to " + std::to_string(tolerance);
+        Task task = cube.MakeTask(solver, bands);
+        task.Settings.Tolerance = tolerance;
+        const RadiositySolution solution = task.Solve();
         Check(solution.HasConverged() && solution.Warning.empty() && solution.Error.empty(),
           what + " converges");
         Check(solution.Solver == (solver == 0 ? vtkRadiosity::SOLVER_CONJUGATE_GRADIENT : solver),
@@ -332,21 +345,21 @@ void TestSinglePrecision()
       {
         continue;
       }
-      const std::string what = std::string(RadiositySolvers::GetName(solver)) +
+      const std::string what = std::string(RadiositySolver::GetName(solver)) +
         " in single precision at " + std::to_string(rho);
       vtkNew<SinglePrecisionLinks> links;
-      RadiosityProblem problem = cube.MakeProblem(solver);
+      Task task = cube.MakeTask(solver);
       Check(links->Take(cube.Exchange), "links");
-      problem.Operator = links;
-      problem.Tolerance = 1e-8;
+      task.Equation.Operator = links;
+      task.Settings.Tolerance = 1e-8;
       int last = -1;
-      problem.Report = [&](int iteration, double, double)
+      task.Settings.Report = [&](int iteration, double, double)
       {
         Check(iteration == last + 1, what + ": each iteration once");
         last = iteration;
         return true;
       };
-      const RadiositySolution solution = RadiositySolvers::Solve(problem);
+      const RadiositySolution solution = task.Solve();
       Check(solution.HasConverged() && last == solution.NumberOfIterations,
         what + " converges: " + solution.Warning);
       double error = 0.0;
@@ -371,16 +384,15 @@ void TestAuto()
   for (const double rho : { 0.0, 0.02, 0.5, 0.99 })
   {
     cube.SetReflectance([&](vtkIdType) { return rho; });
-    const RadiositySolution chosen =
-      RadiositySolvers::Solve(cube.MakeProblem(vtkRadiosity::SOLVER_AUTO));
+    const RadiositySolution chosen = cube.MakeTask(vtkRadiosity::SOLVER_AUTO).Solve();
     const int expected =
       rho < 0.1 ? vtkRadiosity::SOLVER_JACOBI : vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
     Check(chosen.HasConverged() && chosen.Solver == expected, "Auto at " + std::to_string(rho));
-    Check(chosen.Explanation.find(std::string(RadiositySolvers::GetName(expected)) + ": ") == 0,
+    Check(chosen.Explanation.find(std::string(RadiositySolver::GetName(expected)) + ": ") == 0,
       "Auto explains: " + chosen.Explanation);
     for (const int other : { vtkRadiosity::SOLVER_JACOBI, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
     {
-      const RadiositySolution solution = RadiositySolvers::Solve(cube.MakeProblem(other));
+      const RadiositySolution solution = cube.MakeTask(other).Solve();
       Check(chosen.NumberOfIterations <= solution.NumberOfIterations + 1, "Auto is no slower");
       Check(solution.Explanation.find("asked for") != std::string::npos,
         "a choice needs no reason");
@@ -389,14 +401,14 @@ void TestAuto()
 }
 
 //------------------------------------------------------------------------------
-void ExpectEnd(const RadiosityProblem& problem, RadiosityStatus status, const std::string& remedy)
+void ExpectEnd(const Task& task, SolverStatus status, const std::string& remedy)
 {
-  const RadiositySolution solution = RadiositySolvers::Solve(problem);
-  const std::string what = std::string(RadiositySolvers::GetName(problem.Solver)) + ": " +
-    RadiositySolvers::GetName(status);
-  Check(solution.Status == status, what + ", not " + RadiositySolvers::GetName(solution.Status));
+  const RadiositySolution solution = task.Solve();
+  const std::string what =
+    std::string(RadiositySolver::GetName(task.Settings.Solver)) + ": " + GetName(status);
+  Check(solution.Status == status, what + ", not " + GetName(solution.Status));
   Check(solution.Warning.find(remedy) != std::string::npos, what + " warns: " + solution.Warning);
-  Check(solution.Error.empty() && solution.Radiosity.size() == problem.Emission.size(),
+  Check(solution.Error.empty() && solution.Radiosity.size() == task.Equation.Emission.size(),
     what + " leaves the result so far");
 }
 
@@ -420,24 +432,24 @@ void TestEndings()
   for (int solver = vtkRadiosity::SOLVER_JACOBI; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
        ++solver)
   {
-    RadiosityProblem hasty = cube.MakeProblem(solver);
-    hasty.Tolerance = 1e-12;
-    hasty.MaximumNumberOfIterations = 2;
-    ExpectEnd(hasty, RadiosityStatus::IterationsUsedUp, "MaximumNumberOfIterations");
-    RadiosityProblem tight = cube.MakeProblem(solver);
-    tight.Tolerance = 1e-15;
-    ExpectEnd(tight, RadiosityStatus::Stagnated, "Raise Tolerance");
-    RadiosityProblem stopped = cube.MakeProblem(solver);
-    stopped.Report = [](int iteration, double, double) { return iteration < 1; };
-    ExpectEnd(stopped, RadiosityStatus::Aborted, "");
-    ExpectEnd(unstable.MakeProblem(solver), RadiosityStatus::Diverged, "EnforceClosure");
+    Task hasty = cube.MakeTask(solver);
+    hasty.Settings.Tolerance = 1e-12;
+    hasty.Settings.MaximumNumberOfIterations = 2;
+    ExpectEnd(hasty, SolverStatus::IterationsUsedUp, "MaximumNumberOfIterations");
+    Task tight = cube.MakeTask(solver);
+    tight.Settings.Tolerance = 1e-15;
+    ExpectEnd(tight, SolverStatus::Stagnated, "Raise Tolerance");
+    Task stopped = cube.MakeTask(solver);
+    stopped.Settings.Report = [](int iteration, double, double) { return iteration < 1; };
+    ExpectEnd(stopped, SolverStatus::Aborted, "");
+    ExpectEnd(unstable.MakeTask(solver), SolverStatus::Diverged, "EnforceClosure");
   }
 }
 
 //------------------------------------------------------------------------------
-void ExpectError(const RadiosityProblem& problem, const std::vector<std::string>& parts)
+void ExpectError(const Task& task, const std::vector<std::string>& parts)
 {
-  const RadiositySolution solution = RadiositySolvers::Solve(problem);
+  const RadiositySolution solution = task.Solve();
   for (const std::string& part : parts)
   {
     Check(solution.Error.find(part) != std::string::npos,
@@ -452,14 +464,14 @@ void TestDiagnoses()
   Case cube(MakeRoom(3), true);
   cube.LetEmit(5);
   cube.SetReflectance([](vtkIdType) { return 1.0; });
-  ExpectError(cube.MakeProblem(0),
+  ExpectError(cube.MakeTask(0),
     { "no unique solution: polygon ", "(reflectance 1, view factors that sum to 1)",
       "closed part" });
   // Two bands, of which the second is the one.
-  RadiosityProblem bands = cube.MakeProblem(0, 2);
-  for (std::size_t k = 0; k < bands.Reflectance.size(); k += 2)
+  Task bands = cube.MakeTask(0, 2);
+  for (std::size_t k = 0; k < bands.Equation.Reflectance.size(); k += 2)
   {
-    bands.Reflectance[k] = 0.7;
+    bands.Equation.Reflectance[k] = 0.7;
   }
   ExpectError(bands, { ", band 1 (reflectance 1" });
   // Two rooms: the one whose rows sum to too much is named.
@@ -490,9 +502,9 @@ void TestDiagnoses()
   {
     sums[two.Scene.GetPatch(i)] = 1.3;
   }
-  RadiosityProblem overfull = two.MakeProblem(0);
-  overfull.RowSums = &sums;
-  const RadiositySolution solution = RadiositySolvers::Solve(overfull);
+  Task overfull = two.MakeTask(0);
+  overfull.Equation.RowSums = &sums;
+  const RadiositySolution solution = overfull.Solve();
   ExpectError(overfull,
     { "no unique solution", "(reflectance 0.8, view factors that sum to 1.3)",
       "returns more than it receives" });
@@ -500,27 +512,27 @@ void TestDiagnoses()
   Check(std::atoi(number.c_str()) >= 6, "the place is in the second room: " + solution.Error);
   // At 0.7 it can be solved, and users hear of the row.
   two.SetReflectance([](vtkIdType) { return 0.7; });
-  overfull = two.MakeProblem(0);
-  overfull.RowSums = &sums;
-  const RadiositySolution doubtful = RadiositySolvers::Solve(overfull);
+  overfull = two.MakeTask(0);
+  overfull.Equation.RowSums = &sums;
+  const RadiositySolution doubtful = overfull.Solve();
   Check(doubtful.HasConverged() &&
       doubtful.Warning.find("arrives more than once") != std::string::npos,
     "a row above 1 is named: " + doubtful.Warning);
   // View factors that are not good enough.
   cube.SetReflectance([](vtkIdType) { return 0.9999; });
-  RadiosityProblem vague = cube.MakeProblem(0);
-  vague.RowSumError = 1e-3;
+  Task vague = cube.MakeTask(0);
+  vague.Equation.RowSumError = 1e-3;
   // Where no row exceeds 1 there is a solution, however doubtful.
-  const RadiositySolution doubted = RadiositySolvers::Solve(vague);
+  const RadiositySolution doubted = vague.Solve();
   Check(doubted.HasConverged() && doubted.Warning.find("EnforceClosure") != std::string::npos,
     "view factors that tell little: " + doubted.Warning);
-  std::vector<double> fuller = *vague.RowSums;
+  std::vector<double> fuller = *vague.Equation.RowSums;
   fuller[0] = 1.00005;
-  vague.RowSums = &fuller;
+  vague.Equation.RowSums = &fuller;
   ExpectError(vague, { "no unique solution within that error", "EnforceClosure" });
-  vague = cube.MakeProblem(0);
-  vague.RowSumError = 3e-5;
-  const RadiositySolution uncertain = RadiositySolvers::Solve(vague);
+  vague = cube.MakeTask(0);
+  vague.Equation.RowSumError = 3e-5;
+  const RadiositySolution uncertain = vague.Solve();
   Check(uncertain.HasConverged() &&
       uncertain.Warning.find("B may be wrong by 3") != std::string::npos,
     "errors of view factors are amplified: " + uncertain.Warning);

@@ -7,17 +7,17 @@
  * w_i) bounds the spectrum of rho F (Collatz and Wielandt). Where there is no such w the equation
  * has no unique solution, or none that can be had with these view factors: Error says where.
  */
-#ifndef RadiosityBound_h
-#define RadiosityBound_h
+#ifndef ErrorBound_h
+#define ErrorBound_h
 
 #include <string>
 #include <vector>
 
 namespace LightTransport
 {
-struct RadiosityProblem;
+struct RadiosityEquation;
 
-struct RadiosityBound
+struct ErrorBound
 {
   std::vector<double> Inverse; ///< 1 / d, patches x bands
   ///@{ one per band
@@ -28,7 +28,7 @@ struct RadiosityBound
   std::string Error;   ///< not empty: the problem, the place and the remedy
   std::string Warning; ///< likewise, where there is a solution all the same
 
-  static RadiosityBound Find(const RadiosityProblem& problem);
+  static ErrorBound Find(const RadiosityEquation& equation);
 
   /// The bound from max_j |r_j| / d_j and what rounding may add to a residual.
   double Get(int band, double weightedResidual, double rounding) const

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Radiosity/RadiosityBound.h"
+#include "Radiosity/ErrorBound.h"
 
-#include "Radiosity/RadiosityIteration.h"
+#include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMethods.h"
+#include "Radiosity/RadiosityVectors.h"
 #include "vtkCPULinkOperator.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ namespace LightTransport
 {
 namespace
 {
-using Iteration = RadiosityIteration;
-
 // Where some 1 - rho * row sum is below this, w = 1 gives a poor bound or none, and a better w is
 // worth a few products.
 constexpr double SmallDominance = 1e-2;
@@ -45,14 +44,15 @@ struct Place
 };
 
 //------------------------------------------------------------------------------
-Place GetPlace(const RadiosityProblem& problem, std::size_t index)
+Place GetPlace(const RadiosityEquation& equation, std::size_t index)
 {
-  return { index, problem.Reflectance[index], (*problem.RowSums)[index / problem.NumberOfBands] };
+  return { index, equation.Reflectance[index],
+    (*equation.RowSums)[index / equation.NumberOfBands] };
 }
 
 //------------------------------------------------------------------------------
 // Where the part of the scene is in which `w` is largest, by its patch that loses least.
-Place FindWorst(const RadiosityProblem& problem, const std::vector<double>& w)
+Place FindWorst(const RadiosityEquation& equation, const std::vector<double>& w)
 {
   double largest = 0.0;
   for (const double value : w)
@@ -63,7 +63,7 @@ Place FindWorst(const RadiosityProblem& problem, const std::vector<double>& w)
   double most = -1.0;
   for (std::size_t k = 0; k < w.size(); ++k)
   {
-    const Place place = GetPlace(problem, k);
+    const Place place = GetPlace(equation, k);
     const double kept = place.Reflectance * place.RowSum;
     if (std::abs(w[k]) >= 0.5 * largest && kept > most)
     {
@@ -75,15 +75,15 @@ Place FindWorst(const RadiosityProblem& problem, const std::vector<double>& w)
 }
 
 //------------------------------------------------------------------------------
-std::string Describe(const RadiosityProblem& problem, const Place& place)
+std::string Describe(const RadiosityEquation& equation, const Place& place)
 {
-  const auto patch = static_cast<vtkIdType>(place.Index / problem.NumberOfBands);
+  const auto patch = static_cast<vtkIdType>(place.Index / equation.NumberOfBands);
   std::ostringstream text;
   text.precision(9);
-  text << "polygon " << (problem.GetPolygon ? problem.GetPolygon(patch) : patch);
-  if (problem.NumberOfBands > 1)
+  text << "polygon " << (equation.GetPolygon ? equation.GetPolygon(patch) : patch);
+  if (equation.NumberOfBands > 1)
   {
-    text << ", band " << place.Index % problem.NumberOfBands;
+    text << ", band " << place.Index % equation.NumberOfBands;
   }
   text << " (reflectance " << place.Reflectance << ", view factors that sum to " << place.RowSum
        << ")";
@@ -91,12 +91,12 @@ std::string Describe(const RadiosityProblem& problem, const Place& place)
 }
 
 //------------------------------------------------------------------------------
-std::string ExplainNoSolution(const RadiosityProblem& problem, const Place& place)
+std::string ExplainNoSolution(const RadiosityEquation& equation, const Place& place)
 {
   const std::string beginning =
-    "The radiosity equation has no unique solution: " + Describe(problem, place);
+    "The radiosity equation has no unique solution: " + Describe(equation, place);
   const double excess = place.Reflectance * place.RowSum - 1.0;
-  if (excess > std::max(problem.RowSumError, 1e-6))
+  if (excess > std::max(equation.RowSumError, 1e-6))
   {
     return beginning +
       " returns more than it receives. Remove patches that overlap or lie on each other "
@@ -116,28 +116,28 @@ std::string ExplainNoSolution(const RadiosityProblem& problem, const Place& plac
 
 //------------------------------------------------------------------------------
 // What errors of the view factors may do to B, relative to its largest value.
-void CheckViewFactors(const RadiosityProblem& problem, const Place& place, double amplification,
-  RadiosityBound& bound)
+void CheckViewFactors(const RadiosityEquation& equation, const Place& place, double amplification,
+  ErrorBound& bound)
 {
-  const double effect = amplification * problem.RowSumError;
+  const double effect = amplification * equation.RowSumError;
   if (effect < WorthAWarning)
   {
     return;
   }
   if (effect >= Meaningless && place.Reflectance >= FullReflectance &&
-    problem.RowSumError <= WellKnown)
+    equation.RowSumError <= WellKnown)
   {
-    bound.Error = ExplainNoSolution(problem, place);
+    bound.Error = ExplainNoSolution(equation, place);
     return;
   }
   std::ostringstream text;
   text << "Light is reflected about " << amplification << " times around "
-       << Describe(problem, place) << ", and row sums of the view factors are known to "
-       << problem.RowSumError << ": ";
+       << Describe(equation, place) << ", and row sums of the view factors are known to "
+       << equation.RowSumError << ": ";
   const char* const remedy = " Switch EnforceClosure on, lower ViewFactorTolerance, "
                              "LinkTolerance or the reflectance.";
   // Where no row sums to more than 1, light cannot grow: doubtful, but a solution.
-  const auto& sums = *problem.RowSums;
+  const auto& sums = *equation.RowSums;
   const bool mayGrow =
     !sums.empty() && *std::max_element(sums.begin(), sums.end()) > 1.0 + MostRounding;
   if (effect >= Meaningless && mayGrow)
@@ -151,15 +151,15 @@ void CheckViewFactors(const RadiosityProblem& problem, const Place& place, doubl
 }
 
 //------------------------------------------------------------------------------
-void CheckRows(const RadiosityProblem& problem, RadiosityBound& bound)
+void CheckRows(const RadiosityEquation& equation, ErrorBound& bound)
 {
-  const std::vector<double>& sums = *problem.RowSums;
+  const std::vector<double>& sums = *equation.RowSums;
   const auto fullest = std::max_element(sums.begin(), sums.end());
-  if (fullest != sums.end() && *fullest > OverfullRow + problem.RowSumError)
+  if (fullest != sums.end() && *fullest > OverfullRow + equation.RowSumError)
   {
     const auto patch = static_cast<std::size_t>(fullest - sums.begin());
     bound.Warning = "What leaves " +
-      Describe(problem, GetPlace(problem, patch * problem.NumberOfBands)) +
+      Describe(equation, GetPlace(equation, patch * equation.NumberOfBands)) +
       " arrives more than once: patches that it sees overlap or lie on each other. Remove them "
       "(vtkPatchMesher with Repair). " +
       bound.Warning;
@@ -168,7 +168,7 @@ void CheckRows(const RadiosityProblem& problem, RadiosityBound& bound)
 
 //------------------------------------------------------------------------------
 // With residuals 1 - d in Inverse. False unless all d and w are positive.
-bool Finish(const std::vector<double>& w, RadiosityBound& bound)
+bool Finish(const std::vector<double>& w, ErrorBound& bound)
 {
   const auto bands = bound.LargestW.size();
   bound.SpectralRadii.assign(bands, 0.0);
@@ -191,49 +191,49 @@ bool Finish(const std::vector<double>& w, RadiosityBound& bound)
 //------------------------------------------------------------------------------
 // w from conjugate gradients for a right-hand side of ones: then (I - rho F) w = 1 - residual.
 // Returns false where there is no such w; it then points to where that fails.
-bool FindW(const RadiosityProblem& problem, RadiosityBound& bound, std::vector<double>& w)
+bool FindW(const RadiosityEquation& equation, ErrorBound& bound, std::vector<double>& w)
 {
-  const std::vector<double> ones(problem.Reflectance.size(), 1.0);
-  Iteration state(problem, problem.Reference, ones.data());
-  RadiosityMethods::ConjugateGradients gradients(state);
-  state.Ok = state.Ok && gradients.Begin();
-  Iteration::Bands residuals(problem.NumberOfBands);
-  for (; state.Ok && state.Count < MaximumIterations; ++state.Count)
+  const std::vector<double> ones(equation.Reflectance.size(), 1.0);
+  RadiosityVectors vectors(equation, equation.Reference, ones.data());
+  RadiosityMethods::ConjugateGradients gradients(vectors);
+  bool good = vectors.Ok && gradients.Begin();
+  RadiosityVectors::Bands residuals(equation.NumberOfBands);
+  for (int count = 0; good && count < MaximumIterations; ++count)
   {
-    state.Ok = problem.Reference->MaxNorm(Iteration::RESIDUAL, residuals.data());
+    good = equation.Reference->MaxNorm(RadiosityVectors::RESIDUAL, residuals.data());
     if (gradients.IsIndefinite() ||
       *std::max_element(residuals.begin(), residuals.end()) <= GoodResidual)
     {
       break;
     }
-    state.Ok = state.Ok && gradients.Step();
+    good = good && gradients.Step();
   }
   // The recurrence drifts: the bound takes the residual itself.
   w.resize(ones.size());
   bound.Inverse.resize(ones.size());
-  bound.LargestW.resize(problem.NumberOfBands);
+  bound.LargestW.resize(equation.NumberOfBands);
   if (gradients.IsIndefinite())
   {
     gradients.GetIndefiniteDirection(w.data());
     return false;
   }
-  return state.Ok && state.ComputeResidual() &&
-    problem.Reference->GetVector(Iteration::RESIDUAL, bound.Inverse.data()) &&
-    problem.Reference->MaxNorm(Iteration::SOLUTION, bound.LargestW.data()) &&
-    problem.Reference->GetVector(Iteration::SOLUTION, w.data()) && Finish(w, bound);
+  return good && vectors.ComputeResidual() &&
+    equation.Reference->GetVector(RadiosityVectors::RESIDUAL, bound.Inverse.data()) &&
+    equation.Reference->MaxNorm(RadiosityVectors::SOLUTION, bound.LargestW.data()) &&
+    equation.Reference->GetVector(RadiosityVectors::SOLUTION, w.data()) && Finish(w, bound);
 }
 } // namespace
 
 //------------------------------------------------------------------------------
-RadiosityBound RadiosityBound::Find(const RadiosityProblem& problem)
+ErrorBound ErrorBound::Find(const RadiosityEquation& equation)
 {
-  RadiosityBound bound;
-  bound.LargestW.assign(problem.NumberOfBands, 1.0);
-  std::vector<double> w(problem.Reflectance.size(), 1.0);
+  ErrorBound bound;
+  bound.LargestW.assign(equation.NumberOfBands, 1.0);
+  std::vector<double> w(equation.Reflectance.size(), 1.0);
   std::vector<double> kept(w.size());
   for (std::size_t k = 0; k < kept.size(); ++k)
   {
-    kept[k] = GetPlace(problem, k).Reflectance * GetPlace(problem, k).RowSum;
+    kept[k] = GetPlace(equation, k).Reflectance * GetPlace(equation, k).RowSum;
   }
   const double most = kept.empty() ? 0.0 : *std::max_element(kept.begin(), kept.end());
   bound.Inverse = kept;
@@ -241,18 +241,18 @@ RadiosityBound RadiosityBound::Find(const RadiosityProblem& problem)
   {
     Finish(w, bound);
   }
-  else if (!FindW(problem, bound, w))
+  else if (!FindW(equation, bound, w))
   {
-    bound.Error = ExplainNoSolution(problem, FindWorst(problem, w));
+    bound.Error = ExplainNoSolution(equation, FindWorst(equation, w));
     return bound;
   }
   double amplification = 0.0;
-  for (int band = 0; band < problem.NumberOfBands; ++band)
+  for (int band = 0; band < equation.NumberOfBands; ++band)
   {
     amplification = std::max(amplification, bound.LargestW[band] * bound.LargestInverse[band]);
   }
-  CheckViewFactors(problem, FindWorst(problem, w), amplification, bound);
-  CheckRows(problem, bound);
+  CheckViewFactors(equation, FindWorst(equation, w), amplification, bound);
+  CheckRows(equation, bound);
   return bound;
 }
 } // namespace LightTransport

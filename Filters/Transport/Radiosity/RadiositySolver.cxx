@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Radiosity/RadiositySolvers.h"
+#include "Radiosity/RadiositySolver.h"
 
-#include "Radiosity/RadiosityBound.h"
+#include "Radiosity/ErrorBound.h"
+#include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityIteration.h"
 #include "Radiosity/RadiosityMethods.h"
+#include "Radiosity/SolverSettings.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkRadiosity.h"
 
@@ -23,23 +25,23 @@ using Bands = RadiosityIteration::Bands;
 constexpr int MaximumCorrections = 6;
 
 //------------------------------------------------------------------------------
-void ChooseSolver(const RadiosityProblem& problem, const RadiosityBound& bound,
+void ChooseSolver(const SolverSettings& settings, const ErrorBound& bound,
   RadiositySolution& solution)
 {
-  if (problem.Solver != vtkRadiosity::SOLVER_AUTO)
+  if (settings.Solver != vtkRadiosity::SOLVER_AUTO)
   {
-    solution.Solver = problem.Solver;
-    solution.Explanation = std::string(RadiositySolvers::GetName(problem.Solver)) + ": asked for";
+    solution.Solver = settings.Solver;
+    solution.Explanation = std::string(RadiositySolver::GetName(settings.Solver)) + ": asked for";
     return;
   }
   const double radius = *std::max_element(bound.SpectralRadii.begin(), bound.SpectralRadii.end());
   const int jacobi = vtkRadiosity::SOLVER_JACOBI;
   const int gradients = vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-  const double slow = RadiosityMethods::EstimateProducts(jacobi, radius, problem.Tolerance);
-  const double fast = RadiosityMethods::EstimateProducts(gradients, radius, problem.Tolerance);
+  const double slow = RadiosityMethods::EstimateProducts(jacobi, radius, settings.Tolerance);
+  const double fast = RadiosityMethods::EstimateProducts(gradients, radius, settings.Tolerance);
   solution.Solver = slow <= fast ? jacobi : gradients;
   std::ostringstream text;
-  text << RadiositySolvers::GetName(solution.Solver) << ": at most " << radius
+  text << RadiositySolver::GetName(solution.Solver) << ": at most " << radius
        << " of all light is reflected at a time, for which Jacobi needs up to " << slow
        << " products with the links and ConjugateGradient up to " << fast;
   solution.Explanation = text.str();
@@ -54,10 +56,10 @@ void ChooseSolver(const RadiosityProblem& problem, const RadiosityBound& bound,
 class Refinement
 {
 public:
-  Refinement(const RadiosityProblem& problem, const RadiosityBound& bound,
-    RadiositySolution& solution)
-    : Problem(problem), Bound(bound), Solution(solution), Links(problem.Operator),
-      Residual(problem.Emission), Sizes(problem.NumberOfBands, 0.0)
+  Refinement(const RadiosityEquation& equation, const SolverSettings& settings,
+    const ErrorBound& bound, RadiositySolution& solution)
+    : Equation(equation), Settings(settings), Bound(bound), Solution(solution),
+      Links(equation.Operator), Residual(equation.Emission), Sizes(equation.NumberOfBands, 0.0)
   {
     solution.Radiosity.assign(this->Residual.size(), 0.0);
   }
@@ -76,10 +78,10 @@ public:
       }
       // A round that gains less than a factor of two has come as far as it goes.
       const bool isUseless =
-        this->Ending == RadiosityStatus::Diverged || !(this->Solution.ErrorBound < 0.5 * previous);
+        this->Ending == SolverStatus::Diverged || !(this->Solution.ErrorBound < 0.5 * previous);
       previous = this->Solution.ErrorBound;
-      isOver = this->Solution.HasConverged() || this->Ending == RadiosityStatus::Aborted ||
-        this->Ending == RadiosityStatus::IterationsUsedUp ||
+      isOver = this->Solution.HasConverged() || this->Ending == SolverStatus::Aborted ||
+        this->Ending == SolverStatus::IterationsUsedUp ||
         (isUseless && !this->Links->IsSinglePrecision());
       if (!isOver && isUseless)
       {
@@ -99,7 +101,8 @@ private:
   // One run of the solver, added to the solution.
   bool Improve()
   {
-    RadiosityIteration state(this->Problem, this->Links, this->Residual.data(), &this->Bound);
+    RadiosityIteration state(this->Equation, this->Settings, this->Bound, this->Links,
+      this->Residual.data());
     state.Count = this->Solution.NumberOfIterations;
     state.LastReport = this->LastReport;
     state.Scales = this->Sizes;
@@ -109,7 +112,7 @@ private:
     }
     std::vector<double> correction(this->Residual.size());
     std::vector<double>& radiosity = this->Solution.Radiosity;
-    if (!state.Ok || !this->Links->GetVector(RadiosityIteration::SOLUTION, correction.data()))
+    if (!state.Ok || !this->Links->GetVector(RadiosityVectors::SOLUTION, correction.data()))
     {
       return false;
     }
@@ -124,17 +127,17 @@ private:
   // Residual, bound and sizes of the solution in double precision.
   bool Check()
   {
-    vtkCPULinkOperator* reference = this->Problem.Reference;
-    RadiosityIteration state(this->Problem, reference, this->Problem.Emission.data());
-    if (!state.Ok ||
-      !reference->SetVector(RadiosityIteration::SOLUTION, this->Solution.Radiosity.data()) ||
-      !state.ComputeResidual() ||
-      !reference->GetVector(RadiosityIteration::RESIDUAL, this->Residual.data()) ||
-      !reference->MaxNorm(RadiosityIteration::SOLUTION, this->Sizes.data()))
+    vtkCPULinkOperator* reference = this->Equation.Reference;
+    RadiosityVectors vectors(this->Equation, reference, this->Equation.Emission.data());
+    if (!vectors.Ok ||
+      !reference->SetVector(RadiosityVectors::SOLUTION, this->Solution.Radiosity.data()) ||
+      !vectors.ComputeResidual() ||
+      !reference->GetVector(RadiosityVectors::RESIDUAL, this->Residual.data()) ||
+      !reference->MaxNorm(RadiosityVectors::SOLUTION, this->Sizes.data()))
     {
       return false;
     }
-    const int bands = this->Problem.NumberOfBands;
+    const int bands = this->Equation.NumberOfBands;
     Bands weighted(bands, 0.0);
     for (std::size_t k = 0; k < this->Residual.size(); ++k)
     {
@@ -147,19 +150,19 @@ private:
     this->Solution.ErrorBound = 0.0;
     for (int band = 0; band < bands; ++band)
     {
-      const double rounding = RadiosityIteration::GetRounding(false, this->Sizes[band], 0);
+      const double rounding = RadiosityVectors::GetRounding(false, this->Sizes[band], 0);
       const double error = this->Bound.Get(band, weighted[band], rounding);
-      converged = converged && error <= this->Problem.Tolerance * this->Sizes[band];
+      converged = converged && error <= this->Settings.Tolerance * this->Sizes[band];
       this->Solution.ErrorBound =
         this->Solution.ErrorBound >= error ? this->Solution.ErrorBound : error;
     }
-    this->Solution.Status = converged ? RadiosityStatus::Converged : RadiosityStatus::Stagnated;
+    this->Solution.Status = converged ? SolverStatus::Converged : SolverStatus::Stagnated;
     return true;
   }
 
   bool GoOnInDouble()
   {
-    this->Links = this->Problem.Reference;
+    this->Links = this->Equation.Reference;
     this->Solution.Explanation += "; on the CPU in the end, where single precision did not suffice";
     return this->Check();
   }
@@ -167,43 +170,44 @@ private:
   // A solution that has not converged ended as its last run did; several that all stagnated did so.
   void Conclude()
   {
-    if (this->Ending == RadiosityStatus::Aborted ||
-      (!this->Solution.HasConverged() && this->Ending != RadiosityStatus::Converged))
+    if (this->Ending == SolverStatus::Aborted ||
+      (!this->Solution.HasConverged() && this->Ending != SolverStatus::Converged))
     {
       this->Solution.Status = this->Ending;
     }
   }
 
-  const RadiosityProblem& Problem;
-  const RadiosityBound& Bound;
+  const RadiosityEquation& Equation;
+  const SolverSettings& Settings;
+  const ErrorBound& Bound;
   RadiositySolution& Solution;
   vtkLinkOperator* Links;
   std::vector<double> Residual; // patches x bands
   Bands Sizes;                  // largest |B|
   int LastReport = -1;
-  RadiosityStatus Ending = RadiosityStatus::IterationsUsedUp;
+  SolverStatus Ending = SolverStatus::IterationsUsedUp;
 };
 
 //------------------------------------------------------------------------------
-void Warn(const RadiosityProblem& problem, RadiositySolution& solution)
+void Warn(const SolverSettings& settings, RadiositySolution& solution)
 {
-  if (solution.HasConverged() || solution.Status == RadiosityStatus::Aborted)
+  if (solution.HasConverged() || solution.Status == SolverStatus::Aborted)
   {
     return;
   }
   const bool isBest = solution.Solver == vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
   std::ostringstream text;
-  text << RadiositySolvers::GetName(solution.Solver) << " stopped after "
+  text << RadiositySolver::GetName(solution.Solver) << " stopped after "
        << solution.NumberOfIterations << " iterations with an error bound of "
        << solution.ErrorBound << ": ";
   switch (solution.Status)
   {
-    case RadiosityStatus::IterationsUsedUp:
+    case SolverStatus::IterationsUsedUp:
       text << "raise MaximumNumberOfIterations or Tolerance"
            << (isBest ? "." : ", or use ConjugateGradient.");
       break;
-    case RadiosityStatus::Stagnated:
-      text << "rounding does not let it come closer. Raise Tolerance above " << problem.Tolerance
+    case SolverStatus::Stagnated:
+      text << "rounding does not let it come closer. Raise Tolerance above " << settings.Tolerance
            << ", or lower reflectances that are next to 1.";
       break;
     default:
@@ -215,7 +219,7 @@ void Warn(const RadiosityProblem& problem, RadiositySolution& solution)
 } // namespace
 
 //------------------------------------------------------------------------------
-const char* RadiositySolvers::GetName(int solver)
+const char* RadiositySolver::GetName(int solver)
 {
   const char* const names[] = { "Auto", "Jacobi", "GaussSeidel", "Southwell", "Chebyshev",
     "ConjugateGradient" };
@@ -223,37 +227,30 @@ const char* RadiositySolvers::GetName(int solver)
 }
 
 //------------------------------------------------------------------------------
-const char* RadiositySolvers::GetName(RadiosityStatus status)
-{
-  const char* const names[] = { "Converged", "IterationsUsedUp", "Stagnated", "Diverged",
-    "Aborted" };
-  return names[static_cast<int>(status)];
-}
-
-//------------------------------------------------------------------------------
-bool RadiositySolvers::IsSequential(int solver)
+bool RadiositySolver::IsSequential(int solver)
 {
   return solver == vtkRadiosity::SOLVER_GAUSS_SEIDEL || solver == vtkRadiosity::SOLVER_SOUTHWELL;
 }
 
 //------------------------------------------------------------------------------
-RadiositySolution RadiositySolvers::Solve(const RadiosityProblem& problem)
+RadiositySolution RadiositySolver::Solve(const RadiosityEquation& equation,
+  const SolverSettings& settings)
 {
   RadiositySolution solution;
-  const RadiosityBound bound = RadiosityBound::Find(problem);
+  const ErrorBound bound = ErrorBound::Find(equation);
   solution.Error = bound.Error;
   solution.Warning = bound.Warning;
   if (!solution.Error.empty())
   {
     return solution;
   }
-  ChooseSolver(problem, bound, solution);
-  if (!Refinement(problem, bound, solution).Run())
+  ChooseSolver(settings, bound, solution);
+  if (!Refinement(equation, settings, bound, solution).Run())
   {
     solution.Error = "The links could not be applied (see the message before this one).";
     return solution;
   }
-  Warn(problem, solution);
+  Warn(settings, solution);
   if (!std::all_of(solution.Radiosity.begin(), solution.Radiosity.end(),
         [](double value) { return std::isfinite(value); }))
   {
