@@ -3,11 +3,11 @@
 #include "vtkRadiosity.h"
 
 #include "Links/LinkOperators.h"
-#include "Radiosity/ProgressiveRadiosity.h"
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolver.h"
 #include "Radiosity/SolverSettings.h"
+#include "Radiosity/SolverTable.h"
 #include "Run/TransportRun.h"
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
@@ -129,7 +129,6 @@ protected:
   void Write() override;
 
 private:
-  bool ShootsOnDevice() const;
   bool IsHierarchical() const;
   Outcome CheckSolver() const;
 
@@ -147,6 +146,7 @@ private:
   void WriteSummaries() const;
 
   vtkRadiosity* Owner;
+  const SolverEntry* Solver = nullptr; // set by Check
   RadiosityMaterials Materials;
   const LightTransport::Links* Links = nullptr; // null where the solver needs none
   LightTransport::Links BrightLinks;            // serve this run's light alone
@@ -160,16 +160,14 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// Southwell on OpenGL finds what patches see while it goes, and keeps no links.
-bool vtkRadiosity::Run::ShootsOnDevice() const
-{
-  return this->Owner->Solver == SOLVER_SOUTHWELL && this->Owner->Device == DEVICE_OPENGL;
-}
-
-//------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Check()
 {
-  const vtkViewFactors* given = this->ShootsOnDevice() ? nullptr : this->Owner->ViewFactors;
+  this->Solver = SolverTable::Find(this->Owner->Solver, this->Owner->Device);
+  if (!this->Solver)
+  {
+    return Outcome::Failed(SolverTable::ExplainUnknown(this->Owner->Solver));
+  }
+  const vtkViewFactors* given = this->Solver->NeedsLinks() ? this->Owner->ViewFactors : nullptr;
   const bool givenHierarchical = given && given->LinksClusters();
   const int method = this->Owner->LinkMethod;
   if (given && method != LINK_METHOD_AUTO &&
@@ -180,11 +178,10 @@ Outcome vtkRadiosity::Run::Check()
                   "Hierarchical of vtkViewFactors ") +
       (givenHierarchical ? "off." : "on."));
   }
-  if (this->Owner->Solver == SOLVER_GAUSS_SEIDEL &&
-    (givenHierarchical || method == LINK_METHOD_HIERARCHICAL))
+  if (this->Solver->NeedsEachPair() && (givenHierarchical || method == LINK_METHOD_HIERARCHICAL))
   {
-    return Outcome::Failed(
-      "GaussSeidel needs a link for each pair of patches: set LinkMethod to Dense, or "
+    return Outcome::Failed(std::string(this->Solver->Name) +
+      " needs a link for each pair of patches: set LinkMethod to Dense, or "
       "use ConjugateGradient, Chebyshev, Jacobi or Southwell.");
   }
   return this->CheckSolver();
@@ -193,14 +190,13 @@ Outcome vtkRadiosity::Run::Check()
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::CheckSolver() const
 {
-  const int solver = this->Owner->Solver;
-  if (!RadiositySolver::IsSequential(solver) || this->ShootsOnDevice())
+  if (!this->Solver->NeedsOneCPU())
   {
     return LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Owner->Device), this->AllRanks);
   }
   if (this->Owner->Device == DEVICE_OPENGL || this->AllRanks.AreSeveral())
   {
-    return Outcome::Failed(std::string(RadiositySolver::GetName(solver)) +
+    return Outcome::Failed(std::string(this->Solver->Name) +
       " goes from patch to patch and runs on the CPU of one process: set Device to Auto or CPU on "
       "one process, or use Jacobi, Chebyshev or ConjugateGradient.");
   }
@@ -212,7 +208,7 @@ Outcome vtkRadiosity::Run::CheckSolver() const
 Outcome vtkRadiosity::Run::Gather()
 {
   Outcome gathered = this->TransportRun::Gather();
-  if (gathered && !this->ShootsOnDevice() && this->IsHierarchical())
+  if (gathered && this->Solver->NeedsLinks() && this->IsHierarchical())
   {
     const vtkViewFactors* given = this->Owner->ViewFactors;
     gathered = this->GatherForClusters(given ? given->ClusterTree : this->Owner->ClusterTree);
@@ -229,8 +225,7 @@ bool vtkRadiosity::Run::IsHierarchical() const
   }
   return this->Owner->LinkMethod == LINK_METHOD_HIERARCHICAL ||
     (this->Owner->LinkMethod == LINK_METHOD_AUTO &&
-      this->Scene.GetNumberOfPatches() > MostDensePatches &&
-      this->Owner->Solver != SOLVER_GAUSS_SEIDEL);
+      this->Scene.GetNumberOfPatches() > MostDensePatches && !this->Solver->NeedsEachPair());
 }
 
 //------------------------------------------------------------------------------
@@ -255,7 +250,7 @@ Outcome vtkRadiosity::Run::Read()
 // links tell all: those for the light that there is know no row sums.
 Outcome vtkRadiosity::Run::Link()
 {
-  if (this->ShootsOnDevice())
+  if (!this->Solver->NeedsLinks())
   {
     return Outcome::Done();
   }
@@ -313,8 +308,8 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
 Outcome vtkRadiosity::Run::Compute()
 {
   const Monitor monitor = this->Progress.GetMonitor();
-  Outcome solved = this->ShootsOnDevice() ? this->Shoot(monitor.GetStage(0.0, SolverDone))
-                                          : this->Solve(monitor.GetStage(LinksDone, SolverDone));
+  Outcome solved = this->Solver->NeedsLinks() ? this->Solve(monitor.GetStage(LinksDone, SolverDone))
+                                              : this->Shoot(monitor.GetStage(0.0, SolverDone));
   solved = solved ? this->CheckSolution() : solved;
   return solved && this->Links && !this->Finish() ? Outcome::FailedAsReported() : solved;
 }
@@ -325,9 +320,8 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
   vtkExchange* exchange = this->Links->GetExchange();
-  const LinkDevice device = RadiositySolver::IsSequential(this->Owner->Solver)
-    ? LinkDevice::CPU
-    : static_cast<LinkDevice>(this->Owner->Device);
+  const LinkDevice device =
+    this->Solver->NeedsOneCPU() ? LinkDevice::CPU : static_cast<LinkDevice>(this->Owner->Device);
   vtkSmartPointer<vtkLinkOperator> links;
   Outcome made = LinkOperators::Make(device, exchange, this->Materials.NumberOfBands,
     this->AllRanks, links, this->DeviceExplanation);
@@ -380,8 +374,7 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
     std::min<vtkIdType>(VTK_INT_MAX, patches * this->Owner->MaximumNumberOfIterations);
   const SolverSettings settings = this->MakeSettings(static_cast<int>(mostShots), begin, monitor);
 
-  this->Solution =
-    ProgressiveRadiosity::Solve(shooter, this->Scene, equation, settings, this->Irradiance);
+  this->Solution = this->Solver->Shoot(shooter, this->Scene, equation, settings, this->Irradiance);
   this->Shots = this->Solution.NumberOfIterations;
   this->Solution.NumberOfIterations = static_cast<int>((this->Shots + patches - 1) / patches);
   this->DeviceUsed = shooter->GetDeviceName();
@@ -522,7 +515,7 @@ void vtkRadiosity::Run::WriteSummaries() const
 {
   vtkFieldData* fields = this->GetOutputFields();
   const RadiositySolution& solution = this->Solution;
-  FieldValues::Add(fields, "SolverUsed", std::string(RadiositySolver::GetName(solution.Solver)));
+  FieldValues::Add(fields, "SolverUsed", std::string(SolverTable::GetName(solution.Solver)));
   FieldValues::Add(fields, "SolverExplanation", solution.Explanation);
   FieldValues::Add(fields, "SolverStatus", std::string(GetName(solution.Status)));
   FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
@@ -659,7 +652,7 @@ double vtkRadiosity::GetBackgroundRadiance(int band) const
 void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Solver: " << RadiositySolver::GetName(this->Solver) << "\n";
+  os << indent << "Solver: " << SolverTable::GetName(this->Solver) << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumNumberOfIterations: " << this->MaximumNumberOfIterations << "\n";
   PrintValues(os << indent << "BandLimits:", this->BandLimits);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Radiosity/ErrorBound.h"
 
+#include "Radiosity/ConjugateGradients.h"
 #include "Radiosity/RadiosityEquation.h"
-#include "Radiosity/RadiosityMethods.h"
 #include "Radiosity/RadiosityVectors.h"
 #include "vtkCPULinkOperator.h"
 
@@ -195,7 +195,7 @@ bool FindW(const RadiosityEquation& equation, ErrorBound& bound, std::vector<dou
 {
   const std::vector<double> ones(equation.Reflectance.size(), 1.0);
   RadiosityVectors vectors(equation, equation.Reference, ones.data());
-  RadiosityMethods::ConjugateGradients gradients(vectors);
+  ConjugateGradients gradients(vectors);
   bool good = vectors.Ok && gradients.Begin();
   RadiosityVectors::Bands residuals(equation.NumberOfBands);
   for (int count = 0; good && count < MaximumIterations; ++count)

@@ -5,8 +5,8 @@
 #include "Radiosity/ErrorBound.h"
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityIteration.h"
-#include "Radiosity/RadiosityMethods.h"
 #include "Radiosity/SolverSettings.h"
+#include "Radiosity/SolverTable.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkRadiosity.h"
 
@@ -25,26 +25,51 @@ using Bands = RadiosityIteration::Bands;
 constexpr int MaximumCorrections = 6;
 
 //------------------------------------------------------------------------------
-void ChooseSolver(const SolverSettings& settings, const ErrorBound& bound,
-  RadiositySolution& solution)
+// The one that needs the fewest products with the links, and why it is that one.
+const SolverEntry* FindCheapest(double radius, double tolerance, std::string& explanation)
 {
-  if (settings.Solver != vtkRadiosity::SOLVER_AUTO)
+  std::vector<const SolverEntry*> entries = SolverTable::GetAll();
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                  [](const SolverEntry* entry) { return !entry->EstimateProducts; }),
+    entries.end());
+  const SolverEntry* cheapest = nullptr;
+  double least = 0.0;
+  std::ostringstream costs;
+  for (const SolverEntry* entry : entries)
   {
-    solution.Solver = settings.Solver;
-    solution.Explanation = std::string(RadiositySolver::GetName(settings.Solver)) + ": asked for";
-    return;
+    const double products = entry->EstimateProducts(radius, tolerance);
+    if (!cheapest || products < least)
+    {
+      cheapest = entry;
+      least = products;
+    }
+    costs << (entry == entries.front()     ? ""
+                 : entry == entries.back() ? " and "
+                                           : ", ")
+          << entry->Name << (entry == entries.front() ? " needs up to " : " up to ") << products
+          << (entry == entries.front() ? " products with the links" : "");
   }
-  const double radius = *std::max_element(bound.SpectralRadii.begin(), bound.SpectralRadii.end());
-  const int jacobi = vtkRadiosity::SOLVER_JACOBI;
-  const int gradients = vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-  const double slow = RadiosityMethods::EstimateProducts(jacobi, radius, settings.Tolerance);
-  const double fast = RadiosityMethods::EstimateProducts(gradients, radius, settings.Tolerance);
-  solution.Solver = slow <= fast ? jacobi : gradients;
   std::ostringstream text;
-  text << RadiositySolver::GetName(solution.Solver) << ": at most " << radius
-       << " of all light is reflected at a time, for which Jacobi needs up to " << slow
-       << " products with the links and ConjugateGradient up to " << fast;
-  solution.Explanation = text.str();
+  text << cheapest->Name << ": at most " << radius
+       << " of all light is reflected at a time, for which " << costs.str();
+  explanation = text.str();
+  return cheapest;
+}
+
+//------------------------------------------------------------------------------
+const SolverEntry* ChooseSolver(const SolverEntry* asked, const SolverSettings& settings,
+  const ErrorBound& bound, RadiositySolution& solution)
+{
+  const SolverEntry* chosen = asked;
+  solution.Explanation = std::string(asked->Name) + ": asked for";
+  if (asked->Type == vtkRadiosity::SOLVER_AUTO)
+  {
+    const auto& radii = bound.SpectralRadii;
+    chosen = FindCheapest(*std::max_element(radii.begin(), radii.end()), settings.Tolerance,
+      solution.Explanation);
+  }
+  solution.Solver = chosen->Type;
+  return chosen;
 }
 
 //------------------------------------------------------------------------------
@@ -57,8 +82,8 @@ class Refinement
 {
 public:
   Refinement(const RadiosityEquation& equation, const SolverSettings& settings,
-    const ErrorBound& bound, RadiositySolution& solution)
-    : Equation(equation), Settings(settings), Bound(bound), Solution(solution),
+    const ErrorBound& bound, const SolverEntry& solver, RadiositySolution& solution)
+    : Equation(equation), Settings(settings), Bound(bound), Solver(solver), Solution(solution),
       Links(equation.Operator), Residual(equation.Emission), Sizes(equation.NumberOfBands, 0.0)
   {
     solution.Radiosity.assign(this->Residual.size(), 0.0);
@@ -108,7 +133,7 @@ private:
     state.Scales = this->Sizes;
     if (state.Ok)
     {
-      RadiosityMethods::Iterate(this->Solution.Solver, state);
+      this->Solver.Iterate(state);
     }
     std::vector<double> correction(this->Residual.size());
     std::vector<double>& radiosity = this->Solution.Radiosity;
@@ -180,6 +205,7 @@ private:
   const RadiosityEquation& Equation;
   const SolverSettings& Settings;
   const ErrorBound& Bound;
+  const SolverEntry& Solver;
   RadiositySolution& Solution;
   vtkLinkOperator* Links;
   std::vector<double> Residual; // patches x bands
@@ -197,9 +223,8 @@ void Warn(const SolverSettings& settings, RadiositySolution& solution)
   }
   const bool isBest = solution.Solver == vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
   std::ostringstream text;
-  text << RadiositySolver::GetName(solution.Solver) << " stopped after "
-       << solution.NumberOfIterations << " iterations with an error bound of "
-       << solution.ErrorBound << ": ";
+  text << SolverTable::GetName(solution.Solver) << " stopped after " << solution.NumberOfIterations
+       << " iterations with an error bound of " << solution.ErrorBound << ": ";
   switch (solution.Status)
   {
     case SolverStatus::IterationsUsedUp:
@@ -219,24 +244,16 @@ void Warn(const SolverSettings& settings, RadiositySolution& solution)
 } // namespace
 
 //------------------------------------------------------------------------------
-const char* RadiositySolver::GetName(int solver)
-{
-  const char* const names[] = { "Auto", "Jacobi", "GaussSeidel", "Southwell", "Chebyshev",
-    "ConjugateGradient" };
-  return names[solver];
-}
-
-//------------------------------------------------------------------------------
-bool RadiositySolver::IsSequential(int solver)
-{
-  return solver == vtkRadiosity::SOLVER_GAUSS_SEIDEL || solver == vtkRadiosity::SOLVER_SOUTHWELL;
-}
-
-//------------------------------------------------------------------------------
 RadiositySolution RadiositySolver::Solve(const RadiosityEquation& equation,
   const SolverSettings& settings)
 {
   RadiositySolution solution;
+  const SolverEntry* asked = SolverTable::Find(settings.Solver, vtkTransportAlgorithm::DEVICE_CPU);
+  if (!asked)
+  {
+    solution.Error = SolverTable::ExplainUnknown(settings.Solver);
+    return solution;
+  }
   const ErrorBound bound = ErrorBound::Find(equation);
   solution.Error = bound.Error;
   solution.Warning = bound.Warning;
@@ -244,8 +261,8 @@ RadiositySolution RadiositySolver::Solve(const RadiosityEquation& equation,
   {
     return solution;
   }
-  ChooseSolver(settings, bound, solution);
-  if (!Refinement(equation, settings, bound, solution).Run())
+  const SolverEntry* solver = ChooseSolver(asked, settings, bound, solution);
+  if (!Refinement(equation, settings, bound, *solver, solution).Run())
   {
     solution.Error = "The links could not be applied (see the message before this one).";
     return solution;

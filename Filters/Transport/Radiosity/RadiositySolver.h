@@ -23,12 +23,6 @@ namespace RadiositySolver
  * method that needs the fewest products with the links.
  */
 RadiositySolution Solve(const RadiosityEquation& equation, const SolverSettings& settings);
-
-/// "Jacobi", "GaussSeidel", ...
-const char* GetName(int solver);
-
-/// True for the solvers that go from patch to patch, which run on the CPU of one process.
-bool IsSequential(int solver);
 } // namespace RadiositySolver
 } // namespace LightTransport
 

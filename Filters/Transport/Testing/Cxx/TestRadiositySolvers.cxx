@@ -8,6 +8,7 @@
 #include "Radiosity/RadiositySolver.h"
 #include "Radiosity/RadiosityVectors.h"
 #include "Radiosity/SolverSettings.h"
+#include "Radiosity/SolverTable.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkDenseLinkOperator.h"
@@ -19,6 +20,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <sstream>
 
 using namespace LightTransport;
 
@@ -196,7 +199,7 @@ void TestCounts(Case& scene, const std::vector<Expected>& rows, const std::strin
     {
       const int most = row.Most[solver - 1];
       const std::string what =
-        name + " at " + std::to_string(row.Reflectance) + ", " + RadiositySolver::GetName(solver);
+        name + " at " + std::to_string(row.Reflectance) + ", " + SolverTable::GetName(solver);
       const int count = most > 0 ? CountIterations(scene, solver, what) : 0;
       Check(count >= 0 && count <= most + most / 20 + 1,
         what + " takes " + std::to_string(count) + " iterations, not " + std::to_string(most));
@@ -253,7 +256,7 @@ void TestAnswers()
            solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT; ++solver)
       {
         const std::string what =
-          std::string(RadiositySolver::GetName(solver)) + " to " + std::to_string(tolerance);
+          std::string(SolverTable::GetName(solver)) + " to " + std::to_string(tolerance);
         Task task = cube.MakeTask(solver, bands);
         task.Settings.Tolerance = tolerance;
         const RadiositySolution solution = task.Solve();
@@ -345,7 +348,7 @@ void TestSinglePrecision()
       {
         continue;
       }
-      const std::string what = std::string(RadiositySolver::GetName(solver)) +
+      const std::string what = std::string(SolverTable::GetName(solver)) +
         " in single precision at " + std::to_string(rho);
       vtkNew<SinglePrecisionLinks> links;
       Task task = cube.MakeTask(solver);
@@ -388,7 +391,9 @@ void TestAuto()
     const int expected =
       rho < 0.1 ? vtkRadiosity::SOLVER_JACOBI : vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
     Check(chosen.HasConverged() && chosen.Solver == expected, "Auto at " + std::to_string(rho));
-    Check(chosen.Explanation.find(std::string(RadiositySolver::GetName(expected)) + ": ") == 0,
+    const SolverEntry* entry = SolverTable::Find(chosen.Solver, vtkRadiosity::DEVICE_CPU);
+    Check(entry && entry->EstimateProducts, "Auto takes one that tells its cost");
+    Check(chosen.Explanation.find(std::string(SolverTable::GetName(expected)) + ": ") == 0,
       "Auto explains: " + chosen.Explanation);
     for (const int other : { vtkRadiosity::SOLVER_JACOBI, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
     {
@@ -401,11 +406,83 @@ void TestAuto()
 }
 
 //------------------------------------------------------------------------------
+// Every number of vtkRadiosity has an entry with the name that the filter shows.
+void TestNumbers()
+{
+  vtkNew<vtkRadiosity> filter;
+  for (int type = filter->GetSolverMinValue(); type <= filter->GetSolverMaxValue(); ++type)
+  {
+    const std::string what = "solver " + std::to_string(type);
+    filter->SetSolver(type);
+    std::ostringstream text;
+    filter->PrintSelf(text, vtkIndent());
+    for (const int device :
+      { vtkRadiosity::DEVICE_AUTO, vtkRadiosity::DEVICE_CPU, vtkRadiosity::DEVICE_OPENGL })
+    {
+      const SolverEntry* entry = SolverTable::Find(type, device);
+      Check(entry && entry->Type == type, what + " has an entry");
+      Check(entry &&
+          text.str().find(std::string("Solver: ") + entry->Name + "\n") < std::string::npos,
+        what + " has the name that is shown");
+      Check(entry && (entry->NeedsLinks() || device == vtkRadiosity::DEVICE_OPENGL),
+        what + " needs links where no device finds them");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Every entry can be found, runs in one way, and is the only one of its kind.
+void TestEntries()
+{
+  vtkNew<vtkRadiosity> filter;
+  std::set<std::pair<int, bool>> kinds;
+  std::set<std::pair<std::string, bool>> names;
+  for (const SolverEntry* entry : SolverTable::GetAll())
+  {
+    const std::string what = entry->Name;
+    const int device = entry->NeedsLinks() ? vtkRadiosity::DEVICE_CPU : vtkRadiosity::DEVICE_OPENGL;
+    Check(SolverTable::Find(entry->Type, device) == entry, what + " is found");
+    Check(entry->Type >= filter->GetSolverMinValue() && entry->Type <= filter->GetSolverMaxValue(),
+      what + " has a number of the filter");
+    Check(kinds.emplace(entry->Type, entry->NeedsLinks()).second &&
+        names.emplace(what, entry->NeedsLinks()).second,
+      what + " is there once");
+    const bool isAuto = entry->Type == vtkRadiosity::SOLVER_AUTO;
+    Check((entry->Iterate != nullptr) == (entry->NeedsLinks() && !isAuto) &&
+        (entry->Shoot != nullptr) == !entry->NeedsLinks(),
+      what + " runs in one way");
+    Check(!entry->EstimateProducts || entry->Iterate, what + " can be what Auto takes");
+  }
+  const SolverEntry* shots =
+    SolverTable::Find(vtkRadiosity::SOLVER_SOUTHWELL, vtkRadiosity::DEVICE_OPENGL);
+  Check(shots && !shots->NeedsLinks() && !shots->NeedsOneCPU(), "Southwell shoots on OpenGL");
+}
+
+//------------------------------------------------------------------------------
+// A number without a solver is an error, not a default.
+void TestUnknown()
+{
+  Case cube(MakeRoom(1), true);
+  cube.LetEmit(1);
+  for (const int type : { -1, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT + 1 })
+  {
+    Check(!SolverTable::Find(type, vtkRadiosity::DEVICE_AUTO) &&
+        !SolverTable::Find(type, vtkRadiosity::DEVICE_OPENGL),
+      "there is no solver " + std::to_string(type));
+    const RadiositySolution solution = cube.MakeTask(type).Solve();
+    Check(solution.Error.find("There is no solver " + std::to_string(type)) == 0 &&
+        solution.Error.find("5 (ConjugateGradient)") != std::string::npos,
+      "an unknown number is refused: " + solution.Error);
+    Check(solution.Radiosity.empty(), "and nothing runs");
+  }
+}
+
+//------------------------------------------------------------------------------
 void ExpectEnd(const Task& task, SolverStatus status, const std::string& remedy)
 {
   const RadiositySolution solution = task.Solve();
   const std::string what =
-    std::string(RadiositySolver::GetName(task.Settings.Solver)) + ": " + GetName(status);
+    std::string(SolverTable::GetName(task.Settings.Solver)) + ": " + GetName(status);
   Check(solution.Status == status, what + ", not " + GetName(solution.Status));
   Check(solution.Warning.find(remedy) != std::string::npos, what + " warns: " + solution.Warning);
   Check(solution.Error.empty() && solution.Radiosity.size() == task.Equation.Emission.size(),
@@ -547,6 +624,9 @@ int TestRadiositySolvers(int, char*[])
   TestAnswers();
   TestSinglePrecision();
   TestAuto();
+  TestNumbers();
+  TestEntries();
+  TestUnknown();
   TestEndings();
   TestDiagnoses();
   return Result();

@@ -1,16 +1,27 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Radiosity/ProgressiveRadiosity.h"
-
+/*
+ * Southwell by progressive refinement on a device: shots without view factors, until what is left
+ * to shoot no longer matters.
+ *
+ * With unshot radiosity r >= 0, what has been shot is below the solution of the device's own view
+ * factors by (I - rho F)^-1 r. Rows of F sum to 1 at most, so neither B nor H of any patch misses
+ * more than max r / (1 - rho), with the largest rho: infinite where a patch reflects everything.
+ * The error of the view factors is not in it.
+ */
 #include "Radiosity/RadiosityEquation.h"
+#include "Radiosity/RadiositySolution.h"
+#include "Radiosity/SolverEntry.h"
 #include "Radiosity/SolverSettings.h"
 #include "Scene/PatchScene.h"
 #include "vtkDeviceShooter.h"
+#include "vtkRadiosity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 namespace LightTransport
 {
@@ -18,6 +29,8 @@ namespace
 {
 // Less than this fraction of the largest source does not change sums of single precision.
 constexpr double SinglePrecision = 1e-7;
+// Shots between two reports.
+constexpr vtkIdType ShotsPerReport = 16;
 
 //------------------------------------------------------------------------------
 vtkDeviceShooter::Patches DescribePatches(const PatchScene& scene)
@@ -98,17 +111,14 @@ void Warn(const SolverSettings& settings, RadiositySolution& solution)
        << settings.Tolerance << ", or use ConjugateGradient.";
   solution.Warning = text.str();
 }
-} // namespace
 
-namespace ProgressiveRadiosity
-{
 //------------------------------------------------------------------------------
-RadiositySolution Solve(vtkDeviceShooter* shooter, const PatchScene& scene,
+RadiositySolution Shoot(vtkDeviceShooter* shooter, const PatchScene& scene,
   const RadiosityEquation& equation, const SolverSettings& settings,
   std::vector<double>& irradiance)
 {
   RadiositySolution solution;
-  solution.Solver = settings.Solver;
+  solution.Solver = vtkRadiosity::SOLVER_SOUTHWELL;
   solution.Explanation = "Southwell: asked for, by item buffers without view factors";
   const int bands = equation.NumberOfBands;
   const std::vector<double> reflectances = FindLargest(equation.Reflectance, bands);
@@ -143,5 +153,12 @@ RadiositySolution Solve(vtkDeviceShooter* shooter, const PatchScene& scene,
   }
   return solution;
 }
-} // namespace ProgressiveRadiosity
+} // namespace
+
+namespace Solvers
+{
+//------------------------------------------------------------------------------
+extern const SolverEntry SouthwellOnDevice = { vtkRadiosity::SOLVER_SOUTHWELL, "Southwell",
+  SolverEntry::Order::PatchToPatch, SolverEntry::Links::FoundOnDevice, nullptr, nullptr, Shoot };
+} // namespace Solvers
 } // namespace LightTransport
