@@ -3,6 +3,8 @@
 #include "vtkRadiosity.h"
 
 #include "Links/LinkOperators.h"
+#include "Radiosity/Brightness.h"
+#include "Radiosity/ConvergenceTable.h"
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolver.h"
@@ -19,10 +21,7 @@
 #include "vtkCPULinkOperator.h"
 #include "vtkDataObject.h"
 #include "vtkDeviceShooter.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
@@ -40,9 +39,6 @@ vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
 
 namespace
 {
-// What sums of view factors lose by rounding in double precision.
-constexpr double DoublePrecision = 1e-14;
-
 // More patches than this are linked by clusters unless asked for otherwise: a matrix takes about
 // half a minute from here on.
 constexpr vtkIdType MostDensePatches = 8192;
@@ -56,46 +52,6 @@ constexpr double CoarseDone = 0.3;
 constexpr double CoarseSolved = 0.35;
 constexpr double LinksDone = 0.8;
 constexpr double SolverDone = 0.98;
-
-//------------------------------------------------------------------------------
-// The largest error of a row sum. A row that has been closed is as good as its sum.
-double GetRowSumError(const Links& links)
-{
-  double largest = DoublePrecision;
-  for (std::size_t row = 0; row < links.RowErrors.size(); ++row)
-  {
-    const double error = links.RowErrors[row];
-    const double gap = links.AreRowsClosed ? std::abs(1.0 - links.RowSums[row]) : error;
-    largest = std::max(largest, std::min(error, gap));
-  }
-  return largest;
-}
-
-//------------------------------------------------------------------------------
-// The largest radiosity of each patch over its bands; nothing counts as so dark that row sums,
-// which rows are closed by, are less well known than to the coarse tolerance.
-std::vector<double> FindBrightness(const std::vector<double>& radiosity,
-  const std::vector<double>& areas)
-{
-  const std::size_t bands = radiosity.size() / areas.size();
-  std::vector<double> brightness(areas.size(), 0.0);
-  for (std::size_t k = 0; k < radiosity.size(); ++k)
-  {
-    brightness[k / bands] = std::max(brightness[k / bands], std::abs(radiosity[k]));
-  }
-  double squared = 0.0;
-  for (std::size_t patch = 0; patch < areas.size(); ++patch)
-  {
-    squared += areas[patch] * brightness[patch] * brightness[patch];
-  }
-  const double darkest =
-    std::sqrt(squared / std::accumulate(areas.begin(), areas.end(), 0.0)) / CoarseLinks;
-  for (double& value : brightness)
-  {
-    value = std::max(value, darkest);
-  }
-  return brightness;
-}
 
 //------------------------------------------------------------------------------
 double GetElement(const std::vector<double>& values, int index)
@@ -298,7 +254,7 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
     return this->UpdateLinks(this->Owner->LinkTolerance, second);
   }
   const HierarchicalViewFactors builder(this->Owner->LinkTolerance,
-    FindBrightness(this->Solution.Radiosity, this->Scene.GetAreas()));
+    Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks));
   this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
   this->Links = &this->BrightLinks;
   return builder.Build(this->Scene, this->AllRanks, second, this->BrightLinks);
@@ -340,7 +296,7 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
   equation.Reference = this->Reference;
   equation.Areas = &exchange->GetAreas();
   equation.RowSums = &this->Links->RowSums;
-  equation.RowSumError = GetRowSumError(*this->Links);
+  equation.RowSumError = this->Links->GetRowSumError();
   equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
   const SolverSettings settings =
     this->MakeSettings(this->Owner->MaximumNumberOfIterations, begin, monitor);
@@ -404,8 +360,7 @@ RadiosityEquation vtkRadiosity::Run::DescribeEquation() const
 }
 
 //------------------------------------------------------------------------------
-// One row of the table per iteration; progress follows the logarithm of the error bound, which
-// falls steadily.
+// One row of the table per iteration; progress is by the residual, or the iterations that are left.
 SolverSettings vtkRadiosity::Run::MakeSettings(int mostIterations, double begin,
   const Monitor& monitor)
 {
@@ -413,31 +368,11 @@ SolverSettings vtkRadiosity::Run::MakeSettings(int mostIterations, double begin,
   settings.Solver = this->Owner->Solver;
   settings.Tolerance = this->Owner->Tolerance;
   settings.MaximumNumberOfIterations = mostIterations;
-  vtkNew<vtkIntArray> iterations;
-  iterations->SetName("Iteration");
-  this->Table->Initialize();
-  this->Table->AddColumn(iterations);
-  vtkSmartPointer<vtkDoubleArray> columns[3];
-  const char* const names[3] = { "Seconds", "Residual", "ErrorBound" };
-  for (int column = 0; column < 3; ++column)
+  ConvergenceTable table(this->Table, begin);
+  settings.Report = [table, tolerance = settings.Tolerance, most = double(mostIterations),
+                      monitor](int iteration, double residual, double bound) mutable
   {
-    columns[column] = vtkSmartPointer<vtkDoubleArray>::New();
-    columns[column]->SetName(names[column]);
-    this->Table->AddColumn(columns[column]);
-  }
-  vtkIntArray* count = iterations;
-  const double most = mostIterations;
-  const double tolerance = this->Owner->Tolerance;
-  double first = 0.0;
-  settings.Report = [=](int iteration, double residual, double bound) mutable
-  {
-    count->InsertNextValue(iteration);
-    columns[0]->InsertNextValue(vtkTimerLog::GetUniversalTime() - begin);
-    columns[1]->InsertNextValue(residual);
-    columns[2]->InsertNextValue(bound);
-    first = first > 0.0 ? first : residual;
-    const double gained = residual > 0.0 && first > 0.0 ? std::log(first / residual) : 0.0;
-    const double byResidual = gained / -std::log(tolerance);
+    const double byResidual = table.Add(iteration, residual, bound, tolerance);
     return monitor.Report(std::max(byResidual, iteration / most));
   };
   return settings;
@@ -450,8 +385,7 @@ Outcome vtkRadiosity::Run::CheckSolution() const
   {
     const char* hint = this->Materials.HasGivenFluxes()
       ? " A patch with a given net flux counts as one that reflects everything: each closed part "
-        "of "
-        "the scene needs a patch with a given temperature."
+        "of the scene needs a patch with a given temperature."
       : "";
     return Outcome::Failed(this->Solution.Error + hint);
   }

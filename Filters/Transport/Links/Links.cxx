@@ -8,10 +8,17 @@
 #include "vtkCPULinkOperator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace LightTransport
 {
+namespace
+{
+// What sums of view factors lose by rounding in double precision.
+constexpr double DoublePrecision = 1e-14;
+} // namespace
+
 //------------------------------------------------------------------------------
 double Links::GetSummary(const std::string& name) const
 {
@@ -31,6 +38,19 @@ void Links::AddSummaries(vtkFieldData* fields) const
   {
     FieldValues::Add(fields, "ClusterTreeUsed", this->ClusterTree);
   }
+}
+
+//------------------------------------------------------------------------------
+double Links::GetRowSumError() const
+{
+  double largest = DoublePrecision;
+  for (std::size_t row = 0; row < this->RowErrors.size(); ++row)
+  {
+    const double error = this->RowErrors[row];
+    const double gap = this->AreRowsClosed ? std::abs(1.0 - this->RowSums[row]) : error;
+    largest = std::max(largest, std::min(error, gap));
+  }
+  return largest;
 }
 
 //------------------------------------------------------------------------------

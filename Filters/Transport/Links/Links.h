@@ -56,6 +56,9 @@ struct Links
   /// All of them, and the cluster tree.
   void AddSummaries(vtkFieldData* fields) const;
 
+  /// The largest error of a row sum. A row that has been closed is as good as its sum.
+  double GetRowSumError() const;
+
   /// Row sums of the exchange as it is, into RowSums. Collective.
   Outcome SumRows(const Ranks& ranks);
 };
