@@ -4,8 +4,8 @@
 
 #include "Context/LightTransportOpenGL.h"
 #include "Textures/FloatTextures.h"
-#include "vtkOpenGLAtlasTexturePointsFS.h"
-#include "vtkOpenGLAtlasTextureSampleFS.h"
+#include "vtkLightTransportAtlasPointsFS.h"
+#include "vtkLightTransportAtlasSampleFS.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -187,7 +187,7 @@ bool vtkOpenGLAtlasTexture::Internals::DrawPoints(const FloatTextures::Group& ta
 {
   const std::string defines =
     "#define GROUPS 1\n#define OUTPUTS 1\n#define WIDTH_BITS " + std::to_string(WidthBits) + "\n";
-  const std::string body = vtkOpenGLAtlasTexture::GetShaderCode() + vtkOpenGLAtlasTexturePointsFS;
+  const std::string body = vtkOpenGLAtlasTexture::GetShaderCode() + vtkLightTransportAtlasPointsFS;
   vtkShaderProgram* program = this->Engine->Use("Points", body.c_str(), defines);
   if (!program)
   {
@@ -457,7 +457,7 @@ bool vtkOpenGLAtlasTexture::Sample(vtkDataArray* coordinates, vtkDataArray* bloc
 //------------------------------------------------------------------------------
 std::string vtkOpenGLAtlasTexture::GetShaderCode()
 {
-  return vtkOpenGLAtlasTextureSampleFS;
+  return vtkLightTransportAtlasSampleFS;
 }
 
 //------------------------------------------------------------------------------

@@ -5,7 +5,7 @@
 #include "Context/LightTransportOpenGL.h"
 #include "Shooting/HemisphereItems.h"
 #include "Textures/FloatVectors.h"
-#include "vtkOpenGLShooterSelectFS.h"
+#include "vtkLightTransportShootingSelectFS.h"
 
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -253,7 +253,7 @@ bool vtkOpenGLShooter::Internals::DrawSelection(const Group& target, const Group
   bool first)
 {
   vtkShaderProgram* program =
-    this->Engine->Use(first ? "SelectFirst" : "Select", vtkOpenGLShooterSelectFS,
+    this->Engine->Use(first ? "SelectFirst" : "Select", vtkLightTransportShootingSelectFS,
       this->Vectors->GetLayout().GetDefines(1) + "#define FIRST_STEP " + (first ? "1\n" : "0\n"));
   if (!program)
   {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRadiosityPass.h"
 
-#include "vtkRadiosityPassImplFS.h"
+#include "vtkLightTransportPassesRadiosityFS.h"
 
 #include "vtkObjectFactory.h"
 
@@ -17,7 +17,7 @@ vtkRadiosityPass::~vtkRadiosityPass() = default;
 //------------------------------------------------------------------------------
 const char* vtkRadiosityPass::GetFragmentShader()
 {
-  return ::vtkRadiosityPassImplFS;
+  return ::vtkLightTransportPassesRadiosityFS;
 }
 
 //------------------------------------------------------------------------------

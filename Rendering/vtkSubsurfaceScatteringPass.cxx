@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubsurfaceScatteringPass.h"
 
-#include "vtkSubsurfaceScatteringPassImplFS.h"
+#include "vtkLightTransportPassesScatteringFS.h"
 
 #include "vtkObjectFactory.h"
 
@@ -76,7 +76,7 @@ double vtkSubsurfaceScatteringPass::GetOutgoingWeight(double cosine, double refr
 //------------------------------------------------------------------------------
 const char* vtkSubsurfaceScatteringPass::GetFragmentShader()
 {
-  return ::vtkSubsurfaceScatteringPassImplFS;
+  return ::vtkLightTransportPassesScatteringFS;
 }
 
 //------------------------------------------------------------------------------

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportPass.h"
 
-#include "vtkTransportPassDecFS.h"
-#include "vtkTransportPassDecGS.h"
-#include "vtkTransportPassDecVS.h"
-#include "vtkTransportPassImplGS.h"
-#include "vtkTransportPassImplVS.h"
-#include "vtkTransportPassNormalFS.h"
+#include "vtkLightTransportPassesDecFS.h"
+#include "vtkLightTransportPassesDecGS.h"
+#include "vtkLightTransportPassesDecVS.h"
+#include "vtkLightTransportPassesFacetNormalFS.h"
+#include "vtkLightTransportPassesImplGS.h"
+#include "vtkLightTransportPassesImplVS.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -223,8 +223,8 @@ bool vtkTransportPass::PreReplaceShaderValues(std::string& vertexShader,
   // them.
   InsertBefore(vertexShader, "//VTK::PositionVC::Dec", "//VTK::LightTransport::Dec");
   InsertBefore(vertexShader, "//VTK::PositionVC::Impl", "//VTK::LightTransport::Impl");
-  InsertBefore(geometryShader, "//VTK::PositionVC::Dec", vtkTransportPassDecGS);
-  InsertBefore(geometryShader, "//VTK::PositionVC::Impl", vtkTransportPassImplGS);
+  InsertBefore(geometryShader, "//VTK::PositionVC::Dec", vtkLightTransportPassesDecGS);
+  InsertBefore(geometryShader, "//VTK::PositionVC::Impl", vtkLightTransportPassesImplGS);
   InsertBefore(fragmentShader, "//VTK::PositionVC::Dec", "//VTK::LightTransport::Dec");
   InsertBefore(fragmentShader, "//VTK::DepthPeeling::Impl", "//VTK::LightTransport::Impl");
   return true;
@@ -239,19 +239,21 @@ bool vtkTransportPass::PostReplaceShaderValues(std::string& vertexShader, std::s
   {
     return true;
   }
-  std::string declarations = vtkTransportPassDecVS;
+  std::string declarations = vtkLightTransportPassesDecVS;
   if (vertexShader.find("uniform mat4 MCVCMatrix;") == std::string::npos)
   {
     declarations += "uniform mat4 MCVCMatrix;\n";
   }
   vtkShaderProgram::Substitute(vertexShader, "//VTK::LightTransport::Dec", declarations);
-  vtkShaderProgram::Substitute(vertexShader, "//VTK::LightTransport::Impl", vtkTransportPassImplVS);
+  vtkShaderProgram::Substitute(vertexShader, "//VTK::LightTransport::Impl",
+    vtkLightTransportPassesImplVS);
 
   const bool hasNormal = fragmentShader.find("vec3 normalVCVSOutput =") != std::string::npos;
-  std::string step =
-    hasNormal ? "  vec3 lightTransportNormal = normalVCVSOutput;\n" : vtkTransportPassNormalFS;
+  std::string step = hasNormal ? "  vec3 lightTransportNormal = normalVCVSOutput;\n"
+                               : vtkLightTransportPassesFacetNormalFS;
   step += this->GetFragmentShader();
-  vtkShaderProgram::Substitute(fragmentShader, "//VTK::LightTransport::Dec", vtkTransportPassDecFS);
+  vtkShaderProgram::Substitute(fragmentShader, "//VTK::LightTransport::Dec",
+    vtkLightTransportPassesDecFS);
   vtkShaderProgram::Substitute(fragmentShader, "//VTK::LightTransport::Impl", step);
   return true;
 }

@@ -88,7 +88,7 @@ protected:
   ~vtkTransportPass() override;
 
   /// The fragment shader's last step, which writes gl_FragData[0]; see
-  /// glsl/vtkTransportPassDecFS.glsl.
+  /// glsl/vtkLightTransportPassesDecFS.glsl.
   virtual const char* GetFragmentShader() = 0;
 
   ///@{

@@ -3,8 +3,8 @@
 #include "Products/DenseProductGL.h"
 
 #include "Context/LightTransportOpenGL.h"
-#include "vtkFloatTexturesPartialProductFS.h"
-#include "vtkFloatTexturesSumPartsFS.h"
+#include "vtkLightTransportProductsDensePartsFS.h"
+#include "vtkLightTransportProductsDenseSumPartsFS.h"
 
 #include "vtkExchangeMatrix.h"
 #include "vtkShaderProgram.h"
@@ -216,8 +216,8 @@ bool DenseProductGL::Draw(Group& target, const Group& source)
 //------------------------------------------------------------------------------
 bool DenseProductGL::DrawPartialProducts(const Group& source, int across)
 {
-  vtkShaderProgram* program = this->Engine.Use("PartialProduct", vtkFloatTexturesPartialProductFS,
-    this->GetDefines(static_cast<int>(this->Parts.size())));
+  vtkShaderProgram* program = this->Engine.Use("PartialProduct",
+    vtkLightTransportProductsDensePartsFS, this->GetDefines(static_cast<int>(this->Parts.size())));
   if (!program)
   {
     return false;
@@ -251,7 +251,7 @@ bool DenseProductGL::DrawSumOfParts(const Group& target, const Group* previous)
 {
   const std::string accumulate = previous ? "#define ACCUMULATE 1\n" : "#define ACCUMULATE 0\n";
   vtkShaderProgram* program = this->Engine.Use(previous ? "AddParts" : "SumParts",
-    vtkFloatTexturesSumPartsFS, this->GetDefines(this->Vectors.Groups) + accumulate);
+    vtkLightTransportProductsDenseSumPartsFS, this->GetDefines(this->Vectors.Groups) + accumulate);
   if (!program)
   {
     return false;

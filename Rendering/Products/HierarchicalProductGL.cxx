@@ -3,10 +3,10 @@
 #include "Products/HierarchicalProductGL.h"
 
 #include "Context/LightTransportOpenGL.h"
-#include "vtkFloatTexturesGatherLinksFS.h"
-#include "vtkFloatTexturesSumChildrenFS.h"
-#include "vtkFloatTexturesSumPiecesFS.h"
-#include "vtkFloatTexturesWeighPatchesFS.h"
+#include "vtkLightTransportProductsHierarchyGatherLinksFS.h"
+#include "vtkLightTransportProductsHierarchySumChildrenFS.h"
+#include "vtkLightTransportProductsHierarchySumPiecesFS.h"
+#include "vtkLightTransportProductsHierarchyWeighPatchesFS.h"
 
 #include "vtkShaderProgram.h"
 
@@ -135,7 +135,8 @@ bool HierarchicalProductGL::Draw(Group& target, const Group& source)
 //------------------------------------------------------------------------------
 bool HierarchicalProductGL::SweepUp(const Group& source)
 {
-  vtkShaderProgram* weigh = this->Use("WeighPatches", vtkFloatTexturesWeighPatchesFS);
+  vtkShaderProgram* weigh =
+    this->Use("WeighPatches", vtkLightTransportProductsHierarchyWeighPatchesFS);
   if (!weigh)
   {
     return false;
@@ -146,7 +147,7 @@ bool HierarchicalProductGL::SweepUp(const Group& source)
   const int region[4] = { 0, this->Patches.FirstLine, this->Vectors.Width, this->Patches.Lines };
   this->Engine.Draw(this->Sent, region);
 
-  vtkShaderProgram* sum = this->Use("SumChildren", vtkFloatTexturesSumChildrenFS);
+  vtkShaderProgram* sum = this->Use("SumChildren", vtkLightTransportProductsHierarchySumChildrenFS);
   for (auto level = this->Levels.rbegin(); sum && level != this->Levels.rend(); ++level)
   {
     this->Engine.SetTextures(sum, "children", this->Children);
@@ -159,7 +160,8 @@ bool HierarchicalProductGL::SweepUp(const Group& source)
 //------------------------------------------------------------------------------
 bool HierarchicalProductGL::GatherLinks()
 {
-  vtkShaderProgram* program = this->Use("GatherLinks", vtkFloatTexturesGatherLinksFS);
+  vtkShaderProgram* program =
+    this->Use("GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS);
   for (std::size_t tile = 0; program && tile < this->Tiles.size(); ++tile)
   {
     this->Engine.SetTextures(program, "links", this->Links[tile]);
@@ -200,7 +202,8 @@ bool HierarchicalProductGL::SweepDown(const Group& target)
 vtkShaderProgram* HierarchicalProductGL::UseSums(bool ofPatches)
 {
   vtkShaderProgram* program = this->Use(ofPatches ? "SumPiecesOfPatches" : "SumPieces",
-    vtkFloatTexturesSumPiecesFS, ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n");
+    vtkLightTransportProductsHierarchySumPiecesFS,
+    ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n");
   if (program)
   {
     this->Engine.SetTextures(program, "rows", this->Rows);

@@ -3,11 +3,11 @@
 #include "Shooting/HemisphereItems.h"
 
 #include "Context/LightTransportOpenGL.h"
-#include "vtkFloatTexturesCommonFS.h"
-#include "vtkHemisphereItemsFS.h"
-#include "vtkHemisphereItemsScatterFS.h"
-#include "vtkHemisphereItemsScatterVS.h"
-#include "vtkHemisphereItemsVS.h"
+#include "vtkLightTransportShootingItemsFS.h"
+#include "vtkLightTransportShootingItemsVS.h"
+#include "vtkLightTransportShootingScatterFS.h"
+#include "vtkLightTransportShootingScatterVS.h"
+#include "vtkLightTransportTexturesCommonFS.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -28,7 +28,7 @@ constexpr float Horizon = 1e-6f;
 constexpr int ClipPlanes = 3;
 
 //------------------------------------------------------------------------------
-/// The weights of all pixels of an eye point, as vtkHemisphereItemsScatterVS has them.
+/// The weights of all pixels of an eye point, as vtkLightTransportShootingScatterVS has them.
 double SumWeights(int resolution)
 {
   double sum = 0.0;
@@ -146,7 +146,8 @@ bool HemisphereItems::AllocateScene(const std::vector<float>& points,
   const int region[4] = { 0, 0, this->TriangleWidth, height };
   this->Engine->Upload(this->TrianglePatches[0], region, this->TriangleWidth, texels.data());
 
-  vtkShaderProgram* program = this->Use(vtkHemisphereItemsVS, vtkHemisphereItemsFS);
+  vtkShaderProgram* program =
+    this->Use(vtkLightTransportShootingItemsVS, vtkLightTransportShootingItemsFS);
   if (!program)
   {
     return false;
@@ -186,7 +187,8 @@ bool HemisphereItems::DrawItems(const std::vector<Eye>& eyes)
   const vtkOpenGLState::ScopedglDepthFunc function(state);
   const vtkOpenGLState::ScopedglDepthMask mask(state);
   const vtkOpenGLState::ScopedglScissor scissor(state);
-  vtkShaderProgram* program = this->Use(vtkHemisphereItemsVS, vtkHemisphereItemsFS);
+  vtkShaderProgram* program =
+    this->Use(vtkLightTransportShootingItemsVS, vtkLightTransportShootingItemsFS);
   if (!program)
   {
     return false;
@@ -235,11 +237,11 @@ bool HemisphereItems::DrawPoints(const std::vector<Eye>& eyes, const FloatVector
 {
   vtkOpenGLState* state = this->Engine->GetWindow()->GetState();
   const vtkOpenGLState::ScopedglBlendFuncSeparate blending(state);
-  std::string fragmentShader = vtkFloatTexturesCommonFS;
+  std::string fragmentShader = vtkLightTransportTexturesCommonFS;
   vtkShaderProgram::Substitute(fragmentShader, "//VTK::LightTransport::Define",
     layout.GetDefines(layout.Groups));
-  fragmentShader += vtkHemisphereItemsScatterFS;
-  vtkShaderProgram* program = this->Use(vtkHemisphereItemsScatterVS, fragmentShader);
+  fragmentShader += vtkLightTransportShootingScatterFS;
+  vtkShaderProgram* program = this->Use(vtkLightTransportShootingScatterVS, fragmentShader);
   if (!program)
   {
     return false;

@@ -3,8 +3,8 @@
 #include "Textures/FloatTextures.h"
 
 #include "Context/LightTransportOpenGL.h"
-#include "vtkFloatTexturesCommonFS.h"
-#include "vtkFloatTexturesVS.h"
+#include "vtkLightTransportTexturesCommonFS.h"
+#include "vtkLightTransportTexturesQuadVS.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
@@ -205,11 +205,11 @@ vtkShaderProgram* FloatTextures::Use(const std::string& name, const char* body,
   auto& quad = this->Quads[name];
   if (!quad)
   {
-    std::string source = vtkFloatTexturesCommonFS;
+    std::string source = vtkLightTransportTexturesCommonFS;
     vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Define", defines);
     source += body;
-    quad =
-      std::make_unique<vtkOpenGLQuadHelper>(this->Window, vtkFloatTexturesVS, source.c_str(), "");
+    quad = std::make_unique<vtkOpenGLQuadHelper>(this->Window, vtkLightTransportTexturesQuadVS,
+      source.c_str(), "");
   }
   this->CurrentQuad = quad.get();
   vtkShaderProgram* program = quad->Program;

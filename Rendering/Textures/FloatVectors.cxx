@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Textures/FloatVectors.h"
 
-#include "vtkFloatTexturesCombineFS.h"
-#include "vtkFloatTexturesReduceFS.h"
-#include "vtkFloatTexturesScaleFS.h"
+#include "vtkLightTransportTexturesCombineFS.h"
+#include "vtkLightTransportTexturesReduceFS.h"
+#include "vtkLightTransportTexturesScaleFS.h"
 
 #include "vtkShaderProgram.h"
 
@@ -14,7 +14,7 @@ namespace LightTransport
 {
 namespace
 {
-/// Block that one fragment reduces, in each direction (vtkFloatTexturesReduceFS.glsl).
+/// Block that one fragment reduces, in each direction (vtkLightTransportTexturesReduceFS.glsl).
 constexpr int ReductionBlock = 16;
 constexpr int WidestVector = 1024;
 } // namespace
@@ -184,7 +184,7 @@ bool FloatVectors::Combine(int z, const double* a, int x, const double* b, int y
     return false;
   }
   vtkShaderProgram* program =
-    this->Use("Combine", vtkFloatTexturesCombineFS, this->Slots[x], this->Slots[y]);
+    this->Use("Combine", vtkLightTransportTexturesCombineFS, this->Slots[x], this->Slots[y]);
   if (program)
   {
     program->SetUniform4fv("a", this->Shape.Groups, factorsOfX.data());
@@ -198,7 +198,7 @@ bool FloatVectors::Combine(int z, const double* a, int x, const double* b, int y
 bool FloatVectors::Scale(int z, int x, int y)
 {
   if (this->Get(z).empty() ||
-    !this->Use("Scale", vtkFloatTexturesScaleFS, this->Slots[x], this->Slots[y]))
+    !this->Use("Scale", vtkLightTransportTexturesScaleFS, this->Slots[x], this->Slots[y]))
   {
     return false;
   }
@@ -242,7 +242,7 @@ bool FloatVectors::DrawReductionStep(const Group& target, const Group& x, const 
   const char* name)
 {
   const std::string define = "#define " + std::string(name) + " 1\n";
-  vtkShaderProgram* program = this->Use(name, vtkFloatTexturesReduceFS, x, y, define);
+  vtkShaderProgram* program = this->Use(name, vtkLightTransportTexturesReduceFS, x, y, define);
   if (!program)
   {
     return false;

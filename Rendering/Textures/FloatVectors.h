@@ -33,7 +33,8 @@ public:
     int Height = 0;
     int MaximumSize = 0; ///< width and height that no texture may exceed
 
-    /// Definitions for shaders that write `outputs` textures; see vtkFloatTexturesCommonFS.glsl.
+    /// Definitions for shaders that write `outputs` textures; see
+    /// vtkLightTransportTexturesCommonFS.glsl.
     std::string GetDefines(int outputs) const;
   };
 
