@@ -26,8 +26,10 @@
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 
-class vtkActor;
-class vtkPolyDataMapper;
+namespace LightTransport
+{
+class MappedArrays;
+}
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkTransportPass : public vtkOpenGLRenderPass
 {
@@ -101,18 +103,16 @@ private:
   vtkTransportPass(const vtkTransportPass&) = delete;
   void operator=(const vtkTransportPass&) = delete;
 
-  /// Components of the array that a mapper draws; 0 when it draws none.
-  int FindComponents(vtkPolyDataMapper* mapper);
-  void AttachArrays(const vtkRenderState* state);
-  void DetachArrays();
+  void MapArrays(const vtkRenderState* state);
 
   std::string ArrayName;
   double Exposure = 1.0;
   int OutputEncoding = OUTPUT_ENCODING_SRGB;
   vtkSmartPointer<vtkRenderPass> DelegatePass;
 
-  struct Internals;
-  std::unique_ptr<Internals> Self;
+  const std::unique_ptr<LightTransport::MappedArrays> Arrays;
+  bool Parallel = false; ///< the camera's projection
+  bool Warned = false;
 };
 
 #endif
