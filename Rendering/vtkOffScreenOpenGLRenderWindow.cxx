@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOffScreenOpenGLRenderWindow.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/CurrentOpenGLContext.h"
+#include "Context/HardwareRenderer.h"
 #include "Context/OffScreenContext.h"
-#include "Context/OpenGLPlatform.h"
+#include "Context/OpenGLFunctions.h"
 
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkObjectFactory.h"
@@ -63,18 +64,18 @@ void DisableOtherOverrides(const char* className)
 }
 } // namespace
 
-struct vtkOffScreenOpenGLRenderWindow::Internals
+struct vtkOffScreenOpenGLRenderWindow::OffScreenState
 {
   std::unique_ptr<OffScreenContext> Context;
   std::vector<CurrentOpenGLContext> PushedContexts;
-  std::string Device;
+  std::string DeviceName;
   bool Complained = false;
 };
 
 vtkStandardNewMacro(vtkOffScreenOpenGLRenderWindow);
 
 //------------------------------------------------------------------------------
-vtkOffScreenOpenGLRenderWindow::vtkOffScreenOpenGLRenderWindow() : Self(new Internals)
+vtkOffScreenOpenGLRenderWindow::vtkOffScreenOpenGLRenderWindow() : OffScreen(new OffScreenState)
 {
   this->SetOffScreenRendering(1);
   this->FrameBlitMode = NoBlit;
@@ -100,13 +101,16 @@ void vtkOffScreenOpenGLRenderWindow::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "BackendName: " << this->GetBackendName() << "\n";
-  os << indent << "DeviceName: " << this->Self->Device << "\n";
+  os << indent << "DeviceName: " << this->OffScreen->DeviceName << "\n";
 }
 
 //------------------------------------------------------------------------------
 bool vtkOffScreenOpenGLRenderWindow::IsAvailable(std::string& reason)
 {
-  return OffScreenContext::Create(reason) != nullptr;
+  std::unique_ptr<OffScreenContext> context;
+  const Outcome created = OffScreenContext::Create(context);
+  reason = created ? reason : created.GetMessage();
+  return static_cast<bool>(created);
 }
 
 //------------------------------------------------------------------------------
@@ -141,13 +145,14 @@ bool vtkOffScreenOpenGLRenderWindow::RegisterAsDefault()
 //------------------------------------------------------------------------------
 bool vtkOffScreenOpenGLRenderWindow::Open(std::string& reason)
 {
-  if (!this->Self->Context)
+  Outcome created = Outcome::Done();
+  if (!this->OffScreen->Context)
   {
-    this->Self->Context = OffScreenContext::Create(reason);
+    created = OffScreenContext::Create(this->OffScreen->Context);
   }
-  if (!this->Self->Context || !this->Self->Context->MakeCurrent())
+  if (!created || !this->OffScreen->Context->MakeCurrent())
   {
-    reason = this->Self->Context ? "OpenGL: the context cannot be made current." : reason;
+    reason = created ? "OpenGL: the context cannot be made current." : created.GetMessage();
     return false;
   }
   if (!this->Initialized)
@@ -161,14 +166,14 @@ bool vtkOffScreenOpenGLRenderWindow::Open(std::string& reason)
     this->OpenGLInitState();
   }
   const auto* device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  this->Self->Device = device ? device : "";
+  this->OffScreen->DeviceName = device ? device : "";
   return true;
 }
 
 //------------------------------------------------------------------------------
 void vtkOffScreenOpenGLRenderWindow::OpenGLInitContext()
 {
-  if (this->Initialized || !this->Self->Context)
+  if (this->Initialized || !this->OffScreen->Context)
   {
     return;
   }
@@ -182,7 +187,7 @@ void vtkOffScreenOpenGLRenderWindow::OpenGLInitContext()
 #else
   this->SetOpenGLSymbolLoader([](void* context, const char* name) -> VTKOpenGLAPIProc
     { return static_cast<OffScreenContext*>(context)->GetProcAddress(name); },
-    this->Self->Context.get());
+    this->OffScreen->Context.get());
   this->Superclass::OpenGLInitContext();
 #endif
 }
@@ -191,9 +196,9 @@ void vtkOffScreenOpenGLRenderWindow::OpenGLInitContext()
 void vtkOffScreenOpenGLRenderWindow::OpenGLInit()
 {
   std::string reason;
-  if (!this->Open(reason) && !this->Self->Complained)
+  if (!this->Open(reason) && !this->OffScreen->Complained)
   {
-    this->Self->Complained = true;
+    this->OffScreen->Complained = true;
     vtkErrorMacro("No OpenGL context: " << reason);
   }
 }
@@ -207,7 +212,7 @@ void vtkOffScreenOpenGLRenderWindow::Initialize()
 //------------------------------------------------------------------------------
 void vtkOffScreenOpenGLRenderWindow::Finalize()
 {
-  if (!this->Self->Context)
+  if (!this->OffScreen->Context)
   {
     return;
   }
@@ -215,8 +220,8 @@ void vtkOffScreenOpenGLRenderWindow::Finalize()
   const CurrentOpenGLContext before = CurrentOpenGLContext::Get();
   this->MakeCurrent();
   this->ReleaseGraphicsResources(this);
-  this->Self->Context.reset();
-  this->Self->Device.clear();
+  this->OffScreen->Context.reset();
+  this->OffScreen->DeviceName.clear();
   if (!wasCurrent)
   {
     before.Restore();
@@ -244,9 +249,9 @@ void vtkOffScreenOpenGLRenderWindow::Render()
 //------------------------------------------------------------------------------
 void vtkOffScreenOpenGLRenderWindow::MakeCurrent()
 {
-  if (this->Self->Context)
+  if (this->OffScreen->Context)
   {
-    this->Self->Context->MakeCurrent();
+    this->OffScreen->Context->MakeCurrent();
   }
 }
 
@@ -262,23 +267,23 @@ void vtkOffScreenOpenGLRenderWindow::ReleaseCurrent()
 //------------------------------------------------------------------------------
 bool vtkOffScreenOpenGLRenderWindow::IsCurrent()
 {
-  return this->Self->Context && this->Self->Context->IsCurrent();
+  return this->OffScreen->Context && this->OffScreen->Context->IsCurrent();
 }
 
 //------------------------------------------------------------------------------
 void vtkOffScreenOpenGLRenderWindow::PushContext()
 {
-  this->Self->PushedContexts.push_back(CurrentOpenGLContext::Get());
+  this->OffScreen->PushedContexts.push_back(CurrentOpenGLContext::Get());
   this->MakeCurrent();
 }
 
 //------------------------------------------------------------------------------
 void vtkOffScreenOpenGLRenderWindow::PopContext()
 {
-  if (!this->Self->PushedContexts.empty())
+  if (!this->OffScreen->PushedContexts.empty())
   {
-    this->Self->PushedContexts.back().Restore();
-    this->Self->PushedContexts.pop_back();
+    this->OffScreen->PushedContexts.back().Restore();
+    this->OffScreen->PushedContexts.pop_back();
   }
 }
 
@@ -298,23 +303,23 @@ vtkTypeBool vtkOffScreenOpenGLRenderWindow::IsDirect()
 //------------------------------------------------------------------------------
 void* vtkOffScreenOpenGLRenderWindow::GetGenericContext()
 {
-  return this->Self->Context ? this->Self->Context->GetHandle() : nullptr;
+  return this->OffScreen->Context ? this->OffScreen->Context->GetHandle() : nullptr;
 }
 
 //------------------------------------------------------------------------------
 const char* vtkOffScreenOpenGLRenderWindow::GetBackendName()
 {
-  return this->Self->Context ? this->Self->Context->GetBackendName() : "none";
+  return this->OffScreen->Context ? this->OffScreen->Context->GetBackendName() : "none";
 }
 
 //------------------------------------------------------------------------------
 std::string vtkOffScreenOpenGLRenderWindow::GetDeviceName()
 {
-  return this->Self->Device;
+  return this->OffScreen->DeviceName;
 }
 
 //------------------------------------------------------------------------------
 bool vtkOffScreenOpenGLRenderWindow::IsHardware()
 {
-  return vtkOpenGLDeviceIsHardware(this->Self->Device);
+  return IsHardwareRenderer(this->OffScreen->DeviceName);
 }

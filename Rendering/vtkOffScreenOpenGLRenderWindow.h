@@ -94,8 +94,8 @@ private:
   vtkOffScreenOpenGLRenderWindow(const vtkOffScreenOpenGLRenderWindow&) = delete;
   void operator=(const vtkOffScreenOpenGLRenderWindow&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Self;
+  struct OffScreenState;
+  std::unique_ptr<OffScreenState> OffScreen;
 };
 
 #endif

@@ -36,6 +36,11 @@ class vtkImageData;
 class vtkRenderWindow;
 class vtkShaderProgram;
 
+namespace LightTransport
+{
+class AtlasTexture;
+}
+
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkOpenGLAtlasTexture : public vtkObject
 {
 public:
@@ -111,8 +116,7 @@ private:
     vtkDoubleArray* values);
   bool IsReady();
 
-  struct Internals;
-  std::unique_ptr<Internals> Self;
+  const std::unique_ptr<LightTransport::AtlasTexture> Texture;
 };
 
 #endif

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenGLLinkOperator.h"
 
+#include "Device/DeviceErrors.h"
+#include "Device/DeviceSession.h"
+#include "Device/DeviceWindow.h"
 #include "Products/ProductGL.h"
 #include "Textures/FloatTextures.h"
 #include "Textures/FloatVectors.h"
 
 #include "vtkExchange.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderWindow.h"
 
 using namespace LightTransport;
 
@@ -18,24 +20,23 @@ VTK_MODULE_INIT(vtkLightTransportRendering);
 
 vtkStandardNewMacro(vtkOpenGLLinkOperator);
 
-struct vtkOpenGLLinkOperator::Internals
+namespace
 {
-  vtkWeakPointer<vtkOpenGLRenderWindow> UserWindow;
-  bool UsesUserWindow = false;
-  vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> SharedWindow;
-  std::string DeviceName = "OpenGL";
-  bool Hardware = false;
+bool Finish(vtkOpenGLLinkOperator* links, const Outcome& drawn, const char* method)
+{
+  return DeviceErrors::Finish(links, drawn, method, links->GetDeviceName());
+}
+} // namespace
+
+struct vtkOpenGLLinkOperator::DeviceParts
+{
+  DeviceWindow Window;
 
   ///@{ All or none of them are there.
   std::unique_ptr<FloatTextures> Engine;
   std::unique_ptr<FloatVectors> Vectors;
   std::unique_ptr<ProductGL> Product;
   ///@}
-
-  vtkOpenGLRenderWindow* GetWindow()
-  {
-    return this->UsesUserWindow ? this->UserWindow.Get() : this->SharedWindow.Get();
-  }
 
   bool IsAlive() const { return this->Product && this->Engine->IsAlive(); }
 
@@ -45,22 +46,54 @@ struct vtkOpenGLLinkOperator::Internals
     this->Vectors.reset();
     this->Engine.reset();
   }
+
+  /// In the context of the window, which is open.
+  Outcome Initialize(vtkExchange* exchange, int numberOfBands, int maximumTextureSize);
 };
 
 //------------------------------------------------------------------------------
-vtkOpenGLLinkOperator::vtkOpenGLLinkOperator() : Self(new Internals) {}
+Outcome vtkOpenGLLinkOperator::DeviceParts::Initialize(vtkExchange* exchange, int numberOfBands,
+  int maximumTextureSize)
+{
+  this->Engine = std::make_unique<FloatTextures>(this->Window.Get());
+  if (!this->Engine->IsAlive())
+  {
+    return Outcome::Failed("This OpenGL cannot make floating-point textures");
+  }
+  const DeviceSession session(this->Window.Get());
+  this->Vectors = std::make_unique<FloatVectors>(*this->Engine);
+  if (Outcome initialized = this->Vectors->Initialize(exchange->GetNumberOfPatches(), numberOfBands,
+        maximumTextureSize);
+      !initialized)
+  {
+    return initialized;
+  }
+  if (Outcome made =
+        ProductGL::Make(this->Product, exchange, *this->Engine, this->Vectors->GetLayout());
+      !made)
+  {
+    return made;
+  }
+  const Outcome taken = DeviceErrors::Check();
+  return taken ? taken
+               : Outcome::Failed("OpenGL failed in taking the links with " + taken.GetMessage() +
+                   " on " + this->Window.GetDeviceName());
+}
+
+//------------------------------------------------------------------------------
+vtkOpenGLLinkOperator::vtkOpenGLLinkOperator() : Device(new DeviceParts) {}
 
 //------------------------------------------------------------------------------
 vtkOpenGLLinkOperator::~vtkOpenGLLinkOperator()
 {
-  this->Self->Clear();
+  this->Device->Clear();
 }
 
 //------------------------------------------------------------------------------
 void vtkOpenGLLinkOperator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "DeviceName: " << this->Self->DeviceName << "\n";
+  os << indent << "DeviceName: " << this->GetDeviceName() << "\n";
   os << indent << "MaximumTextureSize: " << this->MaximumTextureSize << "\n";
   os << indent << "NumberOfBytesRead: " << this->GetNumberOfBytesRead() << "\n";
   os << indent << "RenderWindow: " << this->GetRenderWindow() << "\n";
@@ -69,90 +102,57 @@ void vtkOpenGLLinkOperator::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkOpenGLLinkOperator::SetRenderWindow(vtkRenderWindow* window)
 {
-  if (window == this->GetRenderWindow() && this->Self->UsesUserWindow == (window != nullptr))
+  if (!this->Device->Window.IsUserWindow(window))
   {
-    return;
+    this->Release();
+    this->Device->Window.SetUserWindow(window);
+    this->Modified();
   }
-  this->Release();
-  this->Self->UserWindow = vtkOpenGLRenderWindow::SafeDownCast(window);
-  this->Self->UsesUserWindow = window != nullptr;
-  this->Modified();
 }
 
 //------------------------------------------------------------------------------
 vtkRenderWindow* vtkOpenGLLinkOperator::GetRenderWindow()
 {
-  return this->Self->UserWindow;
+  return this->Device->Window.GetUserWindow();
 }
 
 //------------------------------------------------------------------------------
 bool vtkOpenGLLinkOperator::Open(std::string& reason)
 {
-  Internals& self = *this->Self;
-  if (!self.UsesUserWindow && !self.SharedWindow)
-  {
-    self.SharedWindow = vtkGetSharedOffScreenWindow(reason);
-  }
-  vtkOpenGLRenderWindow* window = self.GetWindow();
-  if (!window)
-  {
-    reason =
-      self.UsesUserWindow ? "OpenGL: the render window is gone, or not an OpenGL window." : reason;
-    return false;
-  }
-  auto* offScreen = vtkOffScreenOpenGLRenderWindow::SafeDownCast(window);
-  if (offScreen && self.UsesUserWindow)
-  {
-    const CurrentOpenGLContext before = CurrentOpenGLContext::Get();
-    const bool open = offScreen->Open(reason);
-    before.Restore();
-    if (!open)
-    {
-      return false;
-    }
-  }
-  // Making the context of a window on a screen may abort the process, so that is left to the
-  // window's owner.
-  const std::string device = window->GetState()->GetRenderer();
-  if (device.empty())
-  {
-    reason = "OpenGL: the render window has no context yet; let it render once first.";
-    return false;
-  }
-  self.Hardware = vtkOpenGLDeviceIsHardware(device);
-  self.DeviceName = "OpenGL (" + device + ")";
-  return true;
+  const Outcome open = this->Device->Window.Open();
+  reason = open ? reason : open.GetMessage();
+  return static_cast<bool>(open);
 }
 
 //------------------------------------------------------------------------------
 bool vtkOpenGLLinkOperator::IsHardware()
 {
-  return this->Self->Hardware;
+  return this->Device->Window.IsHardware();
 }
 
 //------------------------------------------------------------------------------
 const char* vtkOpenGLLinkOperator::GetDeviceName()
 {
-  return this->Self->DeviceName.c_str();
+  return this->Device->Window.GetDeviceName().c_str();
 }
 
 //------------------------------------------------------------------------------
 int vtkOpenGLLinkOperator::GetNumberOfLinkTextures()
 {
-  return this->Self->Product ? this->Self->Product->GetNumberOfLinkTextures() : 0;
+  return this->Device->Product ? this->Device->Product->GetNumberOfLinkTextures() : 0;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkOpenGLLinkOperator::GetNumberOfBytesRead()
 {
-  return this->Self->Vectors ? this->Self->Vectors->GetNumberOfBytesRead() : 0;
+  return this->Device->Vectors ? this->Device->Vectors->GetNumberOfBytesRead() : 0;
 }
 
 //------------------------------------------------------------------------------
 void vtkOpenGLLinkOperator::Release()
 {
-  this->Self->Clear();
-  this->Self->SharedWindow = nullptr;
+  this->Device->Clear();
+  this->Device->Window.Release();
   this->NumberOfPatches = 0;
   this->NumberOfBands = 0;
 }
@@ -160,16 +160,15 @@ void vtkOpenGLLinkOperator::Release()
 //------------------------------------------------------------------------------
 void vtkOpenGLLinkOperator::ReleaseGraphicsResources(vtkWindow* window)
 {
-  if (window && window == this->Self->GetWindow())
+  if (window && window == this->Device->Window.Get())
   {
-    this->Self->Clear();
+    this->Device->Clear();
   }
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
+bool vtkOpenGLLinkOperator::Check(vtkExchange* exchange, int numberOfBands)
 {
-  this->Self->Clear();
   if (!exchange || exchange->GetNumberOfPatches() == 0)
   {
     vtkErrorMacro("The exchange is empty: fill it before Initialize().");
@@ -191,17 +190,29 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
                                                            "parallel runs.");
     return false;
   }
-  std::string reason;
-  if (!this->Open(reason))
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
+{
+  this->Device->Clear();
+  if (!this->Check(exchange, numberOfBands))
   {
-    vtkErrorMacro("No OpenGL context: " << reason);
+    return false;
+  }
+  if (Outcome open = this->Device->Window.Open(); !open)
+  {
+    vtkErrorMacro("No OpenGL context: " << open.GetMessage());
     return false;
   }
   this->NumberOfPatches = exchange->GetNumberOfPatches();
   this->NumberOfBands = numberOfBands;
-  if (!this->InitializeOnDevice(exchange, reason))
+  if (Outcome initialized =
+        this->Device->Initialize(exchange, numberOfBands, this->MaximumTextureSize);
+      !initialized)
   {
-    vtkErrorMacro(<< reason << ": set Device to CPU.");
+    vtkErrorMacro(<< initialized.GetMessage() << ": set Device to CPU.");
     this->Release();
     return false;
   }
@@ -209,35 +220,9 @@ bool vtkOpenGLLinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::InitializeOnDevice(vtkExchange* exchange, std::string& reason)
-{
-  Internals& self = *this->Self;
-  self.Engine = std::make_unique<FloatTextures>(self.GetWindow());
-  if (!self.Engine->IsAlive())
-  {
-    reason = "This OpenGL cannot make floating-point textures";
-    return false;
-  }
-  const FloatTextures::Session session(self.GetWindow());
-  self.Vectors = std::make_unique<FloatVectors>(*self.Engine);
-  if (!self.Vectors->Initialize(this->NumberOfPatches, this->NumberOfBands,
-        this->MaximumTextureSize, reason))
-  {
-    return false;
-  }
-  self.Product = ProductGL::New(exchange, *self.Engine, self.Vectors->GetLayout(), reason);
-  if (self.Product && !FloatTextures::CheckErrors(reason))
-  {
-    reason = "OpenGL failed in taking the links with " + reason + " on " + self.DeviceName;
-    return false;
-  }
-  return self.Product != nullptr;
-}
-
-//------------------------------------------------------------------------------
 bool vtkOpenGLLinkOperator::IsReady()
 {
-  if (!this->Self->IsAlive())
+  if (!this->Device->IsAlive())
   {
     vtkErrorMacro("There are no links, or their window has gone: call Initialize() first.");
     return false;
@@ -252,28 +237,9 @@ bool vtkOpenGLLinkOperator::IsReady(int slot)
   {
     return false;
   }
-  if (!this->Self->Vectors->Has(slot))
+  if (!this->Device->Vectors->Has(slot))
   {
     vtkErrorMacro("Slot " << slot << " is read before it has been written.");
-    return false;
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkOpenGLLinkOperator::Finish(bool drawn, const char* what)
-{
-  std::string text;
-  if (!drawn)
-  {
-    vtkErrorMacro("OpenGL failed in " << what << ": a shader does not compile on "
-                                      << this->Self->DeviceName << ". Set Device to CPU.");
-    return false;
-  }
-  if (!FloatTextures::CheckErrors(text))
-  {
-    vtkErrorMacro("OpenGL failed in " << what << " with " << text << " on "
-                                      << this->Self->DeviceName << ". Set Device to CPU.");
     return false;
   }
   return true;
@@ -286,8 +252,8 @@ bool vtkOpenGLLinkOperator::SetVector(int slot, const double* values)
   {
     return false;
   }
-  const FloatTextures::Session session(this->Self->GetWindow());
-  return this->Finish(this->Self->Vectors->Set(slot, values), "SetVector");
+  const DeviceSession session(this->Device->Window.Get());
+  return Finish(this, this->Device->Vectors->Set(slot, values), "SetVector");
 }
 
 //------------------------------------------------------------------------------
@@ -297,9 +263,9 @@ bool vtkOpenGLLinkOperator::GetVector(int slot, double* values)
   {
     return false;
   }
-  const FloatTextures::Session session(this->Self->GetWindow());
-  this->Self->Vectors->Read(slot, values);
-  return this->Finish(true, "GetVector");
+  const DeviceSession session(this->Device->Window.Get());
+  this->Device->Vectors->Read(slot, values);
+  return Finish(this, Outcome::Done(), "GetVector");
 }
 
 //------------------------------------------------------------------------------
@@ -314,11 +280,12 @@ bool vtkOpenGLLinkOperator::Multiply(int y, int x)
     vtkErrorMacro("Multiply needs two slots, not slot " << x << " twice.");
     return false;
   }
-  Internals& self = *this->Self;
-  const FloatTextures::Session session(self.GetWindow());
-  FloatVectors::Group& target = self.Vectors->Get(y);
-  const bool drawn = !target.empty() && self.Product->Draw(target, self.Vectors->Get(x));
-  return this->Finish(drawn, "Multiply");
+  const DeviceSession session(this->Device->Window.Get());
+  FloatVectors& vectors = *this->Device->Vectors;
+  const Outcome allocated = vectors.Allocate(y);
+  return Finish(this,
+    allocated ? this->Device->Product->Draw(vectors.Get(y), vectors.Get(x)) : allocated,
+    "Multiply");
 }
 
 //------------------------------------------------------------------------------
@@ -328,8 +295,8 @@ bool vtkOpenGLLinkOperator::Combine(int z, const double* a, int x, const double*
   {
     return false;
   }
-  const FloatTextures::Session session(this->Self->GetWindow());
-  return this->Finish(this->Self->Vectors->Combine(z, a, x, b, y), "Combine");
+  const DeviceSession session(this->Device->Window.Get());
+  return Finish(this, this->Device->Vectors->Combine(z, a, x, b, y), "Combine");
 }
 
 //------------------------------------------------------------------------------
@@ -339,8 +306,8 @@ bool vtkOpenGLLinkOperator::Scale(int z, int x, int y)
   {
     return false;
   }
-  const FloatTextures::Session session(this->Self->GetWindow());
-  return this->Finish(this->Self->Vectors->Scale(z, x, y), "Scale");
+  const DeviceSession session(this->Device->Window.Get());
+  return Finish(this, this->Device->Vectors->Scale(z, x, y), "Scale");
 }
 
 //------------------------------------------------------------------------------
@@ -350,8 +317,8 @@ bool vtkOpenGLLinkOperator::Dot(int x, int y, double* result)
   {
     return false;
   }
-  const FloatTextures::Session session(this->Self->GetWindow());
-  return this->Finish(this->Self->Vectors->Dot(x, y, result), "Dot");
+  const DeviceSession session(this->Device->Window.Get());
+  return Finish(this, this->Device->Vectors->Dot(x, y, result), "Dot");
 }
 
 //------------------------------------------------------------------------------
@@ -361,6 +328,6 @@ bool vtkOpenGLLinkOperator::MaxNorm(int x, double* result)
   {
     return false;
   }
-  const FloatTextures::Session session(this->Self->GetWindow());
-  return this->Finish(this->Self->Vectors->MaxNorm(x, result), "MaxNorm");
+  const DeviceSession session(this->Device->Window.Get());
+  return Finish(this, this->Device->Vectors->MaxNorm(x, result), "MaxNorm");
 }

@@ -99,15 +99,14 @@ private:
   vtkOpenGLLinkOperator(const vtkOpenGLLinkOperator&) = delete;
   void operator=(const vtkOpenGLLinkOperator&) = delete;
 
-  bool InitializeOnDevice(vtkExchange* exchange, std::string& reason);
+  bool Check(vtkExchange* exchange, int numberOfBands);
   bool IsReady();
   bool IsReady(int slot);
-  bool Finish(bool drawn, const char* what);
 
   int MaximumTextureSize = 0;
 
-  struct Internals;
-  std::unique_ptr<Internals> Self;
+  struct DeviceParts;
+  std::unique_ptr<DeviceParts> Device;
 };
 
 #endif

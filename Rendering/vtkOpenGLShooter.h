@@ -40,6 +40,12 @@
 
 #include <memory> // for std::unique_ptr
 
+namespace LightTransport
+{
+class DeviceWindow;
+class ProgressiveShooter;
+} // namespace LightTransport
+
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkOpenGLShooter : public vtkDeviceShooter
 {
 public:
@@ -107,15 +113,16 @@ private:
   vtkOpenGLShooter(const vtkOpenGLShooter&) = delete;
   void operator=(const vtkOpenGLShooter&) = delete;
 
+  bool CheckSizes(vtkIdType numberOfPatches, int numberOfBands);
+  bool Begin(const double* source);
   bool IsReady();
-  bool Finish(bool drawn, const char* what);
 
   int Resolution = 0;
   double EyePointDensity = 1000.0;
   bool Overshooting = true;
 
-  struct Internals;
-  std::unique_ptr<Internals> Self;
+  const std::unique_ptr<LightTransport::DeviceWindow> Window;
+  std::unique_ptr<LightTransport::ProgressiveShooter> Progress;
 };
 
 #endif

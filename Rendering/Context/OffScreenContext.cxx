@@ -3,38 +3,37 @@
 #include "Context/OffScreenContext.h"
 
 #include <cstdlib>
+#include <string>
 
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
-std::unique_ptr<OffScreenContext> OffScreenContext::Create(std::string& reason)
+Outcome OffScreenContext::Create(std::unique_ptr<OffScreenContext>& context)
 {
   const char* variable = std::getenv("VTK_DEFAULT_OPENGL_WINDOW");
   const std::string choice = variable ? variable : "";
   if (choice == "vtkEGLRenderWindow")
   {
-    return OffScreenContext::CreateEGL(reason);
+    return OffScreenContext::CreateEGL(context);
   }
   if (choice == "vtkOSOpenGLRenderWindow")
   {
-    return OffScreenContext::CreateOSMesa(reason);
+    return OffScreenContext::CreateOSMesa(context);
   }
   // Windows on a screen that VTK 9.4 knows by name: they say nothing about work off the screen.
   if (!choice.empty() && choice != "vtkXOpenGLRenderWindow" &&
     choice != "vtkWin32OpenGLRenderWindow" && choice != "vtkCocoaRenderWindow")
   {
-    reason = "VTK_DEFAULT_OPENGL_WINDOW is \"" + choice +
-      "\": set it to vtkEGLRenderWindow or vtkOSOpenGLRenderWindow, or unset it.";
-    return nullptr;
+    return Outcome::Failed("VTK_DEFAULT_OPENGL_WINDOW is \"" + choice +
+      "\": set it to vtkEGLRenderWindow or vtkOSOpenGLRenderWindow, or unset it.");
   }
-  std::string reasonEGL;
-  auto context = OffScreenContext::CreateEGL(reasonEGL);
-  if (!context)
+  const Outcome withEGL = OffScreenContext::CreateEGL(context);
+  if (withEGL)
   {
-    std::string reasonOSMesa;
-    context = OffScreenContext::CreateOSMesa(reasonOSMesa);
-    reason = context ? "" : reasonEGL + " " + reasonOSMesa;
+    return withEGL;
   }
-  return context;
+  const Outcome withOSMesa = OffScreenContext::CreateOSMesa(context);
+  return withOSMesa ? withOSMesa
+                    : Outcome::Failed(withEGL.GetMessage() + " " + withOSMesa.GetMessage());
 }
 } // namespace LightTransport

@@ -7,10 +7,10 @@
 #ifndef OffScreenContext_h
 #define OffScreenContext_h
 
-#include "Context/OpenGLPlatform.h"
+#include "Context/OpenGLLibraries.h"
+#include "Shared/Outcome.h"
 
 #include <memory>
-#include <string>
 
 namespace LightTransport
 {
@@ -22,10 +22,10 @@ public:
 
   /**
    * Make a context with the backend that the environment variable VTK_DEFAULT_OPENGL_WINDOW names
-   * (vtkEGLRenderWindow, vtkOSOpenGLRenderWindow), else EGL, else OSMesa. Returns nullptr with
-   * `reason` saying why not and what to install.
+   * (vtkEGLRenderWindow, vtkOSOpenGLRenderWindow), else EGL, else OSMesa. A failure says why not
+   * and what to install.
    */
-  static std::unique_ptr<OffScreenContext> Create(std::string& reason);
+  static Outcome Create(std::unique_ptr<OffScreenContext>& context);
 
   virtual ~OffScreenContext() = default;
   OffScreenContext(const OffScreenContext&) = delete;
@@ -35,13 +35,13 @@ public:
   virtual void* GetHandle() const = 0;
   virtual bool MakeCurrent() = 0;
   virtual bool IsCurrent() const = 0;
-  virtual vtkOpenGLProcedure GetProcAddress(const char* name) const = 0;
+  virtual OpenGLProcedure GetProcAddress(const char* name) const = 0;
 
 protected:
   OffScreenContext() = default;
 
-  static std::unique_ptr<OffScreenContext> CreateEGL(std::string& reason);
-  static std::unique_ptr<OffScreenContext> CreateOSMesa(std::string& reason);
+  static Outcome CreateEGL(std::unique_ptr<OffScreenContext>& context);
+  static Outcome CreateOSMesa(std::unique_ptr<OffScreenContext>& context);
 };
 } // namespace LightTransport
 

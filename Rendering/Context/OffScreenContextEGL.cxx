@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Context/OffScreenContext.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/CurrentOpenGLContext.h"
+#include "Context/OpenGLFunctions.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 namespace LightTransport
@@ -32,7 +34,7 @@ public:
   void* GetHandle() const override { return this->Context; }
   bool MakeCurrent() override;
   bool IsCurrent() const override;
-  vtkOpenGLProcedure GetProcAddress(const char* name) const override
+  OpenGLProcedure GetProcAddress(const char* name) const override
   {
     return this->EGL.GetProcAddress(name);
   }
@@ -163,47 +165,54 @@ std::unique_ptr<OffScreenContext> TryDisplay(const EGLLibrary& egl, EGLDisplay d
   }
   return context;
 }
-} // namespace
 
 //------------------------------------------------------------------------------
-std::unique_ptr<OffScreenContext> OffScreenContext::CreateEGL(std::string& reason)
+/// nullptr where no device offers what is needed.
+std::unique_ptr<OffScreenContext> TryDisplays(const EGLLibrary& egl)
 {
-  const EGLLibrary* egl = EGLLibrary::Get();
-  if (!egl)
-  {
-    reason = std::string("EGL: libEGL.so.1 cannot be loaded") + Remedy;
-    return nullptr;
-  }
-#ifdef GLEW_OK
-  const OSMesaLibrary* mesa = OSMesaLibrary::Get(false);
-  if (mesa && mesa->IsPreloaded())
-  {
-    reason = "EGL: OSMesa is preloaded and would receive the OpenGL calls meant for EGL; start the "
-             "process without LD_PRELOAD.";
-    return nullptr;
-  }
-#endif
   const auto getDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-    egl->GetProcAddress("eglGetPlatformDisplayEXT"));
-  const char* extensions = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    egl.GetProcAddress("eglGetPlatformDisplayEXT"));
+  const char* extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::unique_ptr<OffScreenContext> context;
   if (getDisplay && Contains(extensions, "EGL_EXT_platform_device"))
   {
-    for (EGLDeviceEXT device : ListDevices(*egl))
+    for (EGLDeviceEXT device : ListDevices(egl))
     {
       context = context ? std::move(context)
-                        : TryDisplay(*egl, getDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+                        : TryDisplay(egl, getDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
     }
   }
   if (!context && getDisplay && Contains(extensions, "EGL_MESA_platform_surfaceless"))
   {
     context =
-      TryDisplay(*egl, getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-  }
-  if (!context)
-  {
-    reason = std::string("EGL: no device offers OpenGL 3.2 without a display") + Remedy;
+      TryDisplay(egl, getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   }
   return context;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+Outcome OffScreenContext::CreateEGL(std::unique_ptr<OffScreenContext>& context)
+{
+  const EGLLibrary* egl = EGLLibrary::Get();
+  if (!egl)
+  {
+    return Outcome::Failed(std::string("EGL: libEGL.so.1 cannot be loaded") + Remedy);
+  }
+#ifdef GLEW_OK
+  const OSMesaLibrary* mesa = OSMesaLibrary::Get(false);
+  if (mesa && mesa->IsPreloaded())
+  {
+    return Outcome::Failed("EGL: OSMesa is preloaded and would receive the OpenGL calls meant for "
+                           "EGL; start the process without LD_PRELOAD.");
+  }
+#endif
+  context = TryDisplays(*egl);
+  if (!context)
+  {
+    return Outcome::Failed(
+      std::string("EGL: no device offers OpenGL 3.2 without a display") + Remedy);
+  }
+  return Outcome::Done();
 }
 } // namespace LightTransport

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Context/OffScreenContext.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/CurrentOpenGLContext.h"
+#include "Context/OpenGLFunctions.h"
 
 #include <vector>
 
@@ -29,7 +30,7 @@ public:
   {
     return this->Context && this->Mesa.GetCurrentContext() == this->Context;
   }
-  vtkOpenGLProcedure GetProcAddress(const char* name) const override
+  OpenGLProcedure GetProcAddress(const char* name) const override
   {
     return this->Mesa.GetProcAddress(name);
   }
@@ -80,29 +81,29 @@ bool ContextOSMesa::MakeCurrent()
 } // namespace
 
 //------------------------------------------------------------------------------
-std::unique_ptr<OffScreenContext> OffScreenContext::CreateOSMesa(std::string& reason)
+Outcome OffScreenContext::CreateOSMesa(std::unique_ptr<OffScreenContext>& context)
 {
   const OSMesaLibrary* mesa = OSMesaLibrary::Get(true);
   if (!mesa)
   {
-    reason = "OSMesa: libOSMesa.so.8 cannot be loaded (Debian: apt install libosmesa6).";
-    return nullptr;
+    return Outcome::Failed(
+      "OSMesa: libOSMesa.so.8 cannot be loaded (Debian: apt install libosmesa6).");
   }
 #ifdef GLEW_OK
   // GLEW finds OpenGL's functions through libGL alone.
   if (!mesa->IsPreloaded())
   {
-    reason = "OSMesa: this VTK reaches it only when the process is started with "
-             "LD_PRELOAD=\"libOSMesa.so.8 liblighttransport_osmesa_preload.so\".";
-    return nullptr;
+    return Outcome::Failed("OSMesa: this VTK reaches it only when the process is started with "
+                           "LD_PRELOAD=\"libOSMesa.so.8 liblighttransport_osmesa_preload.so\".");
   }
 #endif
-  auto context = std::make_unique<ContextOSMesa>(*mesa);
-  if (!context->Open())
+  auto opened = std::make_unique<ContextOSMesa>(*mesa);
+  if (!opened->Open())
   {
-    reason = "OSMesa: the library offers no OpenGL 3.2 (Debian: apt install libosmesa6).";
-    return nullptr;
+    return Outcome::Failed(
+      "OSMesa: the library offers no OpenGL 3.2 (Debian: apt install libosmesa6).");
   }
-  return context;
+  context = std::move(opened);
+  return Outcome::Done();
 }
 } // namespace LightTransport

@@ -2,35 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Context/OpenGLContextGuard.h"
 
-#include "vtkWeakPointer.h"
+#include "vtkOpenGLRenderWindow.h"
 
 namespace LightTransport
 {
+//------------------------------------------------------------------------------
+OpenGLContextGuard::OpenGLContextGuard(vtkOpenGLRenderWindow* window)
+  : Lock(OpenGLContextGuard::GetMutex()), Before(CurrentOpenGLContext::Get())
+{
+  if (!window->IsCurrent())
+  {
+    CurrentOpenGLContext::Release();
+    window->MakeCurrent();
+  }
+}
+
 //------------------------------------------------------------------------------
 std::recursive_mutex& OpenGLContextGuard::GetMutex()
 {
   static std::recursive_mutex mutex;
   return mutex;
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> vtkGetSharedOffScreenWindow(std::string& reason)
-{
-  static vtkWeakPointer<vtkOffScreenOpenGLRenderWindow> shared;
-  const std::lock_guard<std::recursive_mutex> lock(OpenGLContextGuard::GetMutex());
-  vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> window = shared.Get();
-  if (!window)
-  {
-    window = vtkSmartPointer<vtkOffScreenOpenGLRenderWindow>::New();
-    const CurrentOpenGLContext before = CurrentOpenGLContext::Get();
-    const bool open = window->Open(reason);
-    before.Restore();
-    if (!open)
-    {
-      return nullptr;
-    }
-    shared = window;
-  }
-  return window;
 }
 } // namespace LightTransport

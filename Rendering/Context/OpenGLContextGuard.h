@@ -8,27 +8,18 @@
 #ifndef OpenGLContextGuard_h
 #define OpenGLContextGuard_h
 
-#include "Context/OpenGLPlatform.h"
-#include "vtkOffScreenOpenGLRenderWindow.h"
-#include "vtkSmartPointer.h"
+#include "Context/CurrentOpenGLContext.h"
 
 #include <mutex>
-#include <string>
+
+class vtkOpenGLRenderWindow;
 
 namespace LightTransport
 {
 class OpenGLContextGuard
 {
 public:
-  explicit OpenGLContextGuard(vtkOpenGLRenderWindow* window)
-    : Lock(OpenGLContextGuard::GetMutex()), Before(CurrentOpenGLContext::Get())
-  {
-    if (!window->IsCurrent())
-    {
-      CurrentOpenGLContext::Release();
-      window->MakeCurrent();
-    }
-  }
+  explicit OpenGLContextGuard(vtkOpenGLRenderWindow* window);
   ~OpenGLContextGuard() { this->Before.Restore(); }
   OpenGLContextGuard(const OpenGLContextGuard&) = delete;
   void operator=(const OpenGLContextGuard&) = delete;
@@ -40,12 +31,6 @@ private:
   const std::lock_guard<std::recursive_mutex> Lock;
   const CurrentOpenGLContext Before;
 };
-
-/**
- * The off-screen window that all filters of this process share. It is made for the first user and
- * goes with the last. Returns nullptr with the reason when no context can be had.
- */
-vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> vtkGetSharedOffScreenWindow(std::string& reason);
 } // namespace LightTransport
 
 #endif

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Products/DenseProductGL.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/OpenGLFunctions.h"
 #include "vtkLightTransportProductsDensePartsFS.h"
 #include "vtkLightTransportProductsDenseSumPartsFS.h"
 
@@ -53,7 +53,7 @@ DenseProductGL::DenseProductGL(FloatTextures& engine, const Layout& layout)
 }
 
 //------------------------------------------------------------------------------
-bool DenseProductGL::Initialize(vtkExchangeMatrix* exchange, std::string& reason)
+Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange)
 {
   this->SharedKernel = exchange->GetNumberOfKernels() == 1;
   this->MatrixGroups = this->SharedKernel ? 1 : this->Vectors.Groups;
@@ -64,17 +64,17 @@ bool DenseProductGL::Initialize(vtkExchangeMatrix* exchange, std::string& reason
   {
     texels += static_cast<double>(tile.Rows) * tile.Texels;
   }
-  if (!this->CheckMemory(texels * this->MatrixGroups * FloatTextures::BytesPerTexel, reason))
+  const double bytes = texels * this->MatrixGroups * FloatTextures::BytesPerTexel;
+  if (Outcome enough = this->CheckMemory(bytes); !enough)
   {
-    return false;
+    return enough;
   }
   if (!this->Allocate())
   {
-    reason = this->DescribeMemory();
-    return false;
+    return this->RefuseMemory();
   }
   this->Upload(exchange);
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -112,29 +112,27 @@ void DenseProductGL::ChooseSizes()
 }
 
 //------------------------------------------------------------------------------
-bool DenseProductGL::Allocate()
+Outcome DenseProductGL::Allocate()
 {
   for (MatrixTile& tile : this->Tiles)
   {
-    tile.Textures =
-      this->Engine.Allocate(static_cast<std::size_t>(this->MatrixGroups), tile.Texels, tile.Rows);
-    if (tile.Textures.empty())
+    if (Outcome allocated = this->Engine.Allocate(tile.Textures,
+          static_cast<std::size_t>(this->MatrixGroups), tile.Texels, tile.Rows);
+        !allocated)
     {
-      return false;
+      return allocated;
     }
     // What is not uploaded is zero.
     this->Engine.Clear(tile.Textures);
   }
   const Layout& vectors = this->Vectors;
-  this->Parts =
-    this->Engine.Allocate(static_cast<std::size_t>(vectors.Groups * this->RowsPerFragment),
-      vectors.Width / this->RowsPerFragment, vectors.Height * this->Splits);
-  if (this->TilesAcross > 1)
-  {
-    this->Spare = this->Engine.Allocate(static_cast<std::size_t>(vectors.Groups), vectors.Width,
-      vectors.Height);
-  }
-  return !this->Parts.empty() && (this->TilesAcross == 1 || !this->Spare.empty());
+  Outcome allocated = this->Engine.Allocate(this->Parts,
+    static_cast<std::size_t>(vectors.Groups * this->RowsPerFragment),
+    vectors.Width / this->RowsPerFragment, vectors.Height * this->Splits);
+  return allocated && this->TilesAcross > 1
+    ? this->Engine.Allocate(this->Spare, static_cast<std::size_t>(vectors.Groups), vectors.Width,
+        vectors.Height)
+    : allocated;
 }
 
 //------------------------------------------------------------------------------
@@ -198,9 +196,9 @@ std::string DenseProductGL::GetDefines(int outputs) const
 }
 
 //------------------------------------------------------------------------------
-bool DenseProductGL::Draw(Group& target, const Group& source)
+Outcome DenseProductGL::Draw(Group& target, const Group& source)
 {
-  bool drawn = true;
+  Outcome drawn = Outcome::Done();
   for (int across = 0; across < this->TilesAcross && drawn; ++across)
   {
     drawn = this->DrawPartialProducts(source, across);
@@ -208,19 +206,21 @@ bool DenseProductGL::Draw(Group& target, const Group& source)
     {
       std::swap(this->Spare, target);
     }
-    drawn = drawn && this->DrawSumOfParts(target, across > 0 ? &this->Spare : nullptr);
+    drawn = drawn ? this->DrawSumOfParts(target, across > 0 ? &this->Spare : nullptr) : drawn;
   }
   return drawn;
 }
 
 //------------------------------------------------------------------------------
-bool DenseProductGL::DrawPartialProducts(const Group& source, int across)
+Outcome DenseProductGL::DrawPartialProducts(const Group& source, int across)
 {
-  vtkShaderProgram* program = this->Engine.Use("PartialProduct",
-    vtkLightTransportProductsDensePartsFS, this->GetDefines(static_cast<int>(this->Parts.size())));
-  if (!program)
+  vtkShaderProgram* program = nullptr;
+  const std::string defines = this->GetDefines(static_cast<int>(this->Parts.size()));
+  if (Outcome used =
+        this->Engine.Use(program, "PartialProduct", vtkLightTransportProductsDensePartsFS, defines);
+      !used)
   {
-    return false;
+    return used;
   }
   const Layout& vectors = this->Vectors;
   program->SetUniformi("splits", this->Splits);
@@ -243,18 +243,20 @@ bool DenseProductGL::DrawPartialProducts(const Group& source, int across)
     // it for seconds.
     glFlush();
   }
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool DenseProductGL::DrawSumOfParts(const Group& target, const Group* previous)
+Outcome DenseProductGL::DrawSumOfParts(const Group& target, const Group* previous)
 {
   const std::string accumulate = previous ? "#define ACCUMULATE 1\n" : "#define ACCUMULATE 0\n";
-  vtkShaderProgram* program = this->Engine.Use(previous ? "AddParts" : "SumParts",
-    vtkLightTransportProductsDenseSumPartsFS, this->GetDefines(this->Vectors.Groups) + accumulate);
-  if (!program)
+  vtkShaderProgram* program = nullptr;
+  if (Outcome used = this->Engine.Use(program, previous ? "AddParts" : "SumParts",
+        vtkLightTransportProductsDenseSumPartsFS,
+        this->GetDefines(this->Vectors.Groups) + accumulate);
+      !used)
   {
-    return false;
+    return used;
   }
   this->Engine.SetTextures(program, "parts", this->Parts);
   if (previous)
@@ -264,6 +266,6 @@ bool DenseProductGL::DrawSumOfParts(const Group& target, const Group* previous)
   program->SetUniformi("splits", this->Splits);
   const int region[4] = { 0, 0, this->Vectors.Width, this->Vectors.Height };
   this->Engine.Draw(target, region);
-  return true;
+  return Outcome::Done();
 }
 } // namespace LightTransport

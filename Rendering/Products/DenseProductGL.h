@@ -19,8 +19,8 @@ class DenseProductGL : public ProductGL
 public:
   DenseProductGL(FloatTextures& engine, const Layout& layout);
 
-  bool Initialize(vtkExchangeMatrix* exchange, std::string& reason);
-  bool Draw(Group& target, const Group& source) override;
+  Outcome Initialize(vtkExchangeMatrix* exchange);
+  Outcome Draw(Group& target, const Group& source) override;
   int GetNumberOfLinkTextures() const override;
 
 private:
@@ -36,12 +36,12 @@ private:
   };
 
   void ChooseSizes();
-  bool Allocate();
+  Outcome Allocate();
   void Upload(vtkExchangeMatrix* exchange);
   void UploadBlock(int rowBlock, int columnBlock, int group, const float* texels);
   std::string GetDefines(int outputs) const;
-  bool DrawPartialProducts(const Group& source, int across);
-  bool DrawSumOfParts(const Group& target, const Group* previous);
+  Outcome DrawPartialProducts(const Group& source, int across);
+  Outcome DrawSumOfParts(const Group& target, const Group* previous);
 
   bool SharedKernel = true;
   int MatrixGroups = 1;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Products/HierarchicalProductGL.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/OpenGLFunctions.h"
 #include "vtkLightTransportProductsHierarchyGatherLinksFS.h"
 #include "vtkLightTransportProductsHierarchySumChildrenFS.h"
 #include "vtkLightTransportProductsHierarchySumPiecesFS.h"
@@ -21,16 +21,15 @@ HierarchicalProductGL::HierarchicalProductGL(FloatTextures& engine, const Layout
 }
 
 //------------------------------------------------------------------------------
-bool HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, std::string& reason)
+Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy)
 {
   const HierarchyLayout tables(*hierarchy, this->Vectors.Width, this->Vectors.MaximumSize);
   if (!tables.Fits())
   {
-    reason = std::to_string(hierarchy->GetNumberOfLinks()) + " links between " +
+    return Outcome::Failed(std::to_string(hierarchy->GetNumberOfLinks()) + " links between " +
       std::to_string(hierarchy->GetNumberOfSlots()) +
       " clusters and patches are too many for OpenGL's textures of at most " +
-      std::to_string(this->Vectors.MaximumSize) + " texels a side";
-    return false;
+      std::to_string(this->Vectors.MaximumSize) + " texels a side");
   }
   this->Levels = tables.GetLevels();
   this->Patches = tables.GetPatches();
@@ -41,43 +40,45 @@ bool HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, std::str
   {
     bytes += static_cast<double>(tile.Height) * this->Vectors.Width * FloatTextures::BytesPerTexel;
   }
-  if (!this->CheckMemory(bytes, reason))
+  if (Outcome enough = this->CheckMemory(bytes); !enough)
   {
-    return false;
+    return enough;
   }
   if (!this->Allocate(tables))
   {
-    reason = this->DescribeMemory();
-    return false;
+    return this->RefuseMemory();
   }
   this->Upload(tables);
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool HierarchicalProductGL::Allocate(const HierarchyLayout& tables)
+Outcome HierarchicalProductGL::Allocate(const HierarchyLayout& tables)
 {
-  const int width = this->Vectors.Width;
-  bool good = true;
-  const auto allocate = [&](int groups, int lines)
+  Outcome allocated = Outcome::Done();
+  const auto allocate = [&](Group& group, int textures, int width, int lines)
   {
-    Group group = this->Engine.Allocate(static_cast<std::size_t>(groups), width, lines);
-    good = good && !group.empty();
-    return group;
+    if (allocated)
+    {
+      allocated = this->Engine.Allocate(group, static_cast<std::size_t>(textures), width, lines);
+    }
   };
+  const int width = this->Vectors.Width;
   const int groups = this->Vectors.Groups;
-  this->Children = allocate(1, tables.GetNumberOfNodeLines());
-  this->Rows = allocate(1, tables.GetNumberOfSlotLines());
-  this->Sent = allocate(groups, tables.GetNumberOfSlotLines());
-  this->Beside = allocate(groups, tables.GetNumberOfNodeLines());
-  this->Parts = allocate(groups, this->PieceLines + tables.GetNumberOfNodeLines());
-  this->Lines = this->Engine.Allocate(1, 1, std::max(this->PieceLines, 1));
-  good = good && !this->Lines.empty();
+  const int nodeLines = tables.GetNumberOfNodeLines();
+  const int slotLines = tables.GetNumberOfSlotLines();
+  allocate(this->Children, 1, width, nodeLines);
+  allocate(this->Rows, 1, width, slotLines);
+  allocate(this->Sent, groups, width, slotLines);
+  allocate(this->Beside, groups, width, nodeLines);
+  allocate(this->Parts, groups, width, this->PieceLines + nodeLines);
+  allocate(this->Lines, 1, 1, std::max(this->PieceLines, 1));
   for (const Tile& tile : this->Tiles)
   {
-    this->Links.push_back(allocate(1, tile.Height));
+    this->Links.emplace_back();
+    allocate(this->Links.back(), 1, width, tile.Height);
   }
-  return good;
+  return allocated;
 }
 
 //------------------------------------------------------------------------------
@@ -120,49 +121,61 @@ void HierarchicalProductGL::UploadLinks(const HierarchyLayout& tables)
 }
 
 //------------------------------------------------------------------------------
-vtkShaderProgram* HierarchicalProductGL::Use(const char* name, const char* body,
+Outcome HierarchicalProductGL::Use(vtkShaderProgram*& program, const char* name, const char* body,
   const std::string& extra)
 {
-  return this->Engine.Use(name, body, this->Vectors.GetDefines(this->Vectors.Groups) + extra);
+  return this->Engine.Use(program, name, body,
+    this->Vectors.GetDefines(this->Vectors.Groups) + extra);
 }
 
 //------------------------------------------------------------------------------
-bool HierarchicalProductGL::Draw(Group& target, const Group& source)
+Outcome HierarchicalProductGL::Draw(Group& target, const Group& source)
 {
-  return this->SweepUp(source) && this->GatherLinks() && this->SweepDown(target);
-}
-
-//------------------------------------------------------------------------------
-bool HierarchicalProductGL::SweepUp(const Group& source)
-{
-  vtkShaderProgram* weigh =
-    this->Use("WeighPatches", vtkLightTransportProductsHierarchyWeighPatchesFS);
-  if (!weigh)
+  if (Outcome swept = this->SweepUp(source); !swept)
   {
-    return false;
+    return swept;
   }
-  this->Engine.SetTextures(weigh, "rows", this->Rows);
-  this->Engine.SetTextures(weigh, "vector", source);
-  weigh->SetUniformi("firstLine", this->Patches.FirstLine);
+  if (Outcome gathered = this->GatherLinks(); !gathered)
+  {
+    return gathered;
+  }
+  return this->SweepDown(target);
+}
+
+//------------------------------------------------------------------------------
+Outcome HierarchicalProductGL::SweepUp(const Group& source)
+{
+  vtkShaderProgram* program = nullptr;
+  if (Outcome used =
+        this->Use(program, "WeighPatches", vtkLightTransportProductsHierarchyWeighPatchesFS);
+      !used)
+  {
+    return used;
+  }
+  this->Engine.SetTextures(program, "rows", this->Rows);
+  this->Engine.SetTextures(program, "vector", source);
+  program->SetUniformi("firstLine", this->Patches.FirstLine);
   const int region[4] = { 0, this->Patches.FirstLine, this->Vectors.Width, this->Patches.Lines };
   this->Engine.Draw(this->Sent, region);
 
-  vtkShaderProgram* sum = this->Use("SumChildren", vtkLightTransportProductsHierarchySumChildrenFS);
-  for (auto level = this->Levels.rbegin(); sum && level != this->Levels.rend(); ++level)
+  const Outcome used =
+    this->Use(program, "SumChildren", vtkLightTransportProductsHierarchySumChildrenFS);
+  for (auto level = this->Levels.rbegin(); used && level != this->Levels.rend(); ++level)
   {
-    this->Engine.SetTextures(sum, "children", this->Children);
-    this->Engine.SetTextures(sum, "sent", this->Sent);
+    this->Engine.SetTextures(program, "children", this->Children);
+    this->Engine.SetTextures(program, "sent", this->Sent);
     this->DrawBeside(*level, this->Sent, level->FirstLine);
   }
-  return sum != nullptr;
+  return used;
 }
 
 //------------------------------------------------------------------------------
-bool HierarchicalProductGL::GatherLinks()
+Outcome HierarchicalProductGL::GatherLinks()
 {
-  vtkShaderProgram* program =
-    this->Use("GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS);
-  for (std::size_t tile = 0; program && tile < this->Tiles.size(); ++tile)
+  vtkShaderProgram* program = nullptr;
+  const Outcome used =
+    this->Use(program, "GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS);
+  for (std::size_t tile = 0; used && tile < this->Tiles.size(); ++tile)
   {
     this->Engine.SetTextures(program, "links", this->Links[tile]);
     this->Engine.SetTextures(program, "lines", this->Lines);
@@ -174,42 +187,43 @@ bool HierarchicalProductGL::GatherLinks()
     // it for seconds.
     glFlush();
   }
-  return program != nullptr;
+  return used;
 }
 
 //------------------------------------------------------------------------------
-bool HierarchicalProductGL::SweepDown(const Group& target)
+Outcome HierarchicalProductGL::SweepDown(const Group& target)
 {
+  vtkShaderProgram* program = nullptr;
   for (const Range& level : this->Levels)
   {
-    if (!this->UseSums(false))
+    if (Outcome used = this->UseSums(program, false); !used)
     {
-      return false;
+      return used;
     }
     this->DrawBeside(level, this->Parts, this->PieceLines + level.FirstLine);
   }
-  vtkShaderProgram* program = this->UseSums(true);
-  if (program)
+  const Outcome used = this->UseSums(program, true);
+  if (used)
   {
     program->SetUniformi("firstLine", this->Patches.FirstLine);
     const int region[4] = { 0, 0, this->Vectors.Width, this->Vectors.Height };
     this->Engine.Draw(target, region);
   }
-  return program != nullptr;
+  return used;
 }
 
 //------------------------------------------------------------------------------
-vtkShaderProgram* HierarchicalProductGL::UseSums(bool ofPatches)
+Outcome HierarchicalProductGL::UseSums(vtkShaderProgram*& program, bool ofPatches)
 {
-  vtkShaderProgram* program = this->Use(ofPatches ? "SumPiecesOfPatches" : "SumPieces",
+  const Outcome used = this->Use(program, ofPatches ? "SumPiecesOfPatches" : "SumPieces",
     vtkLightTransportProductsHierarchySumPiecesFS,
     ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n");
-  if (program)
+  if (used)
   {
     this->Engine.SetTextures(program, "rows", this->Rows);
     this->Engine.SetTextures(program, "parts", this->Parts);
   }
-  return program;
+  return used;
 }
 
 //------------------------------------------------------------------------------

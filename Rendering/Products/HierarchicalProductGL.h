@@ -21,24 +21,25 @@ class HierarchicalProductGL : public ProductGL
 public:
   HierarchicalProductGL(FloatTextures& engine, const Layout& layout);
 
-  bool Initialize(vtkExchangeHierarchy* hierarchy, std::string& reason);
-  bool Draw(Group& target, const Group& source) override;
+  Outcome Initialize(vtkExchangeHierarchy* hierarchy);
+  Outcome Draw(Group& target, const Group& source) override;
   int GetNumberOfLinkTextures() const override { return static_cast<int>(this->Links.size()); }
 
 private:
   using Range = HierarchyLayout::Range;
   using Tile = HierarchyLayout::Tile;
 
-  bool Allocate(const HierarchyLayout& tables);
+  Outcome Allocate(const HierarchyLayout& tables);
   void Upload(const HierarchyLayout& tables);
   void UploadTable(const Group& table, const std::vector<float>& texels);
   void UploadLinks(const HierarchyLayout& tables);
 
-  vtkShaderProgram* Use(const char* name, const char* body, const std::string& extra = "");
-  bool SweepUp(const Group& source);
-  bool GatherLinks();
-  bool SweepDown(const Group& target);
-  vtkShaderProgram* UseSums(bool ofPatches);
+  Outcome Use(vtkShaderProgram*& program, const char* name, const char* body,
+    const std::string& extra = "");
+  Outcome SweepUp(const Group& source);
+  Outcome GatherLinks();
+  Outcome SweepDown(const Group& target);
+  Outcome UseSums(vtkShaderProgram*& program, bool ofPatches);
   void DrawBeside(const Range& range, const Group& target, int line);
 
   std::vector<Range> Levels; ///< of nodes

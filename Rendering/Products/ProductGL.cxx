@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Products/ProductGL.h"
 
+#include "Device/DeviceMemory.h"
 #include "Products/DenseProductGL.h"
 #include "Products/HierarchicalProductGL.h"
 
@@ -14,15 +15,16 @@ namespace
 {
 //------------------------------------------------------------------------------
 template <typename Product, typename Exchange>
-std::unique_ptr<ProductGL> Make(Exchange* exchange, FloatTextures& engine,
-  const ProductGL::Layout& layout, std::string& reason)
+Outcome MakeProduct(std::unique_ptr<ProductGL>& product, Exchange* exchange, FloatTextures& engine,
+  const ProductGL::Layout& layout)
 {
-  auto product = std::make_unique<Product>(engine, layout);
-  if (!product->Initialize(exchange, reason))
+  auto made = std::make_unique<Product>(engine, layout);
+  Outcome initialized = made->Initialize(exchange);
+  if (initialized)
   {
-    return nullptr;
+    product = std::move(made);
   }
-  return product;
+  return initialized;
 }
 } // namespace
 
@@ -35,37 +37,31 @@ ProductGL::ProductGL(FloatTextures& engine, const Layout& layout) : Engine(engin
 ProductGL::~ProductGL() = default;
 
 //------------------------------------------------------------------------------
-std::unique_ptr<ProductGL> ProductGL::New(vtkExchange* exchange, FloatTextures& engine,
-  const Layout& layout, std::string& reason)
+Outcome ProductGL::Make(std::unique_ptr<ProductGL>& product, vtkExchange* exchange,
+  FloatTextures& engine, const Layout& layout)
 {
   if (auto* matrix = vtkExchangeMatrix::SafeDownCast(exchange))
   {
-    return Make<DenseProductGL>(matrix, engine, layout, reason);
+    return MakeProduct<DenseProductGL>(product, matrix, engine, layout);
   }
   if (auto* hierarchy = vtkExchangeHierarchy::SafeDownCast(exchange))
   {
-    return Make<HierarchicalProductGL>(hierarchy, engine, layout, reason);
+    return MakeProduct<HierarchicalProductGL>(product, hierarchy, engine, layout);
   }
-  reason = std::string("OpenGL does not apply a ") + exchange->GetClassName();
-  return nullptr;
+  return Outcome::Failed(std::string("OpenGL does not apply a ") + exchange->GetClassName());
 }
 
 //------------------------------------------------------------------------------
-std::string ProductGL::DescribeMemory() const
+Outcome ProductGL::RefuseMemory() const
 {
-  return "The links of " + std::to_string(this->Vectors.Patches) +
-    " patches do not fit into the memory of " + this->Engine.GetDeviceName();
+  return Outcome::Failed("The links of " + std::to_string(this->Vectors.Patches) +
+    " patches do not fit into the memory of " + this->Engine.GetDeviceName());
 }
 
 //------------------------------------------------------------------------------
-bool ProductGL::CheckMemory(double bytes, std::string& reason) const
+Outcome ProductGL::CheckMemory(double bytes) const
 {
-  const double available = this->Engine.GetAvailableBytes();
-  if (available >= 0.0 && bytes > available)
-  {
-    reason = this->DescribeMemory();
-    return false;
-  }
-  return true;
+  const double available = GetAvailableDeviceBytes(this->Engine.GetWindow());
+  return available >= 0.0 && bytes > available ? this->RefuseMemory() : Outcome::Done();
 }
 } // namespace LightTransport

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The product y = G x on the GPU: what the forms of links differ in. The tables of an exchange are
- * put into textures once and stay there. All calls within a FloatTextures::Session.
+ * put into textures once and stay there. All calls within a DeviceSession.
  */
 #ifndef ProductGL_h
 #define ProductGL_h
@@ -27,14 +27,13 @@ public:
   ProductGL(const ProductGL&) = delete;
   void operator=(const ProductGL&) = delete;
 
-  /// The product with this exchange, its tables uploaded. When null, `reason` is what is wrong,
-  /// without a full stop.
-  static std::unique_ptr<ProductGL> New(vtkExchange* exchange, FloatTextures& engine,
-    const Layout& layout, std::string& reason);
+  /// The product with this exchange, its tables uploaded. The message of a failure has no full
+  /// stop. A new form of links gets its line here.
+  static Outcome Make(std::unique_ptr<ProductGL>& product, vtkExchange* exchange,
+    FloatTextures& engine, const Layout& layout);
 
-  /// target = G source. May exchange the textures of the target for others. False when a shader
-  /// does not compile.
-  virtual bool Draw(Group& target, const Group& source) = 0;
+  /// target = G source. May exchange the textures of the target for others.
+  virtual Outcome Draw(Group& target, const Group& source) = 0;
 
   /// Textures that hold the links.
   virtual int GetNumberOfLinkTextures() const = 0;
@@ -42,9 +41,9 @@ public:
 protected:
   ProductGL(FloatTextures& engine, const Layout& layout);
 
-  /// True where `bytes` for the links of all patches are there, else with the reason.
-  bool CheckMemory(double bytes, std::string& reason) const;
-  std::string DescribeMemory() const;
+  /// A failure where the device has less than `bytes` for the links.
+  Outcome CheckMemory(double bytes) const;
+  Outcome RefuseMemory() const;
 
   FloatTextures& Engine;
   const Layout Vectors;

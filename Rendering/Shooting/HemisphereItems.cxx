@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Shooting/HemisphereItems.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/OpenGLContextGuard.h"
+#include "Context/OpenGLFunctions.h"
+#include "Device/DeviceErrors.h"
 #include "vtkLightTransportShootingItemsFS.h"
 #include "vtkLightTransportShootingItemsVS.h"
 #include "vtkLightTransportShootingScatterFS.h"
@@ -13,6 +15,7 @@
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexArrayObject.h"
 #include "vtkShaderProgram.h"
 
@@ -86,16 +89,17 @@ HemisphereItems::~HemisphereItems()
 }
 
 //------------------------------------------------------------------------------
-bool HemisphereItems::Allocate(const std::vector<float>& points,
+Outcome HemisphereItems::Allocate(const std::vector<float>& points,
   const std::vector<unsigned int>& triangles, const std::vector<int>& patches, int resolution)
 {
   this->Resolution = resolution;
   this->WeightOfAllPixels = SumWeights(resolution);
-  return this->AllocateItems() && this->AllocateScene(points, triangles, patches);
+  const Outcome allocated = this->AllocateItems();
+  return allocated ? this->AllocateScene(points, triangles, patches) : allocated;
 }
 
 //------------------------------------------------------------------------------
-bool HemisphereItems::AllocateItems()
+Outcome HemisphereItems::AllocateItems()
 {
   const auto width = static_cast<unsigned int>(3 * this->Resolution);
   const auto height = static_cast<unsigned int>(MostEyes * this->Resolution);
@@ -106,21 +110,20 @@ bool HemisphereItems::AllocateItems()
   this->Depth->SetContext(window);
   this->Items->Allocate2D(width, height, 1, VTK_FLOAT);
   this->Depth->AllocateDepth(width, height, vtkTextureObject::Float32);
-  std::string ignored;
-  if (!FloatTextures::CheckErrors(ignored))
+  if (Outcome allocated = DeviceErrors::Check(); !allocated)
   {
-    return false;
+    return allocated;
   }
   this->ItemBuffer = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
   this->ItemBuffer->SetContext(window);
   this->ItemBuffer->Bind();
   this->ItemBuffer->AddColorAttachment(0, this->Items);
   this->ItemBuffer->AddDepthAttachment(this->Depth);
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool HemisphereItems::AllocateScene(const std::vector<float>& points,
+Outcome HemisphereItems::AllocateScene(const std::vector<float>& points,
   const std::vector<unsigned int>& triangles, const std::vector<int>& patches)
 {
   this->NumberOfIndices = static_cast<int>(triangles.size());
@@ -132,25 +135,20 @@ bool HemisphereItems::AllocateScene(const std::vector<float>& points,
 
   const int count = static_cast<int>(patches.size());
   this->TriangleWidth = std::min(count, this->Engine->GetMaximumTextureSize());
-  const int height = (count + this->TriangleWidth - 1) / this->TriangleWidth;
-  this->TrianglePatches = this->Engine->Allocate(1, this->TriangleWidth, height);
-  if (this->TrianglePatches.empty())
+  if (Outcome allocated = this->Engine->Allocate(this->TrianglePatches, 1, this->TriangleWidth,
+        FloatTextures::DivideUp(count, this->TriangleWidth));
+      !allocated)
   {
-    return false;
+    return allocated;
   }
-  std::vector<float> texels(static_cast<std::size_t>(4) * this->TriangleWidth * height, 0.0f);
-  for (int triangle = 0; triangle < count; ++triangle)
-  {
-    texels[4 * static_cast<std::size_t>(triangle)] = static_cast<float>(patches[triangle] + 1);
-  }
-  const int region[4] = { 0, 0, this->TriangleWidth, height };
-  this->Engine->Upload(this->TrianglePatches[0], region, this->TriangleWidth, texels.data());
+  this->UploadPatches(patches);
 
-  vtkShaderProgram* program =
-    this->Use(vtkLightTransportShootingItemsVS, vtkLightTransportShootingItemsFS);
-  if (!program)
+  vtkShaderProgram* program = nullptr;
+  if (Outcome used =
+        this->Use(program, vtkLightTransportShootingItemsVS, vtkLightTransportShootingItemsFS);
+      !used)
   {
-    return false;
+    return used;
   }
   // The buffer of indices belongs to the vertex array that is bound while it is.
   this->Scene->Bind();
@@ -158,40 +156,56 @@ bool HemisphereItems::AllocateScene(const std::vector<float>& points,
     3 * sizeof(float), VTK_FLOAT, 3, false);
   this->Triangles->Upload(triangles, vtkOpenGLBufferObject::ElementArrayBuffer);
   this->Scene->Release();
-  std::string ignored;
-  return FloatTextures::CheckErrors(ignored) && added;
+  return added ? DeviceErrors::Check() : Outcome::Failed("positions that a shader does not take");
 }
 
 //------------------------------------------------------------------------------
-vtkShaderProgram* HemisphereItems::Use(const char* vertexShader, const std::string& fragmentShader)
+// Numbers from 1 on: 0 is nobody.
+void HemisphereItems::UploadPatches(const std::vector<int>& patches)
+{
+  const int height = static_cast<int>(this->TrianglePatches[0]->GetHeight());
+  std::vector<float> texels(static_cast<std::size_t>(4) * this->TriangleWidth * height, 0.0f);
+  for (std::size_t triangle = 0; triangle < patches.size(); ++triangle)
+  {
+    texels[4 * triangle] = static_cast<float>(patches[triangle] + 1);
+  }
+  const int region[4] = { 0, 0, this->TriangleWidth, height };
+  this->Engine->Upload(this->TrianglePatches[0], region, this->TriangleWidth, texels.data());
+}
+
+//------------------------------------------------------------------------------
+Outcome HemisphereItems::Use(vtkShaderProgram*& program, const char* vertexShader,
+  const std::string& fragmentShader)
 {
   std::string source = vertexShader;
   vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Define",
     "#define MOST_EYES " + std::to_string(MostEyes));
-  vtkShaderProgram* program = this->Engine->GetWindow()->GetShaderCache()->ReadyShaderProgram(
-    source.c_str(), fragmentShader.c_str(), "");
-  return program && program->GetCompiled() ? program : nullptr;
+  program = this->Engine->GetWindow()->GetShaderCache()->ReadyShaderProgram(source.c_str(),
+    fragmentShader.c_str(), "");
+  return FloatTextures::CheckProgram(program);
 }
 
 //------------------------------------------------------------------------------
-bool HemisphereItems::Shoot(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
+Outcome HemisphereItems::Shoot(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
   const FloatTextures::Group& unshot, const FloatTextures::Group& received)
 {
-  return this->DrawItems(eyes) && this->DrawPoints(eyes, layout, unshot, received);
+  const Outcome drawn = this->DrawItems(eyes);
+  return drawn ? this->DrawPoints(eyes, layout, unshot, received) : drawn;
 }
 
 //------------------------------------------------------------------------------
-bool HemisphereItems::DrawItems(const std::vector<Eye>& eyes)
+Outcome HemisphereItems::DrawItems(const std::vector<Eye>& eyes)
 {
   vtkOpenGLState* state = this->Engine->GetWindow()->GetState();
   const vtkOpenGLState::ScopedglDepthFunc function(state);
   const vtkOpenGLState::ScopedglDepthMask mask(state);
   const vtkOpenGLState::ScopedglScissor scissor(state);
-  vtkShaderProgram* program =
-    this->Use(vtkLightTransportShootingItemsVS, vtkLightTransportShootingItemsFS);
-  if (!program)
+  vtkShaderProgram* program = nullptr;
+  if (Outcome used =
+        this->Use(program, vtkLightTransportShootingItemsVS, vtkLightTransportShootingItemsFS);
+      !used)
   {
-    return false;
+    return used;
   }
   const int width = 3 * this->Resolution;
   const int height = static_cast<int>(eyes.size()) * this->Resolution;
@@ -228,12 +242,13 @@ bool HemisphereItems::DrawItems(const std::vector<Eye>& eyes)
   }
   this->TrianglePatches[0]->Deactivate();
   state->vtkglDisable(GL_DEPTH_TEST);
-  return true;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool HemisphereItems::DrawPoints(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
-  const FloatTextures::Group& unshot, const FloatTextures::Group& received)
+Outcome HemisphereItems::DrawPoints(const std::vector<Eye>& eyes,
+  const FloatVectors::Layout& layout, const FloatTextures::Group& unshot,
+  const FloatTextures::Group& received)
 {
   vtkOpenGLState* state = this->Engine->GetWindow()->GetState();
   const vtkOpenGLState::ScopedglBlendFuncSeparate blending(state);
@@ -241,10 +256,10 @@ bool HemisphereItems::DrawPoints(const std::vector<Eye>& eyes, const FloatVector
   vtkShaderProgram::Substitute(fragmentShader, "//VTK::LightTransport::Define",
     layout.GetDefines(layout.Groups));
   fragmentShader += vtkLightTransportShootingScatterFS;
-  vtkShaderProgram* program = this->Use(vtkLightTransportShootingScatterVS, fragmentShader);
-  if (!program)
+  vtkShaderProgram* program = nullptr;
+  if (Outcome used = this->Use(program, vtkLightTransportShootingScatterVS, fragmentShader); !used)
   {
-    return false;
+    return used;
   }
   const int size[2] = { layout.Width, layout.Height };
   this->Engine->Bind(received);
@@ -277,6 +292,6 @@ bool HemisphereItems::DrawPoints(const std::vector<Eye>& eyes, const FloatVector
   state->vtkglDisable(GL_BLEND);
   // A bunch of work at a time: a GPU may draw a screen as well.
   glFlush();
-  return true;
+  return Outcome::Done();
 }
 } // namespace LightTransport

@@ -48,27 +48,28 @@ public:
   /**
    * Points (three coordinates each, within a sphere of diameter 1), triangles (three points each)
    * and the patch that each triangle belongs to. `resolution` is the number of pixels along a side
-   * of a face, even. False where the memory is not there.
+   * of a face, even.
    */
-  bool Allocate(const std::vector<float>& points, const std::vector<unsigned int>& triangles,
+  Outcome Allocate(const std::vector<float>& points, const std::vector<unsigned int>& triangles,
     const std::vector<int>& patches, int resolution);
 
   /**
    * Draw what eye points (at most MostEyes) see, and add what their shooters hold in `unshot` times
    * Power to the texels of the patches that they see in `received`, both vectors of this layout.
-   * False where a shader does not compile.
    */
-  bool Shoot(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
+  Outcome Shoot(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
     const FloatTextures::Group& unshot, const FloatTextures::Group& received);
 
 private:
-  bool AllocateItems();
-  bool AllocateScene(const std::vector<float>& points, const std::vector<unsigned int>& triangles,
-    const std::vector<int>& patches);
-  bool DrawItems(const std::vector<Eye>& eyes);
-  bool DrawPoints(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
+  Outcome AllocateItems();
+  Outcome AllocateScene(const std::vector<float>& points,
+    const std::vector<unsigned int>& triangles, const std::vector<int>& patches);
+  Outcome DrawItems(const std::vector<Eye>& eyes);
+  Outcome DrawPoints(const std::vector<Eye>& eyes, const FloatVectors::Layout& layout,
     const FloatTextures::Group& unshot, const FloatTextures::Group& received);
-  vtkShaderProgram* Use(const char* vertexShader, const std::string& fragmentShader);
+  void UploadPatches(const std::vector<int>& patches);
+  Outcome Use(vtkShaderProgram*& program, const char* vertexShader,
+    const std::string& fragmentShader);
 
   FloatTextures* Engine;
   int Resolution = 0;

@@ -2,54 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Textures/FloatTextures.h"
 
-#include "Context/LightTransportOpenGL.h"
+#include "Context/OpenGLFunctions.h"
+#include "Device/DeviceErrors.h"
+#include "Device/DeviceSession.h"
 #include "vtkLightTransportTexturesCommonFS.h"
 #include "vtkLightTransportTexturesQuadVS.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
-
-#include <vtksys/SystemInformation.hxx>
 
 #include <algorithm>
 
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
-FloatTextures::Session::Session(vtkOpenGLRenderWindow* window)
-  : Context(window), State(window->GetState()), Viewport(this->State), ColorMask(this->State),
-    Blend(this->State, GL_BLEND), CullFace(this->State, GL_CULL_FACE),
-    DepthTest(this->State, GL_DEPTH_TEST), ScissorTest(this->State, GL_SCISSOR_TEST),
-    StencilTest(this->State, GL_STENCIL_TEST)
-{
-  std::string ignored;
-  FloatTextures::CheckErrors(ignored);
-  this->State->PushFramebufferBindings();
-  for (unsigned int name :
-    { GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST })
-  {
-    this->State->vtkglDisable(name);
-  }
-  this->State->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-}
-
-//------------------------------------------------------------------------------
-FloatTextures::Session::~Session()
-{
-  this->State->PopFramebufferBindings();
-}
-
-//------------------------------------------------------------------------------
 FloatTextures::FloatTextures(vtkOpenGLRenderWindow* window)
   : Window(window), Framebuffer(vtkSmartPointer<vtkOpenGLFramebufferObject>::New())
 {
-  const Session session(window);
+  const DeviceSession session(window);
   this->Framebuffer->SetContext(window);
-  const Group witness = this->Allocate(1, 1, 1);
-  this->Witness = witness.empty() ? nullptr : witness[0];
+  Group witness;
+  if (this->Allocate(witness, 1, 1, 1))
+  {
+    this->Witness = witness[0];
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -93,26 +72,9 @@ int FloatTextures::GetMaximumGroupSize() const
 }
 
 //------------------------------------------------------------------------------
-double FloatTextures::GetAvailableBytes() const
+Outcome FloatTextures::Allocate(Group& group, std::size_t count, int width, int height)
 {
-  if (!vtkOpenGLDeviceIsHardware(this->Window->GetState()->GetRenderer()))
-  {
-    vtksys::SystemInformation system;
-    system.RunMemoryCheck();
-    return 1048576.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
-  }
-  // GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, in KiB; an error where the extension is
-  // missing.
-  GLint kibibytes = -1;
-  glGetIntegerv(0x9049, &kibibytes);
-  std::string ignored;
-  return FloatTextures::CheckErrors(ignored) ? 1024.0 * kibibytes : -1.0;
-}
-
-//------------------------------------------------------------------------------
-FloatTextures::Group FloatTextures::Allocate(std::size_t count, int width, int height)
-{
-  Group group;
+  group.clear();
   for (std::size_t index = 0; index < count; ++index)
   {
     auto texture = vtkSmartPointer<vtkTextureObject>::New();
@@ -121,14 +83,14 @@ FloatTextures::Group FloatTextures::Allocate(std::size_t count, int width, int h
     texture->SetWrapT(vtkTextureObject::ClampToEdge);
     texture->Allocate2D(static_cast<unsigned int>(width), static_cast<unsigned int>(height), 4,
       VTK_FLOAT);
-    std::string ignored;
-    if (!FloatTextures::CheckErrors(ignored))
+    if (Outcome allocated = DeviceErrors::Check(); !allocated)
     {
-      return {};
+      group.clear();
+      return allocated;
     }
     group.push_back(texture);
   }
-  return group;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -199,7 +161,7 @@ void FloatTextures::Download(const Group& group, std::size_t index, int width, i
 }
 
 //------------------------------------------------------------------------------
-vtkShaderProgram* FloatTextures::Use(const std::string& name, const char* body,
+Outcome FloatTextures::Use(vtkShaderProgram*& program, const std::string& name, const char* body,
   const std::string& defines)
 {
   auto& quad = this->Quads[name];
@@ -212,12 +174,19 @@ vtkShaderProgram* FloatTextures::Use(const std::string& name, const char* body,
       source.c_str(), "");
   }
   this->CurrentQuad = quad.get();
-  vtkShaderProgram* program = quad->Program;
+  program = quad->Program;
   if (program)
   {
     this->Window->GetShaderCache()->ReadyShaderProgram(program);
   }
-  return program && program->GetCompiled() ? program : nullptr;
+  return FloatTextures::CheckProgram(program);
+}
+
+//------------------------------------------------------------------------------
+Outcome FloatTextures::CheckProgram(vtkShaderProgram* program)
+{
+  return program && program->GetCompiled() ? Outcome::Done()
+                                           : Outcome::Failed("a shader that does not compile");
 }
 
 //------------------------------------------------------------------------------
@@ -257,22 +226,5 @@ void FloatTextures::ReleaseTextures()
     texture->Deactivate();
   }
   this->ActiveTextures.clear();
-}
-
-//------------------------------------------------------------------------------
-bool FloatTextures::CheckErrors(std::string& text)
-{
-  unsigned int code = glGetError();
-  if (code == GL_NO_ERROR)
-  {
-    return true;
-  }
-  text = code == GL_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(code);
-  // A context that has been lost may report errors for ever.
-  for (int count = 0; count < 100 && code != GL_NO_ERROR; ++count)
-  {
-    code = glGetError();
-  }
-  return false;
 }
 } // namespace LightTransport

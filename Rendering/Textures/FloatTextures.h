@@ -3,15 +3,16 @@
 /**
  * Computing with fragment shaders over RGBA32F textures in the context of one window: textures,
  * programs, and quads drawn with the former by the latter. All work happens while a
- * FloatTextures::Session lives.
+ * DeviceSession lives.
  */
 #ifndef FloatTextures_h
 #define FloatTextures_h
 
-#include "Context/OpenGLContextGuard.h"
-#include "vtkOpenGLState.h"
+#include "Shared/Outcome.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
+#include "vtkType.h"
 #include "vtkWeakPointer.h"
 
 #include <map>
@@ -21,7 +22,6 @@
 
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLQuadHelper;
-class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 
 namespace LightTransport
@@ -41,28 +41,6 @@ public:
   {
     return static_cast<int>((dividend + divisor - 1) / divisor);
   }
-
-  /// Makes the context current and sets the state that computing needs; the destructor puts
-  /// everything back.
-  class Session
-  {
-  public:
-    explicit Session(vtkOpenGLRenderWindow* window);
-    ~Session();
-    Session(const Session&) = delete;
-    void operator=(const Session&) = delete;
-
-  private:
-    OpenGLContextGuard Context;
-    vtkOpenGLState* State;
-    vtkOpenGLState::ScopedglViewport Viewport;
-    vtkOpenGLState::ScopedglColorMask ColorMask;
-    vtkOpenGLState::ScopedglEnableDisable Blend;
-    vtkOpenGLState::ScopedglEnableDisable CullFace;
-    vtkOpenGLState::ScopedglEnableDisable DepthTest;
-    vtkOpenGLState::ScopedglEnableDisable ScissorTest;
-    vtkOpenGLState::ScopedglEnableDisable StencilTest;
-  };
 
   explicit FloatTextures(vtkOpenGLRenderWindow* window);
   /// Within the life of the context, or after it; not within a session.
@@ -84,14 +62,8 @@ public:
   /// Most textures in a group.
   int GetMaximumGroupSize() const;
 
-  /**
-   * Bytes that can still be allocated: the GPU's, where its driver tells, or the machine's for
-   * software renderers. Negative where nobody knows.
-   */
-  double GetAvailableBytes() const;
-
-  /// Empty when the memory is not there.
-  Group Allocate(std::size_t count, int width, int height);
+  /// Textures of undefined contents. Where the memory is not there, the group is empty.
+  Outcome Allocate(Group& group, std::size_t count, int width, int height);
 
   /// Set all texels of a group to zero.
   void Clear(const Group& group);
@@ -110,9 +82,10 @@ public:
   /**
    * Draw: Use a program (compiled at the first use of a name; the common part is put before
    * `body`), set its textures and uniforms, then Draw into a region (x, y, width, height) of a
-   * group. Use returns nullptr when the program does not compile.
+   * group. Use fails when the program does not compile.
    */
-  vtkShaderProgram* Use(const std::string& name, const char* body, const std::string& defines);
+  Outcome Use(vtkShaderProgram*& program, const std::string& name, const char* body,
+    const std::string& defines);
   void SetTextures(vtkShaderProgram* program, const char* name, const Group& group);
   void Draw(const Group& target, const int region[4]);
   ///@}
@@ -124,8 +97,8 @@ public:
   void ReleaseTextures();
   ///@}
 
-  /// True when OpenGL has reported no error since the last call; `text` otherwise names it.
-  static bool CheckErrors(std::string& text);
+  /// A failure where a program has not been compiled.
+  static Outcome CheckProgram(vtkShaderProgram* program);
 
 private:
   void Attach(const Group& group);

@@ -16,6 +16,8 @@ namespace
 {
 /// Block that one fragment reduces, in each direction (vtkLightTransportTexturesReduceFS.glsl).
 constexpr int ReductionBlock = 16;
+/// Texels of a line: at least one matrix texel of four columns.
+constexpr int NarrowestVector = 4;
 constexpr int WidestVector = 1024;
 } // namespace
 
@@ -35,68 +37,84 @@ std::string FloatVectors::Layout::GetDefines(int outputs) const
 FloatVectors::FloatVectors(FloatTextures& engine) : Engine(engine) {}
 
 //------------------------------------------------------------------------------
-bool FloatVectors::Initialize(vtkIdType patches, int bands, int maximumSize, std::string& reason)
+Outcome FloatVectors::Initialize(vtkIdType patches, int bands, int maximumSize)
+{
+  if (!this->ChooseSizes(patches, bands, maximumSize))
+  {
+    return Outcome::Failed(std::to_string(patches) + " patches and " + std::to_string(bands) +
+      " bands are too many for OpenGL's textures of at most " +
+      std::to_string(this->Shape.MaximumSize) + " texels a side");
+  }
+  if (!this->AllocateReductions())
+  {
+    return Outcome::Failed("Vectors of " + std::to_string(patches) +
+      " patches do not fit into the memory of " + this->Engine.GetDeviceName());
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// False where they are too large.
+bool FloatVectors::ChooseSizes(vtkIdType patches, int bands, int maximumSize)
 {
   Layout& shape = this->Shape;
   shape.MaximumSize = this->Engine.GetMaximumTextureSize();
   if (maximumSize > 0)
   {
-    shape.MaximumSize = std::min(shape.MaximumSize, std::max(maximumSize, 4));
+    shape.MaximumSize = std::min(shape.MaximumSize, std::max(maximumSize, NarrowestVector));
   }
   shape.Bands = bands;
   shape.Groups = FloatTextures::DivideUp(bands, 4);
   const vtkIdType widest = std::min<vtkIdType>(WidestVector, shape.MaximumSize);
-  // At least one matrix texel of four columns, and no wider than the patches need.
-  for (shape.Width = 4; shape.Width < patches && 2 * shape.Width <= widest;)
+  // No wider than the patches need.
+  for (shape.Width = NarrowestVector; shape.Width < patches && 2 * shape.Width <= widest;)
   {
     shape.Width *= 2;
   }
   const vtkIdType height = (patches + shape.Width - 1) / shape.Width;
   if (height > shape.MaximumSize || shape.Groups > this->Engine.GetMaximumGroupSize())
   {
-    reason = std::to_string(patches) + " patches and " + std::to_string(bands) +
-      " bands are too many for OpenGL's textures of at most " + std::to_string(shape.MaximumSize) +
-      " texels a side";
     return false;
   }
   shape.Patches = static_cast<int>(patches);
   shape.Height = static_cast<int>(height);
+  return true;
+}
 
-  const auto count = static_cast<std::size_t>(shape.Groups);
-  this->Spare = this->Engine.Allocate(count, shape.Width, shape.Height);
-  bool good = !this->Spare.empty();
-  int width = shape.Width;
-  int lines = shape.Height;
-  do
+//------------------------------------------------------------------------------
+Outcome FloatVectors::AllocateReductions()
+{
+  const auto count = static_cast<std::size_t>(this->Shape.Groups);
+  int width = this->Shape.Width;
+  int lines = this->Shape.Height;
+  Outcome allocated = this->Engine.Allocate(this->Spare, count, width, lines);
+  while (allocated && (this->Reductions.empty() || width * lines > 1))
   {
     width = FloatTextures::DivideUp(width, ReductionBlock);
     lines = FloatTextures::DivideUp(lines, ReductionBlock);
-    this->Reductions.push_back(this->Engine.Allocate(count, width, lines));
-    good = good && !this->Reductions.back().empty();
-  } while (width * lines > 1);
-  if (!good)
-  {
-    reason = "Vectors of " + std::to_string(patches) + " patches do not fit into the memory of " +
-      this->Engine.GetDeviceName();
+    this->Reductions.emplace_back();
+    allocated = this->Engine.Allocate(this->Reductions.back(), count, width, lines);
   }
-  return good;
+  return allocated;
 }
 
 //------------------------------------------------------------------------------
-FloatVectors::Group& FloatVectors::Get(int slot)
+Outcome FloatVectors::Allocate(int slot)
 {
   Group& vector = this->Slots[slot];
-  if (vector.empty())
-  {
-    vector = this->Engine.Allocate(static_cast<std::size_t>(this->Shape.Groups), this->Shape.Width,
-      this->Shape.Height);
-  }
-  return vector;
+  return vector.empty()
+    ? this->Engine.Allocate(vector, static_cast<std::size_t>(this->Shape.Groups), this->Shape.Width,
+        this->Shape.Height)
+    : Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::Set(int slot, const double* values)
+Outcome FloatVectors::Set(int slot, const double* values)
 {
+  if (Outcome allocated = this->Allocate(slot); !allocated)
+  {
+    return allocated;
+  }
   const Group& vector = this->Get(slot);
   const int bands = this->Shape.Bands;
   const int region[4] = { 0, 0, this->Shape.Width, this->Shape.Height };
@@ -114,7 +132,7 @@ bool FloatVectors::Set(int slot, const double* values)
     }
     this->Engine.Upload(vector[group], region, region[2], texels.data());
   }
-  return !vector.empty();
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -147,17 +165,17 @@ void FloatVectors::Read(const Group& vector, double* values)
 }
 
 //------------------------------------------------------------------------------
-vtkShaderProgram* FloatVectors::Use(const char* name, const char* body, const Group& x,
-  const Group& y, const std::string& extra)
+Outcome FloatVectors::Use(vtkShaderProgram*& program, const char* name, const char* body,
+  const Group& x, const Group& y, const std::string& extra)
 {
-  vtkShaderProgram* program =
-    this->Engine.Use(name, body, this->Shape.GetDefines(this->Shape.Groups) + extra);
-  if (program)
+  const Outcome used =
+    this->Engine.Use(program, name, body, this->Shape.GetDefines(this->Shape.Groups) + extra);
+  if (used)
   {
     this->Engine.SetTextures(program, "x", x);
     this->Engine.SetTextures(program, "y", y);
   }
-  return program;
+  return used;
 }
 
 //------------------------------------------------------------------------------
@@ -170,7 +188,7 @@ void FloatVectors::DrawIntoSlot(int slot)
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::Combine(int z, const double* a, int x, const double* b, int y)
+Outcome FloatVectors::Combine(int z, const double* a, int x, const double* b, int y)
 {
   std::vector<float> factorsOfX(static_cast<std::size_t>(4) * this->Shape.Groups, 0.0f);
   std::vector<float> factorsOfY(factorsOfX);
@@ -179,79 +197,85 @@ bool FloatVectors::Combine(int z, const double* a, int x, const double* b, int y
     factorsOfX[static_cast<std::size_t>(band)] = static_cast<float>(a[band]);
     factorsOfY[static_cast<std::size_t>(band)] = static_cast<float>(b[band]);
   }
-  if (this->Get(z).empty())
+  if (Outcome allocated = this->Allocate(z); !allocated)
   {
-    return false;
+    return allocated;
   }
-  vtkShaderProgram* program =
-    this->Use("Combine", vtkLightTransportTexturesCombineFS, this->Slots[x], this->Slots[y]);
-  if (program)
+  vtkShaderProgram* program = nullptr;
+  Outcome used = this->Use(program, "Combine", vtkLightTransportTexturesCombineFS, this->Slots[x],
+    this->Slots[y]);
+  if (used)
   {
     program->SetUniform4fv("a", this->Shape.Groups, factorsOfX.data());
     program->SetUniform4fv("b", this->Shape.Groups, factorsOfY.data());
     this->DrawIntoSlot(z);
   }
-  return program != nullptr;
+  return used;
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::Scale(int z, int x, int y)
+Outcome FloatVectors::Scale(int z, int x, int y)
 {
-  if (this->Get(z).empty() ||
-    !this->Use("Scale", vtkLightTransportTexturesScaleFS, this->Slots[x], this->Slots[y]))
+  if (Outcome allocated = this->Allocate(z); !allocated)
   {
-    return false;
+    return allocated;
   }
-  this->DrawIntoSlot(z);
-  return true;
+  vtkShaderProgram* program = nullptr;
+  Outcome used =
+    this->Use(program, "Scale", vtkLightTransportTexturesScaleFS, this->Slots[x], this->Slots[y]);
+  if (used)
+  {
+    this->DrawIntoSlot(z);
+  }
+  return used;
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::Dot(int x, int y, double* result)
+Outcome FloatVectors::Dot(int x, int y, double* result)
 {
   return this->DrawReduction(this->Slots[x], this->Slots[y], "REDUCE_PRODUCT", "REDUCE_SUM",
     result);
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::MaxNorm(int x, double* result)
+Outcome FloatVectors::MaxNorm(int x, double* result)
 {
   return this->DrawReduction(this->Slots[x], this->Slots[x], "REDUCE_MAXIMUM", "REDUCE_MAXIMUM",
     result);
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::DrawReduction(const Group& x, const Group& y, const char* name,
+Outcome FloatVectors::DrawReduction(const Group& x, const Group& y, const char* name,
   const char* nextName, double* result)
 {
-  bool good = this->DrawReductionStep(this->Reductions[0], x, y, name);
-  for (std::size_t step = 1; step < this->Reductions.size() && good; ++step)
+  Outcome drawn = this->DrawReductionStep(this->Reductions[0], x, y, name);
+  for (std::size_t step = 1; step < this->Reductions.size() && drawn; ++step)
   {
     const Group& source = this->Reductions[step - 1];
-    good = this->DrawReductionStep(this->Reductions[step], source, source, nextName);
+    drawn = this->DrawReductionStep(this->Reductions[step], source, source, nextName);
   }
-  if (good)
+  if (drawn)
   {
     this->Read(this->Reductions.back(), result);
   }
-  return good;
+  return drawn;
 }
 
 //------------------------------------------------------------------------------
-bool FloatVectors::DrawReductionStep(const Group& target, const Group& x, const Group& y,
+Outcome FloatVectors::DrawReductionStep(const Group& target, const Group& x, const Group& y,
   const char* name)
 {
   const std::string define = "#define " + std::string(name) + " 1\n";
-  vtkShaderProgram* program = this->Use(name, vtkLightTransportTexturesReduceFS, x, y, define);
-  if (!program)
+  vtkShaderProgram* program = nullptr;
+  Outcome used = this->Use(program, name, vtkLightTransportTexturesReduceFS, x, y, define);
+  if (used)
   {
-    return false;
+    const int size[2] = { static_cast<int>(x[0]->GetWidth()), static_cast<int>(x[0]->GetHeight()) };
+    program->SetUniform2i("size", size);
+    const int region[4] = { 0, 0, static_cast<int>(target[0]->GetWidth()),
+      static_cast<int>(target[0]->GetHeight()) };
+    this->Engine.Draw(target, region);
   }
-  const int size[2] = { static_cast<int>(x[0]->GetWidth()), static_cast<int>(x[0]->GetHeight()) };
-  program->SetUniform2i("size", size);
-  const int region[4] = { 0, 0, static_cast<int>(target[0]->GetWidth()),
-    static_cast<int>(target[0]->GetHeight()) };
-  this->Engine.Draw(target, region);
-  return true;
+  return used;
 }
 } // namespace LightTransport

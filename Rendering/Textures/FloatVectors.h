@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Vectors with one value per patch and band in RGBA textures, a texel per patch and a texture per
- * four bands, and the algebra on them that solvers need. All calls within a
- * FloatTextures::Session.
+ * four bands, and the algebra on them that solvers need. All calls within a DeviceSession.
  */
 #ifndef FloatVectors_h
 #define FloatVectors_h
@@ -40,9 +39,9 @@ public:
 
   explicit FloatVectors(FloatTextures& engine);
 
-  /// `maximumSize` bounds the size of textures, 0 for what the context offers. When false, `reason`
-  /// is what is wrong, without a full stop.
-  bool Initialize(vtkIdType patches, int bands, int maximumSize, std::string& reason);
+  /// `maximumSize` bounds the size of textures, 0 for what the context offers. The message of a
+  /// failure has no full stop.
+  Outcome Initialize(vtkIdType patches, int bands, int maximumSize);
 
   const Layout& GetLayout() const { return this->Shape; }
 
@@ -51,34 +50,37 @@ public:
 
   bool Has(int slot) const { return this->Slots.count(slot) > 0; }
 
-  /// Comes into being with the first call; empty when the memory is not there.
-  Group& Get(int slot);
+  /// Gives a slot its textures, unless it has them. What is written needs that, except by the
+  /// calls below.
+  Outcome Allocate(int slot);
+  Group& Get(int slot) { return this->Slots[slot]; }
 
   ///@{
   /// values[patch * Bands + band]
-  bool Set(int slot, const double* values);
+  Outcome Set(int slot, const double* values);
   void Read(int slot, double* values);
   ///@}
 
   ///@{
-  /// Draw z = a x + b y and z = x y; z may be x or y, which must be there. False when a shader does
-  /// not compile, or the memory for z is not there.
-  bool Combine(int z, const double* a, int x, const double* b, int y);
-  bool Scale(int z, int x, int y);
+  /// Draw z = a x + b y and z = x y; z may be x or y, which must be there.
+  Outcome Combine(int z, const double* a, int x, const double* b, int y);
+  Outcome Scale(int z, int x, int y);
   ///@}
 
   ///@{
   /// One number per band, read back.
-  bool Dot(int x, int y, double* result);
-  bool MaxNorm(int x, double* result);
+  Outcome Dot(int x, int y, double* result);
+  Outcome MaxNorm(int x, double* result);
   ///@}
 
 private:
-  bool DrawReduction(const Group& x, const Group& y, const char* name, const char* nextName,
+  bool ChooseSizes(vtkIdType patches, int bands, int maximumSize);
+  Outcome AllocateReductions();
+  Outcome DrawReduction(const Group& x, const Group& y, const char* name, const char* nextName,
     double* result);
-  bool DrawReductionStep(const Group& target, const Group& x, const Group& y, const char* name);
-  vtkShaderProgram* Use(const char* name, const char* body, const Group& x, const Group& y,
-    const std::string& extra = "");
+  Outcome DrawReductionStep(const Group& target, const Group& x, const Group& y, const char* name);
+  Outcome Use(vtkShaderProgram*& program, const char* name, const char* body, const Group& x,
+    const Group& y, const std::string& extra = "");
   void DrawIntoSlot(int slot);
   void Read(const Group& vector, double* values);
 

@@ -4,18 +4,16 @@
  * The libraries that make OpenGL contexts, loaded at run time so that this module loads on machines
  * that lack them.
  */
-#ifndef OpenGLPlatform_h
-#define OpenGLPlatform_h
+#ifndef OpenGLLibraries_h
+#define OpenGLLibraries_h
 
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include <string>
-
 namespace LightTransport
 {
-using vtkOpenGLProcedure = void (*)();
+using OpenGLProcedure = void (*)();
 
 /// libEGL's functions.
 struct EGLLibrary
@@ -37,6 +35,19 @@ struct EGLLibrary
   decltype(&eglMakeCurrent) MakeCurrent = nullptr;
   decltype(&eglQueryAPI) QueryAPI = nullptr;
   decltype(&eglQueryString) QueryString = nullptr;
+};
+
+/// libGLX's functions.
+struct GLXLibrary
+{
+  /// As this process has it already: nothing is loaded for it. nullptr as long as nobody has loaded
+  /// it.
+  static const GLXLibrary* Get();
+
+  void* (*GetCurrentContext)() = nullptr;
+  void* (*GetCurrentDisplay)() = nullptr;
+  unsigned long (*GetCurrentDrawable)() = nullptr;
+  int (*MakeCurrent)(void* display, unsigned long drawable, void* context) = nullptr;
 };
 
 /// libOSMesa's functions, declared here because few systems still have its header.
@@ -63,7 +74,7 @@ struct OSMesaLibrary
   Context (*GetCurrentContext)() = nullptr;
   unsigned char (*GetColorBuffer)(Context context, int* width, int* height, int* format,
     void** buffer) = nullptr;
-  vtkOpenGLProcedure (*GetProcAddress)(const char* name) = nullptr;
+  OpenGLProcedure (*GetProcAddress)(const char* name) = nullptr;
 
   /**
    * True when the OpenGL calls of this process arrive in this library, as they do when it was
@@ -71,37 +82,6 @@ struct OSMesaLibrary
    */
   bool IsPreloaded() const;
 };
-
-/// The context that is current in the calling thread, whatever made it.
-class CurrentOpenGLContext
-{
-public:
-  static CurrentOpenGLContext Get();
-  /// Make no context current.
-  static void Release();
-  /// Make this one current again, which may be none.
-  void Restore() const;
-
-private:
-  bool operator==(const CurrentOpenGLContext& other) const;
-
-  EGLenum EGLApi = EGL_NONE;
-  EGLDisplay EGLOfDisplay = EGL_NO_DISPLAY;
-  EGLSurface EGLDraw = EGL_NO_SURFACE;
-  EGLSurface EGLRead = EGL_NO_SURFACE;
-  EGLContext EGLOfContext = EGL_NO_CONTEXT;
-
-  void* GLXDisplay = nullptr;
-  unsigned long GLXDrawable = 0;
-  void* GLXContext = nullptr;
-
-  void* OSMesaContext = nullptr;
-  void* OSMesaBuffer = nullptr;
-  int OSMesaSize[2] = { 0, 0 };
-};
-
-/// Whether a name that OpenGL gives as GL_RENDERER belongs to a real GPU; false for an empty one.
-bool vtkOpenGLDeviceIsHardware(const std::string& renderer);
 } // namespace LightTransport
 
 #endif
