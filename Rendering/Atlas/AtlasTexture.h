@@ -8,7 +8,6 @@
 #define AtlasTexture_h
 
 #include "Textures/FloatTextures.h"
-#include "vtkOffScreenOpenGLRenderWindow.h"
 
 #include <memory>
 #include <vector>
@@ -62,7 +61,7 @@ private:
   Outcome DrawPoints(const FloatTextures::Group& target, const FloatTextures::Group& points,
     const FloatTextures::Group& blocks, int height);
 
-  vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> SharedWindow;
+  vtkSmartPointer<vtkOpenGLRenderWindow> SharedWindow;
   std::unique_ptr<FloatTextures> Engine;
   FloatTextures::Group Atlas;
   int Resolution = 0;

@@ -6,6 +6,7 @@
 #include "Context/HardwareRenderer.h"
 #include "Device/SharedWindow.h"
 
+#include "vtkOffScreenOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 
 namespace LightTransport

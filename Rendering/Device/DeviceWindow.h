@@ -4,7 +4,7 @@
 #define DeviceWindow_h
 
 #include "Shared/Outcome.h"
-#include "vtkOffScreenOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -46,7 +46,7 @@ private:
 
   vtkWeakPointer<vtkOpenGLRenderWindow> UserWindow;
   bool UsesUserWindow = false;
-  vtkSmartPointer<vtkOffScreenOpenGLRenderWindow> SharedWindow;
+  vtkSmartPointer<vtkOpenGLRenderWindow> SharedWindow;
   std::string DeviceName = "OpenGL";
   bool Hardware = false;
 };

@@ -4,6 +4,7 @@
 
 #include "Context/OpenGLContextGuard.h"
 
+#include "vtkOffScreenOpenGLRenderWindow.h"
 #include "vtkWeakPointer.h"
 
 #include <string>
@@ -11,9 +12,9 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
-Outcome GetSharedWindow(vtkSmartPointer<vtkOffScreenOpenGLRenderWindow>& window)
+Outcome GetSharedWindow(vtkSmartPointer<vtkOpenGLRenderWindow>& window)
 {
-  static vtkWeakPointer<vtkOffScreenOpenGLRenderWindow> shared;
+  static vtkWeakPointer<vtkOpenGLRenderWindow> shared;
   const std::lock_guard<std::recursive_mutex> lock(OpenGLContextGuard::GetMutex());
   window = shared.Get();
   if (window)

@@ -4,7 +4,7 @@
 #define SharedWindow_h
 
 #include "Shared/Outcome.h"
-#include "vtkOffScreenOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkSmartPointer.h"
 
 namespace LightTransport
@@ -13,7 +13,7 @@ namespace LightTransport
  * The off-screen window that all filters of this process share. It is made for the first user and
  * goes with the last. A failure says why no context can be had.
  */
-Outcome GetSharedWindow(vtkSmartPointer<vtkOffScreenOpenGLRenderWindow>& window);
+Outcome GetSharedWindow(vtkSmartPointer<vtkOpenGLRenderWindow>& window);
 } // namespace LightTransport
 
 #endif
