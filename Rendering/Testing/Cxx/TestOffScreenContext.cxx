@@ -4,6 +4,7 @@
  * A context without a display: it can be had, draws the right pixels, can be made again, leaves
  * other contexts alone, and becomes the default window when asked.
  */
+#include "LightTransportTesting.h"
 #include "vtkOffScreenOpenGLRenderWindow.h"
 
 #include "vtkActor.h"
@@ -24,15 +25,7 @@
 
 namespace
 {
-bool Check(bool condition, const char* what)
-{
-  if (!condition)
-  {
-    std::cerr << "ERROR: " << what << "\n";
-  }
-  return condition;
-}
-
+using LightTransportTesting::Check;
 bool PixelIs(vtkRenderWindow* window, int x, int y, int red, int green, int blue)
 {
   vtkNew<vtkUnsignedCharArray> pixel;

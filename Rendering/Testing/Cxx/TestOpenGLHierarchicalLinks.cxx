@@ -6,6 +6,7 @@
  * read back; operators that change from one form of links to the other; windows that go; errors.
  */
 #include "CornellBoxTesting.h"
+#include "LinkOperatorTesting.h"
 #include "vtkHierarchicalLinkOperator.h"
 #include "vtkOpenGLLinkOperator.h"
 
@@ -28,33 +29,13 @@
 
 namespace
 {
-using Vector = std::vector<double>;
+using namespace LightTransportTesting;
 using Link = vtkExchangeHierarchy::Link;
 using Node = vtkExchangeHierarchy::Node;
 
 /// Of the sum of the absolute values of all terms: vectors, weights and the sums of each level are
 /// rounded to single precision.
 constexpr double Tolerance = 1e-6;
-
-bool Check(bool condition, const std::string& what)
-{
-  if (!condition)
-  {
-    std::cerr << "ERROR: " << what << "\n";
-  }
-  return condition;
-}
-
-Vector MakeVector(std::size_t size, unsigned int seed)
-{
-  std::mt19937 engine(seed);
-  Vector values(size);
-  for (double& value : values)
-  {
-    value = (engine() % 20001) / 10000.0 - 1.0;
-  }
-  return values;
-}
 
 struct Case
 {
@@ -189,14 +170,7 @@ bool TestProduct(vtkOpenGLLinkOperator* device, const Case& setting, unsigned in
   {
     return false;
   }
-  double worst = 0.0;
-  for (std::size_t index = 0; index < x.size(); ++index)
-  {
-    const double error = std::abs(found[index] - expected[index]) / (bound[index] + 1e-30);
-    worst = std::isfinite(error) ? std::max(worst, error) : HUGE_VAL;
-  }
-  std::cout << Describe(setting) << ": largest relative error " << worst << "\n";
-  return Check(worst <= Tolerance, Describe(setting) + ": wrong");
+  return CheckWithinBound(found, expected, bound, Tolerance, Describe(setting));
 }
 
 bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
@@ -369,7 +343,7 @@ bool TestRadiosity()
   vtkNew<vtkRadiosity> filters[2];
   for (vtkRadiosity* filter : { filters[0].Get(), filters[1].Get() })
   {
-    filter->SetInputData(LightTransportTesting::MakeCornellBox(120.0));
+    filter->SetInputData(MakeCornellBox(120.0));
     filter->SetLinkMethodToHierarchical();
     filter->SetLinkTolerance(3e-2);
     filter->SetTolerance(1e-8);

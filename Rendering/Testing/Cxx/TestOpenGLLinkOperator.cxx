@@ -5,6 +5,7 @@
  * and vectors that take one texture or many; what is read back; released and re-used operators; the
  * user's own window; errors.
  */
+#include "LinkOperatorTesting.h"
 #include "vtkOpenGLLinkOperator.h"
 
 #include "vtkExchangeMatrix.h"
@@ -23,32 +24,11 @@
 
 namespace
 {
-using Vector = std::vector<double>;
+using namespace LightTransportTesting;
 
 /// Storage is single precision: a sum of terms is right to this fraction of the sum of their
 /// absolute values.
 constexpr double Tolerance = 3e-7;
-
-bool Check(bool condition, const std::string& what)
-{
-  if (!condition)
-  {
-    std::cerr << "ERROR: " << what << "\n";
-  }
-  return condition;
-}
-
-/// Numbers of either sign that single precision holds exactly.
-Vector MakeVector(std::size_t size, unsigned int seed)
-{
-  std::mt19937 engine(seed);
-  Vector values(size);
-  for (double& value : values)
-  {
-    value = static_cast<float>(engine() % 20001) / 10000.0f - 1.0f;
-  }
-  return values;
-}
 
 /// With `sparse`, only every third tile is stored and not zero.
 void FillMatrix(vtkExchangeMatrix* exchange, int patches, int kernels, bool sparse = false)
@@ -104,14 +84,7 @@ void MultiplyExactly(vtkExchangeMatrix* exchange, int bands, const Vector& x, Ve
 bool IsNear(const Vector& found, const Vector& expected, const Vector& bound,
   const std::string& what)
 {
-  double worst = 0.0;
-  for (std::size_t index = 0; index < found.size(); ++index)
-  {
-    const double error = std::abs(found[index] - expected[index]) / (bound[index] + 1e-30);
-    worst = std::isfinite(error) ? std::max(worst, error) : HUGE_VAL;
-  }
-  std::cout << what << ": largest relative error " << worst << "\n";
-  return Check(worst <= Tolerance, what + " is wrong");
+  return CheckWithinBound(found, expected, bound, Tolerance, what);
 }
 
 struct Case
@@ -134,9 +107,9 @@ bool TestProducts(vtkOpenGLLinkOperator* device, vtkExchangeMatrix* exchange, co
 {
   const std::string name = Describe(setting);
   const auto size = static_cast<std::size_t>(setting.Patches) * setting.Bands;
-  const Vector x = MakeVector(size, 1);
-  const Vector left = MakeVector(size, 2);
-  const Vector right = MakeVector(size, 3);
+  const Vector x = MakeVector<float>(size, 1);
+  const Vector left = MakeVector<float>(size, 2);
+  const Vector right = MakeVector<float>(size, 3);
   Vector expected;
   Vector bound;
   MultiplyExactly(exchange, setting.Bands, x, expected, bound);
@@ -167,10 +140,10 @@ bool TestVectorAlgebra(vtkOpenGLLinkOperator* device, const Case& setting)
   const std::string name = Describe(setting);
   const auto bands = static_cast<std::size_t>(setting.Bands);
   const std::size_t size = static_cast<std::size_t>(setting.Patches) * bands;
-  const Vector x = MakeVector(size, 4);
-  const Vector y = MakeVector(size, 5);
-  const Vector a = MakeVector(bands, 6);
-  const Vector b = MakeVector(bands, 7);
+  const Vector x = MakeVector<float>(size, 4);
+  const Vector y = MakeVector<float>(size, 5);
+  const Vector a = MakeVector<float>(bands, 6);
+  const Vector b = MakeVector<float>(bands, 7);
   Vector combined(size);
   Vector bound(size);
   Vector dot(bands, 0.0);
@@ -263,7 +236,7 @@ bool TestBytesRead()
   vtkNew<vtkExchangeMatrix> exchange;
   FillMatrix(exchange, 300, 1);
   vtkNew<vtkOpenGLLinkOperator> device;
-  const Vector x = MakeVector(3 * 300, 1);
+  const Vector x = MakeVector<float>(3 * 300, 1);
   const Vector one(3, 1.0);
   Vector numbers(3);
   bool good = device->Initialize(exchange, 3) && device->SetVector(0, x.data());

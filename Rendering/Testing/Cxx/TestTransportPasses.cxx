@@ -5,6 +5,7 @@
  * squares at known angles, energy, encodings, props without the array, several windows, released
  * resources.
  */
+#include "LightTransportTesting.h"
 #include "vtkRadiosityPass.h"
 #include "vtkSubsurfaceScatteringPass.h"
 
@@ -38,19 +39,11 @@
 
 namespace
 {
+using LightTransportTesting::Check;
 using Color = std::array<double, 3>;
 /// Odd, so that a pixel's centre is the centre of the window.
 constexpr int WindowSize = 65;
 constexpr double Tolerance = 2e-6;
-
-bool Check(bool condition, const std::string& what)
-{
-  if (!condition)
-  {
-    std::cerr << "ERROR: " << what << "\n";
-  }
-  return condition;
-}
 
 bool IsColor(const Color& found, const Color& expected, const std::string& what)
 {
