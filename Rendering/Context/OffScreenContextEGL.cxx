@@ -14,7 +14,7 @@ namespace LightTransport
 {
 namespace
 {
-const char* const Remedy =
+constexpr const char* Remedy =
   " (Debian: apt install libegl1 libgl1-mesa-dri, or the driver of your GPU).";
 
 /**
