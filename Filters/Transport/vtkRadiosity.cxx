@@ -95,7 +95,7 @@ private:
   SolverSettings MakeSettings(int mostIterations, double begin, const Monitor& monitor);
   Outcome Solve(const Monitor& monitor);
   Outcome Shoot(const Monitor& monitor);
-  Outcome CheckSolution() const;
+  Outcome AddHint(const Outcome& solved) const;
   bool Finish();
 
   void WriteThermal(const std::vector<double>& flux, const SceneOutput& output);
@@ -242,12 +242,12 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const Monitor& moni
 Outcome vtkRadiosity::Run::LinkByBrightness()
 {
   const Monitor monitor = this->Progress.GetMonitor();
-  const bool isKnown = this->Solve(monitor.GetStage(CoarseDone, CoarseSolved)) &&
-    this->Solution.Error.empty() && this->Finish();
-  if (this->Solution.Status == SolverStatus::Aborted)
+  const Outcome solved = this->Solve(monitor.GetStage(CoarseDone, CoarseSolved));
+  if (solved.IsAborted())
   {
-    return Outcome::Aborted();
+    return solved;
   }
+  const bool isKnown = solved && this->Finish();
   const Monitor second = monitor.GetStage(CoarseSolved, LinksDone);
   if (!isKnown)
   {
@@ -266,12 +266,14 @@ Outcome vtkRadiosity::Run::Compute()
   const Monitor monitor = this->Progress.GetMonitor();
   Outcome solved = this->Solver->NeedsLinks() ? this->Solve(monitor.GetStage(LinksDone, SolverDone))
                                               : this->Shoot(monitor.GetStage(0.0, SolverDone));
-  solved = solved ? this->CheckSolution() : solved;
+  if (solved && !this->Solution.Warning.empty())
+  {
+    this->Warn(this->Solution.Warning);
+  }
   return solved && this->Links && !this->Finish() ? Outcome::FailedAsReported() : solved;
 }
 
 //------------------------------------------------------------------------------
-// Done says that there is a solution, whatever it is worth.
 Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
@@ -301,10 +303,10 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
   const SolverSettings settings =
     this->MakeSettings(this->Owner->MaximumNumberOfIterations, begin, monitor);
 
-  this->Solution = RadiositySolver::Solve(equation, settings);
+  const Outcome solved = RadiositySolver::Solve(equation, settings, this->Solution);
   this->DeviceUsed = links->GetDeviceName();
   this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
-  return Outcome::Done();
+  return this->AddHint(solved);
 }
 
 //------------------------------------------------------------------------------
@@ -330,15 +332,17 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
     std::min<vtkIdType>(VTK_INT_MAX, patches * this->Owner->MaximumNumberOfIterations);
   const SolverSettings settings = this->MakeSettings(static_cast<int>(mostShots), begin, monitor);
 
-  this->Solution = this->Solver->Shoot(shooter, this->Scene, equation, settings, this->Irradiance);
+  const Outcome solved =
+    this->Solver->Shoot(shooter, this->Scene, equation, settings, this->Solution);
   this->Shots = this->Solution.NumberOfIterations;
   this->Solution.NumberOfIterations = static_cast<int>((this->Shots + patches - 1) / patches);
   this->DeviceUsed = shooter->GetDeviceName();
   this->DeviceExplanation = "OpenGL: asked for";
   this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
+  this->Irradiance = this->Solution.Irradiance;
   std::transform(this->Irradiance.begin(), this->Irradiance.end(),
     this->Materials.DirectIrradiance.begin(), this->Irradiance.begin(), std::plus<double>());
-  return Outcome::Done();
+  return this->AddHint(solved);
 }
 
 //------------------------------------------------------------------------------
@@ -379,25 +383,13 @@ SolverSettings vtkRadiosity::Run::MakeSettings(int mostIterations, double begin,
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkRadiosity::Run::CheckSolution() const
+Outcome vtkRadiosity::Run::AddHint(const Outcome& solved) const
 {
-  if (!this->Solution.Error.empty())
-  {
-    const char* hint = this->Materials.HasGivenFluxes()
-      ? " A patch with a given net flux counts as one that reflects everything: each closed part "
-        "of the scene needs a patch with a given temperature."
-      : "";
-    return Outcome::Failed(this->Solution.Error + hint);
-  }
-  if (this->Solution.Status == SolverStatus::Aborted)
-  {
-    return Outcome::Aborted();
-  }
-  if (!this->Solution.Warning.empty())
-  {
-    this->Warn(this->Solution.Warning);
-  }
-  return Outcome::Done();
+  return solved.HasFailed() && this->Materials.HasGivenFluxes()
+    ? Outcome::Failed(solved.GetMessage() +
+        " A patch with a given net flux counts as one that reflects everything: each closed part "
+        "of the scene needs a patch with a given temperature.")
+    : solved;
 }
 
 //------------------------------------------------------------------------------

@@ -116,19 +116,18 @@ std::string ExplainNoSolution(const RadiosityEquation& equation, const Place& pl
 
 //------------------------------------------------------------------------------
 // What errors of the view factors may do to B, relative to its largest value.
-void CheckViewFactors(const RadiosityEquation& equation, const Place& place, double amplification,
-  ErrorBound& bound)
+Outcome CheckViewFactors(const RadiosityEquation& equation, const Place& place,
+  double amplification, ErrorBound& bound)
 {
   const double effect = amplification * equation.RowSumError;
   if (effect < WorthAWarning)
   {
-    return;
+    return Outcome::Done();
   }
   if (effect >= Meaningless && place.Reflectance >= FullReflectance &&
     equation.RowSumError <= WellKnown)
   {
-    bound.Error = ExplainNoSolution(equation, place);
-    return;
+    return Outcome::Failed(ExplainNoSolution(equation, place));
   }
   std::ostringstream text;
   text << "Light is reflected about " << amplification << " times around "
@@ -143,11 +142,11 @@ void CheckViewFactors(const RadiosityEquation& equation, const Place& place, dou
   if (effect >= Meaningless && mayGrow)
   {
     text << "the radiosity equation has no unique solution within that error." << remedy;
-    bound.Error = text.str();
-    return;
+    return Outcome::Failed(text.str());
   }
   text << "B may be wrong by " << 100.0 * effect << " % there." << remedy;
   bound.Warning = text.str();
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -225,9 +224,8 @@ bool FindW(const RadiosityEquation& equation, ErrorBound& bound, std::vector<dou
 } // namespace
 
 //------------------------------------------------------------------------------
-ErrorBound ErrorBound::Find(const RadiosityEquation& equation)
+Outcome ErrorBound::Find(const RadiosityEquation& equation, ErrorBound& bound)
 {
-  ErrorBound bound;
   bound.LargestW.assign(equation.NumberOfBands, 1.0);
   std::vector<double> w(equation.Reflectance.size(), 1.0);
   std::vector<double> kept(w.size());
@@ -243,16 +241,15 @@ ErrorBound ErrorBound::Find(const RadiosityEquation& equation)
   }
   else if (!FindW(equation, bound, w))
   {
-    bound.Error = ExplainNoSolution(equation, FindWorst(equation, w));
-    return bound;
+    return Outcome::Failed(ExplainNoSolution(equation, FindWorst(equation, w)));
   }
   double amplification = 0.0;
   for (int band = 0; band < equation.NumberOfBands; ++band)
   {
     amplification = std::max(amplification, bound.LargestW[band] * bound.LargestInverse[band]);
   }
-  CheckViewFactors(equation, FindWorst(equation, w), amplification, bound);
+  Outcome found = CheckViewFactors(equation, FindWorst(equation, w), amplification, bound);
   CheckRows(equation, bound);
-  return bound;
+  return found;
 }
 } // namespace LightTransport

@@ -25,7 +25,8 @@ struct RadiositySolution
 {
   bool HasConverged() const { return this->Status == SolverStatus::Converged; }
 
-  std::vector<double> Radiosity; ///< patches x bands
+  std::vector<double> Radiosity;  ///< patches x bands
+  std::vector<double> Irradiance; ///< likewise, what shots have brought; empty of other solvers
   int NumberOfIterations = 0;
   double ErrorBound = 0.0; ///< largest over bands and patches
   SolverStatus Status = SolverStatus::Converged;
@@ -33,8 +34,6 @@ struct RadiositySolution
   std::string Explanation; ///< which solver and why
   /// Not empty where there is a solution that users should doubt: why, and the remedy.
   std::string Warning;
-  /// Not empty after an error: the problem and the remedy.
-  std::string Error;
 };
 } // namespace LightTransport
 

@@ -217,7 +217,7 @@ private:
 //------------------------------------------------------------------------------
 void Warn(const SolverSettings& settings, RadiositySolution& solution)
 {
-  if (solution.HasConverged() || solution.Status == SolverStatus::Aborted)
+  if (solution.HasConverged())
   {
     return;
   }
@@ -244,35 +244,34 @@ void Warn(const SolverSettings& settings, RadiositySolution& solution)
 } // namespace
 
 //------------------------------------------------------------------------------
-RadiositySolution RadiositySolver::Solve(const RadiosityEquation& equation,
-  const SolverSettings& settings)
+Outcome RadiositySolver::Solve(const RadiosityEquation& equation, const SolverSettings& settings,
+  RadiositySolution& solution)
 {
-  RadiositySolution solution;
-  const SolverEntry* asked = SolverTable::Find(settings.Solver, vtkTransportAlgorithm::DEVICE_CPU);
+  solution = RadiositySolution();
+  const SolverEntry* asked = SolverTable::Find(settings.Solver, vtkRadiosity::DEVICE_CPU);
   if (!asked)
   {
-    solution.Error = SolverTable::ExplainUnknown(settings.Solver);
-    return solution;
+    return Outcome::Failed(SolverTable::ExplainUnknown(settings.Solver));
   }
-  const ErrorBound bound = ErrorBound::Find(equation);
-  solution.Error = bound.Error;
+  ErrorBound bound;
+  Outcome found = ErrorBound::Find(equation, bound);
   solution.Warning = bound.Warning;
-  if (!solution.Error.empty())
+  if (!found)
   {
-    return solution;
+    return found;
   }
   const SolverEntry* solver = ChooseSolver(asked, settings, bound, solution);
   if (!Refinement(equation, settings, bound, *solver, solution).Run())
   {
-    solution.Error = "The links could not be applied (see the message before this one).";
-    return solution;
+    return Outcome::Failed("The links could not be applied (see the message before this one).");
+  }
+  if (solution.Status == SolverStatus::Aborted)
+  {
+    return Outcome::Aborted();
   }
   Warn(settings, solution);
-  if (!std::all_of(solution.Radiosity.begin(), solution.Radiosity.end(),
-        [](double value) { return std::isfinite(value); }))
-  {
-    solution.Error = solution.Warning;
-  }
-  return solution;
+  const bool isFinite = std::all_of(solution.Radiosity.begin(), solution.Radiosity.end(),
+    [](double value) { return std::isfinite(value); });
+  return isFinite ? Outcome::Done() : Outcome::Failed(solution.Warning);
 }
 } // namespace LightTransport

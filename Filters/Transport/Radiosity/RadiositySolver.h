@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Solves B = E + (rho / A) G B, all bands in lockstep, with any of the methods of
- * RadiosityMethods. A solution comes with its error bound (ErrorBound), how it ended, and
- * messages that name problem, place and remedy.
+ * Solves the radiosity equation, all bands in lockstep, with any solver of SolverTable that needs
+ * links. A solution comes with its error bound (ErrorBound), how it ended, and messages that name
+ * problem, place and remedy.
  */
 #ifndef RadiositySolver_h
 #define RadiositySolver_h
 
 #include "Radiosity/RadiositySolution.h"
+#include "Shared/Outcome.h"
 
 namespace LightTransport
 {
@@ -20,9 +21,11 @@ namespace RadiositySolver
 /**
  * Solve, look at the residual in double precision, and where it is not yet small enough (single
  * precision devices, the drift of a recurrence) solve again for the correction. Auto takes the
- * method that needs the fewest products with the links.
+ * solver that needs the fewest products with the links. Done says that there is a solution,
+ * whatever it is worth; one that was aborted is there as far as it came.
  */
-RadiositySolution Solve(const RadiosityEquation& equation, const SolverSettings& settings);
+Outcome Solve(const RadiosityEquation& equation, const SolverSettings& settings,
+  RadiositySolution& solution);
 } // namespace RadiositySolver
 } // namespace LightTransport
 

@@ -7,7 +7,7 @@
 #ifndef SolverEntry_h
 #define SolverEntry_h
 
-#include <vector>
+#include "Shared/Outcome.h"
 
 class vtkDeviceShooter;
 
@@ -49,11 +49,10 @@ struct SolverEntry
   /// Products with the links until errors have fallen by `tolerance`, where `radius` bounds the
   /// spectrum of rho F. Auto takes the least; nullptr: it does not think of this solver.
   double (*EstimateProducts)(double radius, double tolerance) = nullptr;
-  /// Of a solver that needs none: with a shooter that has been opened. `irradiance` (patches x
-  /// bands) is what shots have brought; an iteration is one shot.
-  RadiositySolution (*Shoot)(vtkDeviceShooter* shooter, const PatchScene& scene,
+  /// Of a solver that needs none: with a shooter that has been opened. An iteration is one shot.
+  Outcome (*Shoot)(vtkDeviceShooter* shooter, const PatchScene& scene,
     const RadiosityEquation& equation, const SolverSettings& settings,
-    std::vector<double>& irradiance) = nullptr;
+    RadiositySolution& solution) = nullptr;
 };
 } // namespace LightTransport
 

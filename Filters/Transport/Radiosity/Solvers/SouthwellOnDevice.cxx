@@ -113,11 +113,10 @@ void Warn(const SolverSettings& settings, RadiositySolution& solution)
 }
 
 //------------------------------------------------------------------------------
-RadiositySolution Shoot(vtkDeviceShooter* shooter, const PatchScene& scene,
-  const RadiosityEquation& equation, const SolverSettings& settings,
-  std::vector<double>& irradiance)
+Outcome Shoot(vtkDeviceShooter* shooter, const PatchScene& scene, const RadiosityEquation& equation,
+  const SolverSettings& settings, RadiositySolution& solution)
 {
-  RadiositySolution solution;
+  solution = RadiositySolution();
   solution.Solver = vtkRadiosity::SOLVER_SOUTHWELL;
   solution.Explanation = "Southwell: asked for, by item buffers without view factors";
   const int bands = equation.NumberOfBands;
@@ -139,19 +138,19 @@ RadiositySolution Shoot(vtkDeviceShooter* shooter, const PatchScene& scene,
       break;
     }
   }
+  std::vector<double>& irradiance = solution.Irradiance;
   irradiance.resize(equation.Emission.size());
   solution.Radiosity = equation.Emission;
   if (!good || !shooter->GetIrradiance(irradiance.data()))
   {
-    solution.Error = "The device could not shoot (see the message before this one).";
-    return solution;
+    return Outcome::Failed("The device could not shoot (see the message before this one).");
   }
   Warn(settings, solution);
   for (std::size_t k = 0; k < irradiance.size(); ++k)
   {
     solution.Radiosity[k] += equation.Reflectance[k] * irradiance[k];
   }
-  return solution;
+  return Outcome::DoneUnlessAborted(solution.Status != SolverStatus::Aborted);
 }
 } // namespace
 

@@ -33,10 +33,22 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 //------------------------------------------------------------------------------
+// What came of it.
+struct Answer : RadiositySolution
+{
+  Outcome Ended = Outcome::Done();
+};
+
+//------------------------------------------------------------------------------
 // What a solver gets.
 struct Task
 {
-  RadiositySolution Solve() const { return RadiositySolver::Solve(this->Equation, this->Settings); }
+  Answer Solve() const
+  {
+    Answer answer;
+    answer.Ended = RadiositySolver::Solve(this->Equation, this->Settings, answer);
+    return answer;
+  }
 
   RadiosityEquation Equation;
   SolverSettings Settings;
@@ -172,9 +184,9 @@ int CountIterations(Case& scene, int solver, const std::string& what)
     }
     return count < 0;
   };
-  const RadiositySolution solution = task.Solve();
-  Check(solution.Status == SolverStatus::Aborted && solution.Error.empty(),
-    what + ": stopped by us " + solution.Error);
+  const Answer solution = task.Solve();
+  Check(solution.Status == SolverStatus::Aborted && solution.Ended.IsAborted(),
+    what + ": stopped by us " + solution.Ended.GetMessage());
   return count;
 }
 
@@ -259,8 +271,8 @@ void TestAnswers()
           std::string(SolverTable::GetName(solver)) + " to " + std::to_string(tolerance);
         Task task = cube.MakeTask(solver, bands);
         task.Settings.Tolerance = tolerance;
-        const RadiositySolution solution = task.Solve();
-        Check(solution.HasConverged() && solution.Warning.empty() && solution.Error.empty(),
+        const Answer solution = task.Solve();
+        Check(solution.HasConverged() && solution.Warning.empty() && solution.Ended,
           what + " converges");
         Check(solution.Solver == (solver == 0 ? vtkRadiosity::SOLVER_CONJUGATE_GRADIENT : solver),
           what + " is what is used");
@@ -362,7 +374,7 @@ void TestSinglePrecision()
         last = iteration;
         return true;
       };
-      const RadiositySolution solution = task.Solve();
+      const Answer solution = task.Solve();
       Check(solution.HasConverged() && last == solution.NumberOfIterations,
         what + " converges: " + solution.Warning);
       double error = 0.0;
@@ -387,7 +399,7 @@ void TestAuto()
   for (const double rho : { 0.0, 0.02, 0.5, 0.99 })
   {
     cube.SetReflectance([&](vtkIdType) { return rho; });
-    const RadiositySolution chosen = cube.MakeTask(vtkRadiosity::SOLVER_AUTO).Solve();
+    const Answer chosen = cube.MakeTask(vtkRadiosity::SOLVER_AUTO).Solve();
     const int expected =
       rho < 0.1 ? vtkRadiosity::SOLVER_JACOBI : vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
     Check(chosen.HasConverged() && chosen.Solver == expected, "Auto at " + std::to_string(rho));
@@ -397,7 +409,7 @@ void TestAuto()
       "Auto explains: " + chosen.Explanation);
     for (const int other : { vtkRadiosity::SOLVER_JACOBI, vtkRadiosity::SOLVER_CONJUGATE_GRADIENT })
     {
-      const RadiositySolution solution = cube.MakeTask(other).Solve();
+      const Answer solution = cube.MakeTask(other).Solve();
       Check(chosen.NumberOfIterations <= solution.NumberOfIterations + 1, "Auto is no slower");
       Check(solution.Explanation.find("asked for") != std::string::npos,
         "a choice needs no reason");
@@ -469,10 +481,10 @@ void TestUnknown()
     Check(!SolverTable::Find(type, vtkRadiosity::DEVICE_AUTO) &&
         !SolverTable::Find(type, vtkRadiosity::DEVICE_OPENGL),
       "there is no solver " + std::to_string(type));
-    const RadiositySolution solution = cube.MakeTask(type).Solve();
-    Check(solution.Error.find("There is no solver " + std::to_string(type)) == 0 &&
-        solution.Error.find("5 (ConjugateGradient)") != std::string::npos,
-      "an unknown number is refused: " + solution.Error);
+    const Answer solution = cube.MakeTask(type).Solve();
+    Check(solution.Ended.GetMessage().find("There is no solver " + std::to_string(type)) == 0 &&
+        solution.Ended.GetMessage().find("5 (ConjugateGradient)") != std::string::npos,
+      "an unknown number is refused: " + solution.Ended.GetMessage());
     Check(solution.Radiosity.empty(), "and nothing runs");
   }
 }
@@ -480,12 +492,14 @@ void TestUnknown()
 //------------------------------------------------------------------------------
 void ExpectEnd(const Task& task, SolverStatus status, const std::string& remedy)
 {
-  const RadiositySolution solution = task.Solve();
+  const Answer solution = task.Solve();
   const std::string what =
     std::string(SolverTable::GetName(task.Settings.Solver)) + ": " + GetName(status);
   Check(solution.Status == status, what + ", not " + GetName(solution.Status));
   Check(solution.Warning.find(remedy) != std::string::npos, what + " warns: " + solution.Warning);
-  Check(solution.Error.empty() && solution.Radiosity.size() == task.Equation.Emission.size(),
+  Check(solution.Ended.IsAborted() == (status == SolverStatus::Aborted),
+    what + " is aborted where it says so");
+  Check(!solution.Ended.HasFailed() && solution.Radiosity.size() == task.Equation.Emission.size(),
     what + " leaves the result so far");
 }
 
@@ -526,11 +540,11 @@ void TestEndings()
 //------------------------------------------------------------------------------
 void ExpectError(const Task& task, const std::vector<std::string>& parts)
 {
-  const RadiositySolution solution = task.Solve();
+  const Answer solution = task.Solve();
   for (const std::string& part : parts)
   {
-    Check(solution.Error.find(part) != std::string::npos,
-      "\"" + part + "\" in \"" + solution.Error + "\"");
+    Check(solution.Ended.GetMessage().find(part) != std::string::npos,
+      "\"" + part + "\" in \"" + solution.Ended.GetMessage() + "\"");
   }
 }
 
@@ -581,17 +595,19 @@ void TestDiagnoses()
   }
   Task overfull = two.MakeTask(0);
   overfull.Equation.RowSums = &sums;
-  const RadiositySolution solution = overfull.Solve();
+  const Answer solution = overfull.Solve();
   ExpectError(overfull,
     { "no unique solution", "(reflectance 0.8, view factors that sum to 1.3)",
       "returns more than it receives" });
-  const std::string number = solution.Error.substr(solution.Error.find("polygon ") + 8, 2);
-  Check(std::atoi(number.c_str()) >= 6, "the place is in the second room: " + solution.Error);
+  const std::string number =
+    solution.Ended.GetMessage().substr(solution.Ended.GetMessage().find("polygon ") + 8, 2);
+  Check(std::atoi(number.c_str()) >= 6,
+    "the place is in the second room: " + solution.Ended.GetMessage());
   // At 0.7 it can be solved, and users hear of the row.
   two.SetReflectance([](vtkIdType) { return 0.7; });
   overfull = two.MakeTask(0);
   overfull.Equation.RowSums = &sums;
-  const RadiositySolution doubtful = overfull.Solve();
+  const Answer doubtful = overfull.Solve();
   Check(doubtful.HasConverged() &&
       doubtful.Warning.find("arrives more than once") != std::string::npos,
     "a row above 1 is named: " + doubtful.Warning);
@@ -600,7 +616,7 @@ void TestDiagnoses()
   Task vague = cube.MakeTask(0);
   vague.Equation.RowSumError = 1e-3;
   // Where no row exceeds 1 there is a solution, however doubtful.
-  const RadiositySolution doubted = vague.Solve();
+  const Answer doubted = vague.Solve();
   Check(doubted.HasConverged() && doubted.Warning.find("EnforceClosure") != std::string::npos,
     "view factors that tell little: " + doubted.Warning);
   std::vector<double> fuller = *vague.Equation.RowSums;
@@ -609,7 +625,7 @@ void TestDiagnoses()
   ExpectError(vague, { "no unique solution within that error", "EnforceClosure" });
   vague = cube.MakeTask(0);
   vague.Equation.RowSumError = 3e-5;
-  const RadiositySolution uncertain = vague.Solve();
+  const Answer uncertain = vague.Solve();
   Check(uncertain.HasConverged() &&
       uncertain.Warning.find("B may be wrong by 3") != std::string::npos,
     "errors of view factors are amplified: " + uncertain.Warning);
