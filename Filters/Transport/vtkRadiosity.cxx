@@ -188,17 +188,15 @@ bool vtkRadiosity::Run::IsHierarchical() const
 Outcome vtkRadiosity::Run::Read()
 {
   std::vector<std::string> names;
-  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < MaterialArrays::NUMBER_OF_ARRAYS; ++array)
   {
-    names.push_back(this->GetArrayName(array, RadiosityMaterials::GetDefaultName(array)));
+    names.push_back(this->GetArrayName(array, MaterialArrays::GetDefaultName(array)));
   }
-  this->Materials.BandLimits = this->Owner->BandLimits;
-  this->Materials.BackgroundTemperature = this->Owner->BackgroundTemperature;
-  this->Materials.BackgroundRadiance = this->Owner->BackgroundRadiances;
-  std::string error;
+  this->Materials.Settings.BandLimits = this->Owner->BandLimits;
+  this->Materials.Settings.BackgroundTemperature = this->Owner->BackgroundTemperature;
+  this->Materials.Settings.BackgroundRadiance = this->Owner->BackgroundRadiances;
   const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
-  return this->Materials.Read(arrays, this->Scene, names, error) ? Outcome::Done()
-                                                                 : Outcome::Failed(error);
+  return this->Materials.Read(arrays, this->Scene, names);
 }
 
 //------------------------------------------------------------------------------
@@ -214,10 +212,10 @@ Outcome vtkRadiosity::Run::Link()
     this->Owner->RefineByBrightness && !this->Owner->ViewFactors && this->IsHierarchical();
   const double tolerance = this->Owner->LinkTolerance;
   const double coarse = std::max(std::min(CoarseLinks * tolerance, CoarsestLinks), tolerance);
-  const bool isCoarse = isBright && !this->Materials.HasBackground();
+  const bool isCoarse = isBright && !this->Materials.Settings.HasBackground();
   Outcome linked = this->UpdateLinks(isCoarse ? coarse : tolerance,
     this->Progress.GetMonitor().GetStage(0.0, isBright ? CoarseDone : LinksDone));
-  if (linked && this->Materials.HasBackground())
+  if (linked && this->Materials.Settings.HasBackground())
   {
     this->Materials.AddBackground(this->Links->SkyFractions);
   }
@@ -229,7 +227,8 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const Monitor& moni
 {
   vtkViewFactors* given = this->Owner->ViewFactors;
   ViewFactorStore& store = given ? *given->Store : *this->Owner->OwnViewFactors;
-  const bool needsAll = given || this->Owner->EnforceClosure || this->Materials.HasBackground();
+  const bool needsAll =
+    given || this->Owner->EnforceClosure || this->Materials.Settings.HasBackground();
   const ViewFactorSettings own{ this->Owner->ViewFactorTolerance, this->Owner->EnforceClosure,
     this->IsHierarchical(), linkTolerance };
   this->Links = &store.GetLinks();
@@ -320,7 +319,7 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
   {
     return Outcome::Failed("Device is OpenGL, but " + reason + " Or set Device to Auto or CPU.");
   }
-  if (this->Materials.HasBackground())
+  if (this->Materials.Settings.HasBackground())
   {
     return Outcome::Failed(
       "Southwell on OpenGL computes no sky fractions, which a background needs: set "
@@ -495,10 +494,10 @@ void vtkRadiosity::Run::WriteThermal(const std::vector<double>& flux, const Scen
 vtkRadiosity::vtkRadiosity() : OwnViewFactors(new ViewFactorStore)
 {
   this->SetNumberOfOutputPorts(2);
-  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < MaterialArrays::NUMBER_OF_ARRAYS; ++array)
   {
     this->SetInputArrayToProcess(array, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS,
-      RadiosityMaterials::GetDefaultName(array));
+      MaterialArrays::GetDefaultName(array));
   }
 }
 

@@ -1,46 +1,22 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the patches of a scene are made of, read from its cell arrays and checked, and what enters
- * through its openings: the numbers of B = E + rho H for every patch and band.
- *
- * A patch with a given net flux q has B = q + H (it "reflects" all and adds q, negative where heat
- * is taken out), whatever its emissivity; that only decides how warm it becomes.
+ * What the patches of a scene are made of, and what enters through its openings: the coefficients
+ * of B = E + rho H for every patch and band, and temperatures.
  */
 #ifndef RadiosityMaterials_h
 #define RadiosityMaterials_h
 
-#include "vtkType.h"
+#include "Radiosity/MaterialArrays.h"
 
 #include <string>
 #include <vector>
 
 namespace LightTransport
 {
-class CellArrays;
-class PatchScene;
-
 struct RadiosityMaterials
 {
-  /// The input arrays of vtkRadiosity by their index.
-  enum InputArray
-  {
-    EMISSION,
-    REFLECTANCE,
-    TEMPERATURE,
-    EMISSIVITY,
-    DIRECT_IRRADIANCE,
-    BOUNDARY_CONDITION,
-    PRESCRIBED_NET_FLUX,
-    NUMBER_OF_ARRAYS
-  };
-  static const char* GetDefaultName(int array);
-
-  ///@{ Set before Read; see the properties of vtkRadiosity.
-  std::vector<double> BandLimits;
-  double BackgroundTemperature = 0.0;
-  std::vector<double> BackgroundRadiance;
-  ///@}
+  MaterialSettings Settings; ///< to be set before Read
 
   int NumberOfBands = 0;
   ///@{ patches x bands
@@ -56,18 +32,13 @@ struct RadiosityMaterials
   std::vector<bool> HasGivenFlux;  ///< else the temperature is given
   ///@}
 
-  /**
-   * Fill in all of the above. `names` are those of the input arrays. Returns false, on every rank
-   * alike, with `error` naming the problem and the remedy.
-   */
-  bool Read(const CellArrays& arrays, const PatchScene& scene,
-    const std::vector<std::string>& names, std::string& error);
+  /// Fill in all of the above; see MaterialArrays.
+  Outcome Read(const CellArrays& source, const PatchScene& scene,
+    const std::vector<std::string>& names);
 
   /// The patches that send anything, one way or the other.
   std::vector<bool> FindSenders() const;
 
-  /// Whether anything enters through openings.
-  bool HasBackground() const;
   /// Add what enters through openings to the direct irradiance, for the sky fraction of each patch.
   void AddBackground(const std::vector<double>& skyFractions);
 

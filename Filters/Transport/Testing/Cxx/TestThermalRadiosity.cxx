@@ -622,15 +622,14 @@ std::string ReadMaterials(vtkPolyData* data, vtkMultiProcessController* controll
   RadiosityMaterials& materials)
 {
   std::vector<std::string> names;
-  for (int array = 0; array < RadiosityMaterials::NUMBER_OF_ARRAYS; ++array)
+  for (int array = 0; array < MaterialArrays::NUMBER_OF_ARRAYS; ++array)
   {
-    names.emplace_back(RadiosityMaterials::GetDefaultName(array));
+    names.emplace_back(MaterialArrays::GetDefaultName(array));
   }
   PatchScene scene;
   const Ranks ranks(controller);
   CheckDone(scene.Build(data, ranks), "the scene");
-  std::string error;
-  return materials.Read(CellArrays(scene, data, ranks), scene, names, error) ? "" : error;
+  return materials.Read(CellArrays(scene, data, ranks), scene, names).GetMessage();
 }
 
 //------------------------------------------------------------------------------
