@@ -1,22 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash
 #
-# What demo.sh and test.sh share: installs the Debian packages that are missing, configures and builds in build/. Sourced, not
-# run. It leaves `source_dir`, `build_dir` and `jobs` set. It removes nothing: no package, no file that it did not make.
+# What the scripts beside it share: installs the Debian packages that are missing, configures and builds in build/. Sourced, not
+# run. It leaves `source_dir`, `build_dir`, `debian` and `jobs` set. It removes nothing: no package, no file that it did not make.
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build_dir=$source_dir/build
 
-# ParaView's own VTK, Mesa's EGL and OSMesa, and the libraries that the modules use. paraview-dev does not name all that its CMake
-# package asks for: libopenmpi-dev, libdouble-conversion-dev, libfreetype-dev, libglew-dev and libopengl-dev are for that. Tests
-# take meshes from libcgal-demo.
+# The libraries that the modules use, Mesa's EGL and OSMesa. Tests take meshes from libcgal-demo. Which VTK comes with them depends
+# on the release: see choose_vtk.
 packages=(
-  g++ cmake ninja-build python3-dev
-  paraview-dev python3-paraview libopenmpi-dev openmpi-bin
-  libdouble-conversion-dev libfreetype-dev libglew-dev libegl-dev libopengl-dev libosmesa6-dev
+  g++ cmake ninja-build python3-dev python3-numpy openmpi-bin
+  libegl-dev libopengl-dev libglew-dev libosmesa6-dev
   libcgal-dev libeigen3-dev libembree-dev libopenexr-dev
-  python3-numpy
   libcgal-demo)
+configure_options=()
 
 say()
 {
@@ -47,13 +46,29 @@ check_system()
 {
   local ID='' VERSION_ID='' PRETTY_NAME='an unknown system'
   if [ -r /etc/os-release ]; then
+    # shellcheck source=/dev/null
     . /etc/os-release
   fi
-  if [ "$ID" != debian ] || [ "$VERSION_ID" != 12 ]; then
-    stop "this script sets up Debian 12, and this is $PRETTY_NAME." \
+  debian=$VERSION_ID
+  if [ "$ID" != debian ] || { [ "$debian" != 12 ] && [ "$debian" != 13 ]; }; then
+    stop "this script sets up Debian 12 and 13, and this is $PRETTY_NAME." \
       'The README says how to build by hand with CMake.'
   fi
   command -v apt-get >/dev/null || stop 'apt-get is not there, so no packages can be installed.'
+}
+
+# Debian 12: ParaView's own VTK. paraview-dev does not name all that its CMake package asks for: libopenmpi-dev,
+# libdouble-conversion-dev, libfreetype-dev, libglew-dev and libopengl-dev are for that. Debian 13: plain VTK, because its ParaView
+# package names library files that it does not have, so that CMake cannot find it.
+choose_vtk()
+{
+  if [ "$debian" = 12 ]; then
+    packages+=(paraview-dev python3-paraview libopenmpi-dev libdouble-conversion-dev libfreetype-dev)
+  else
+    packages+=(libvtk9-dev python3-vtk9)
+    configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=OFF)
+    say 'Debian 13: plain VTK; the ParaView plugin and its tests are left out'
+  fi
 }
 
 free_megabytes()
@@ -91,14 +106,16 @@ is_installed()
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
+# The megabytes that they take at most, then the packages.
 install_packages()
 {
-  local package missing=() root=()
-  for package in "${packages[@]}"; do
+  local needed=$1 package missing=() root=()
+  shift
+  for package; do
     is_installed "$package" || missing+=("$package")
   done
   if [ ${#missing[@]} -eq 0 ]; then
-    say "packages: all ${#packages[@]} are installed"
+    say "packages: all $# are installed"
     return
   fi
   say "packages: installing ${missing[*]}"
@@ -107,13 +124,12 @@ install_packages()
       "As root: apt-get install --no-install-recommends ${missing[*]}"
     root=(sudo)
   fi
-  # 544 packages on a bare system: 0.5 GB of archives and 2.7 GB unpacked.
-  check_disk /usr 4000
+  check_disk /usr "$needed"
   "${root[@]}" apt-get update -q || stop 'apt-get update failed: see its messages above.'
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends --no-remove "${missing[@]}" ||
     stop 'apt-get could not install the packages: see its messages above.' \
-      'If it wanted to remove packages: python3-paraview and python3-vtk9 (or libvtk9-dev) exclude each other on Debian 12;' \
+      'If it wanted to remove packages: python3-paraview and python3-vtk9 (or libvtk9-dev) exclude each other;' \
       'remove those yourself, or use another machine or chroot.'
 }
 
@@ -131,7 +147,8 @@ check_build_directory()
   [ -w "$build_dir" ] || stop "$build_dir belongs to another user." 'Remove it as that user, or run this as that user.'
 }
 
-build()
+# Arguments go to CMake.
+configure()
 {
   [ -w "$source_dir" ] || stop "$source_dir is not writable, and build/ is made there."
   check_build_directory
@@ -139,18 +156,31 @@ build()
   choose_jobs
   say "configuring in $build_dir"
   cd "$source_dir" || stop "$source_dir cannot be entered."
-  cmake --preset default || stop 'CMake could not configure: see its messages above.'
+  cmake --preset default "${configure_options[@]}" "$@" || stop 'CMake could not configure: see its messages above.'
+}
+
+compile()
+{
   say "building with $jobs jobs"
   cmake --build "$build_dir" --parallel "$jobs" || stop 'the build failed: see the first error above.'
 }
 
+prepare()
+{
+  use_system_tools
+  check_system
+  choose_vtk
+  # About 550 packages on a bare system: 0.5 GB of archives and 2.7 GB unpacked.
+  install_packages 4000 "${packages[@]}"
+}
+
+# Arguments go to CMake.
 setup()
 {
   local begin=$SECONDS
-  use_system_tools
-  check_system
-  install_packages
+  prepare
   say "packages: done after $((SECONDS - begin)) s"
-  build
+  configure "$@"
+  compile
   say "set up after $((SECONDS - begin)) s; build/ takes $(du -sm "$build_dir" | cut -f1) MB"
 }

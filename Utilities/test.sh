@@ -4,9 +4,10 @@
 #
 # Sets up (see setup.sh) and runs all tests, without a display. Arguments go to ctest: Utilities/test.sh -R Radiosity
 set -euo pipefail
+# shellcheck source=Utilities/setup.sh
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
-setup
+setup -DBUILD_TESTING=ON
 say "testing with $jobs jobs"
 cd "$build_dir"
 exec ctest --parallel "$jobs" --output-on-failure --no-tests=error --timeout 600 "$@"
