@@ -20,3 +20,4 @@ target_compile_options(HeaderTests PRIVATE ${LIGHTTRANSPORT_WARNINGS})
 target_compile_options(HeaderTests PRIVATE -O0 -Werror)
 add_test(NAME PublicHeadersAreSelfContained
   COMMAND "${CMAKE_COMMAND}" --build "${CMAKE_BINARY_DIR}" --target HeaderTests)
+set_tests_properties(PublicHeadersAreSelfContained PROPERTIES RESOURCE_LOCK build)
