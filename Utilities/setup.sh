@@ -66,7 +66,8 @@ choose_vtk()
     packages+=(paraview-dev python3-paraview libopenmpi-dev libdouble-conversion-dev libfreetype-dev)
   else
     packages+=(libvtk9-dev python3-vtk9)
-    configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=OFF)
+    # CMake's warnings for developers are about the packages of VTK and CGAL.
+    configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=OFF -Wno-dev)
     say 'Debian 13: plain VTK; the ParaView plugin and its tests are left out'
   fi
 }
