@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Checks all that needs no build: the format of C and C++, shell and Python, spelling. Installs the Debian packages
+# Checks all that needs no build: the format of C and C++, shell and Python, spelling, links. Installs the Debian packages
 # that it needs; for what is wrong it says what to run.
 set -euo pipefail
 # shellcheck source=Utilities/setup.sh
@@ -70,6 +70,7 @@ fi
 check 'shell' 'the messages above say what' shellcheck "${scripts[@]}"
 check 'Python' 'the messages above say what (.flake8 has the settings)' /usr/bin/python3 -m flake8 "${modules[@]}"
 check 'spelling' 'codespell -i 3 -w with the files above, or name a word that is meant in .codespellrc' codespell "${texts[@]}"
+check 'links' 'the messages above say what' /usr/bin/python3 Utilities/check_links.py
 
 if [ ${#wrong[@]} -gt 0 ]; then
   stop 'some checks failed. What to run:' "${wrong[@]}"
