@@ -331,6 +331,20 @@ bool Resolve(Mesh& mesh, double distance, const SurfaceRepair::Stop& stop)
     !PMP::is_Hausdorff_distance_larger<CGAL::Sequential_tag>(old, mesh, distance, 0.01 * distance,
       CGAL::parameters::use_one_sided_hausdorff(false));
 }
+
+//------------------------------------------------------------------------------
+// CGAL 6 takes as a named parameter what CGAL 5.5 takes as an argument.
+std::vector<Face> TriangulateHole(Mesh& mesh, Halfedge border)
+{
+  std::vector<Face> added;
+#if CGAL_VERSION_NR >= 1060000000
+  PMP::triangulate_hole(mesh, border,
+    CGAL::parameters::face_output_iterator(std::back_inserter(added)));
+#else
+  PMP::triangulate_hole(mesh, border, std::back_inserter(added));
+#endif
+  return added;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -472,8 +486,7 @@ vtkIdType SurfaceRepair::FillHoles(double size)
     }
     if (radius <= 0.5 * inserted.first->second)
     {
-      std::vector<Face> added;
-      PMP::triangulate_hole(mesh, border, std::back_inserter(added));
+      const std::vector<Face> added = TriangulateHole(mesh, border);
       TakeIdsOfNeighbours(*this->Surface, added);
       filled += !added.empty();
     }
