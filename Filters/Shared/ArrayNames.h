@@ -10,8 +10,22 @@ namespace ArrayNames
 {
 /// Point array, 2 components: where a point lies in the atlas of its surface, in [0, 1]^2.
 constexpr const char* AtlasCoordinates = "AtlasCoordinates";
-/// Cell array, 1 component: the cell of the input that a cell came from.
+/// Field data, 1 value: the texels a side that the atlas of a surface was made for.
+constexpr const char* AtlasResolution = "AtlasResolution";
+///@{ Cell and point array, 1 component: the cell or point of the input that one came from.
 constexpr const char* OriginalCellIds = "OriginalCellIds";
+constexpr const char* OriginalPointIds = "OriginalPointIds";
+///@}
+/// Cell array of an atlas and texel map, 1 component: the chart that a cell or texel belongs to.
+constexpr const char* ChartId = "ChartId";
+///@{ Texel maps: where the surface is in a texel and how it lies (3 components), and its area
+///there.
+constexpr const char* TexelPosition = "Position";
+constexpr const char* TexelNormal = "Normal";
+constexpr const char* TexelArea = "Area";
+///@}
+/// Field data of an image, 4 values: xmin, xmax, ymin, ymax of what of it is to be seen.
+constexpr const char* DisplayWindow = "DisplayWindow";
 /// Field data, 1 value: the index that "TransmittedIrradiance" was computed for.
 constexpr const char* RefractiveIndex = "RefractiveIndex";
 ///@{ Cell and point arrays, flux per unit area: what falls on a surface, directly or in all, what

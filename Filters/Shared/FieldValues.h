@@ -10,6 +10,7 @@
 #include "vtkNew.h"
 #include "vtkStringArray.h"
 
+#include <initializer_list>
 #include <string>
 
 namespace LightTransport
@@ -39,6 +40,19 @@ inline void Add(vtkFieldData* fields, const char* name, const std::string& value
   vtkNew<vtkStringArray> array;
   array->SetName(name);
   array->InsertNextValue(value);
+  fields->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+/// An array of this type, of one tuple with the components of `values`.
+template <typename Array>
+void AddAs(vtkFieldData* fields, const char* name,
+  std::initializer_list<typename Array::ValueType> values)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(values.size()));
+  array->InsertNextTypedTuple(values.begin());
   fields->AddArray(array);
 }
 } // namespace FieldValues
