@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenEXRReader.h"
 
+#include "Files/ChannelGroups.h"
 #include "Files/OpenEXRFileCheck.h"
+#include "Shared/ArrayNames.h"
+#include "Shared/FieldValues.h"
+#include "Shared/FilterMonitor.h"
 
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
@@ -32,7 +34,6 @@
 #include <exception>
 #include <new>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -46,124 +47,11 @@ constexpr std::size_t BytesPerValue = 4;
 static_assert(sizeof(float) == BytesPerValue && sizeof(unsigned int) == BytesPerValue,
   "OpenEXR's float and unsigned integer pixels are read in place");
 
-// One array of the output and the channels that are its components.
-struct ArrayLayout
-{
-  std::string Name;
-  std::vector<std::string> Channels;
-};
-
 //------------------------------------------------------------------------------
-// Layers ("" or "name.") in which some channels lie.
-std::set<std::string> FindLayers(const std::set<std::string>& channels)
-{
-  std::set<std::string> layers{ "" };
-  for (const std::string& channel : channels)
-  {
-    const std::size_t dot = channel.rfind('.');
-    if (dot != std::string::npos && dot > 0)
-    {
-      layers.insert(channel.substr(0, dot + 1));
-    }
-  }
-  return layers;
-}
-
-//------------------------------------------------------------------------------
-// The channels of a layer that make one array; empty where they do not.
-std::vector<std::string> FindGroup(const std::set<std::string>& channels, const std::string& layer,
-  bool colors)
-{
-  std::vector<std::string> group;
-  const auto add = [&](const std::string& suffix)
-  {
-    const bool found = channels.count(layer + suffix) != 0;
-    if (found)
-    {
-      group.push_back(layer + suffix);
-    }
-    return found;
-  };
-  if (colors)
-  {
-    if (!(add("R") && add("G") && add("B")))
-    {
-      return {};
-    }
-    add("A");
-    return group;
-  }
-  while (add(std::to_string(group.size())))
-  {
-  }
-  return group.size() > 1 && !layer.empty() ? group : std::vector<std::string>();
-}
-
-//------------------------------------------------------------------------------
-std::vector<ArrayLayout> GroupChannels(const Imf::ChannelList& list)
-{
-  std::set<std::string> channels;
-  for (auto it = list.begin(); it != list.end(); ++it)
-  {
-    channels.insert(it.name());
-  }
-  std::vector<ArrayLayout> arrays;
-  std::set<std::string> names = channels;
-  for (const std::string& layer : FindLayers(channels))
-  {
-    for (const bool colors : { true, false })
-    {
-      const std::vector<std::string> group = FindGroup(channels, layer, colors);
-      std::string name = layer.substr(0, layer.empty() ? 0 : layer.size() - 1);
-      if (name.empty())
-      {
-        name = group.size() == 4 ? "RGBA" : "RGB";
-      }
-      if (!group.empty() && names.insert(name).second)
-      {
-        arrays.push_back({ name, group });
-        for (const std::string& channel : group)
-        {
-          channels.erase(channel);
-        }
-      }
-    }
-  }
-  for (const std::string& channel : channels)
-  {
-    arrays.push_back({ channel, { channel } });
-  }
-  return arrays;
-}
-
-//------------------------------------------------------------------------------
-const ArrayLayout& FindScalars(const std::vector<ArrayLayout>& arrays)
-{
-  for (const char* name : { "RGBA", "RGB", "Y" })
-  {
-    const auto found = std::find_if(arrays.begin(), arrays.end(),
-      [&](const ArrayLayout& array) { return array.Name == name; });
-    if (found != arrays.end())
-    {
-      return *found;
-    }
-  }
-  return arrays.front();
-}
-
-//------------------------------------------------------------------------------
-Imf::PixelType FindType(const Imf::ChannelList& list, const ArrayLayout& layout)
-{
-  const bool integers = std::all_of(layout.Channels.begin(), layout.Channels.end(),
-    [&](const std::string& channel) { return list.findChannel(channel)->type == Imf::UINT; });
-  return integers ? Imf::UINT : Imf::FLOAT;
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkDataArray> MakeArray(const ArrayLayout& layout, Imf::PixelType type,
+vtkSmartPointer<vtkDataArray> MakeArray(const ChannelGroup& group, Imf::PixelType type,
   const Imath::Box2i& window, Imf::FrameBuffer& target)
 {
-  const int components = static_cast<int>(layout.Channels.size());
+  const int components = static_cast<int>(group.Channels.size());
   const vtkIdType width = vtkIdType(window.max.x) - window.min.x + 1;
   const vtkIdType height = vtkIdType(window.max.y) - window.min.y + 1;
   vtkSmartPointer<vtkDataArray> array;
@@ -175,13 +63,13 @@ vtkSmartPointer<vtkDataArray> MakeArray(const ArrayLayout& layout, Imf::PixelTyp
   {
     array = vtkSmartPointer<vtkFloatArray>::New();
   }
-  array->SetName(layout.Name.c_str());
+  array->SetName(group.Name.c_str());
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(width * height);
   const std::size_t step = components * BytesPerValue;
   for (int component = 0; component < components; ++component)
   {
-    target.insert(layout.Channels[component],
+    target.insert(group.Channels[component],
       Imf::Slice::Make(type, array->GetVoidPointer(component), window, step, step * width));
   }
   return array;
@@ -233,17 +121,16 @@ public:
       : this->GetHeader().dataWindow();
   }
 
-  /// `advance` takes the fraction that is done and gives false to stop.
-  template <typename Advance>
-  void Read(int level, const Imf::FrameBuffer& target, Advance advance)
+  /// What an abort leaves unread stays as it is in the target.
+  void Read(int level, const Imf::FrameBuffer& target, const Monitor& monitor)
   {
     if (this->Tiles)
     {
-      this->ReadTiles(this->GetXLevel(level), this->GetYLevel(level), target, advance);
+      this->ReadTiles(this->GetXLevel(level), this->GetYLevel(level), target, monitor);
     }
     else
     {
-      this->ReadLines(target, advance);
+      this->ReadLines(target, monitor);
     }
   }
 
@@ -252,34 +139,32 @@ private:
   int GetXLevel(int level) const { return std::min(level, this->Tiles->numXLevels() - 1); }
   int GetYLevel(int level) const { return std::min(level, this->Tiles->numYLevels() - 1); }
 
-  template <typename Advance>
-  void ReadTiles(int xLevel, int yLevel, const Imf::FrameBuffer& target, Advance advance)
+  void ReadTiles(int xLevel, int yLevel, const Imf::FrameBuffer& target, const Monitor& monitor)
   {
     this->Tiles->setFrameBuffer(target);
     const int rows = this->Tiles->numYTiles(yLevel);
     const int last = this->Tiles->numXTiles(xLevel) - 1;
-    bool goOn = true;
-    for (int row = 0; row < rows && goOn; ++row)
+    bool goesOn = true;
+    for (int row = 0; row < rows && goesOn; ++row)
     {
       this->Tiles->readTiles(0, last, row, row, xLevel, yLevel);
-      goOn = advance(static_cast<double>(row + 1) / rows);
+      goesOn = monitor.Report(static_cast<double>(row + 1) / rows);
     }
   }
 
-  template <typename Advance>
-  void ReadLines(const Imf::FrameBuffer& target, Advance advance)
+  void ReadLines(const Imf::FrameBuffer& target, const Monitor& monitor)
   {
     this->Lines->setFrameBuffer(target);
     const Imath::Box2i& window = this->GetHeader().dataWindow();
     const int height = window.max.y - window.min.y + 1;
     // DWAB, the tallest chunk, has 256 lines: no chunk is decoded twice.
     constexpr int block = 256;
-    bool goOn = true;
-    for (int row = 0; row < height && goOn; row += block)
+    bool goesOn = true;
+    for (int row = 0; row < height && goesOn; row += block)
     {
       const int last = std::min(row + block, height) - 1;
       this->Lines->readPixels(window.min.y + row, window.min.y + last);
-      goOn = advance(static_cast<double>(last + 1) / height);
+      goesOn = monitor.Report(static_cast<double>(last + 1) / height);
     }
   }
 
@@ -303,26 +188,6 @@ void PlaceLevel(int begin, double wholeCount, double count, double offset, doubl
   spacing = wholeCount / count;
   origin = offset + begin - 0.5 + (0.5 - begin) * spacing;
 }
-
-//------------------------------------------------------------------------------
-void AddDisplayWindow(vtkImageData* output, const Imath::Box2i& window)
-{
-  vtkNew<vtkIntArray> array;
-  array->SetName("DisplayWindow");
-  array->SetNumberOfComponents(4);
-  const int values[4] = { window.min.x, window.max.x, window.min.y, window.max.y };
-  array->InsertNextTypedTuple(values);
-  output->GetFieldData()->AddArray(array);
-}
-
-//------------------------------------------------------------------------------
-void AddNumber(vtkImageData* output, const char* name, int value)
-{
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -341,36 +206,47 @@ int vtkOpenEXRReader::CanReadFile(const char* fileName)
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenEXRReader::Fail(unsigned long errorCode, const std::string& problem)
+Outcome vtkOpenEXRReader::Fail(unsigned long errorCode, const std::string& problem)
 {
   this->SetErrorCode(errorCode);
-  vtkErrorMacro("Cannot read the OpenEXR file \"" << (this->FileName ? this->FileName : "")
-                                                  << "\": " << problem << '.');
-  return false;
+  return Outcome::Failed(problem);
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenEXRReader::CheckFile()
+int vtkOpenEXRReader::Finish(const Outcome& outcome)
+{
+  if (outcome.HasFailed())
+  {
+    vtkErrorMacro("Cannot read the OpenEXR file \"" << (this->FileName ? this->FileName : "")
+                                                    << "\": " << outcome.GetMessage() << '.');
+    return 0;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkOpenEXRReader::CheckFile()
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   if (!this->FileName || !*this->FileName)
   {
     return this->Fail(vtkErrorCode::NoFileNameError, "no file name is set; call SetFileName first");
   }
-  std::string problem;
   using OpenEXRFileCheck::Fault;
-  switch (OpenEXRFileCheck::Find(this->FileName, problem))
+  Fault fault = Fault::None;
+  Outcome checked = OpenEXRFileCheck::Check(this->FileName, fault);
+  switch (fault)
   {
     case Fault::None:
-      return true;
+      return checked;
     case Fault::CannotOpen:
-      return this->Fail(vtkErrorCode::CannotOpenFileError, problem);
+      return this->Fail(vtkErrorCode::CannotOpenFileError, checked.GetMessage());
     case Fault::NotOpenEXR:
-      return this->Fail(vtkErrorCode::UnrecognizedFileTypeError, problem);
+      return this->Fail(vtkErrorCode::UnrecognizedFileTypeError, checked.GetMessage());
     case Fault::Truncated:
-      return this->Fail(vtkErrorCode::PrematureEndOfFileError, problem);
+      return this->Fail(vtkErrorCode::PrematureEndOfFileError, checked.GetMessage());
     default:
-      return this->Fail(vtkErrorCode::FileFormatError, problem);
+      return this->Fail(vtkErrorCode::FileFormatError, checked.GetMessage());
   }
 }
 
@@ -383,54 +259,100 @@ int vtkOpenEXRReader::RequestInformation(vtkInformation*, vtkInformationVector**
     output->Initialize();
   }
   this->NumberOfLevels = 0;
-  if (!this->CheckFile())
+  Outcome outcome = this->CheckFile();
+  if (outcome)
   {
-    return 0;
+    outcome = this->TryToReadHeader(outputs->GetInformationObject(0));
   }
+  return this->Finish(outcome);
+}
+
+//------------------------------------------------------------------------------
+// The border to OpenEXR: what it throws becomes a failure.
+Outcome vtkOpenEXRReader::TryToReadHeader(vtkInformation* info)
+{
   try
   {
-    const Image image(this->FileName);
-    const Imf::Header& header = image.GetHeader();
-    const int levels = image.GetNumberOfLevels();
-    this->NumberOfLevels = levels;
-    if (this->Level >= levels)
-    {
-      return this->Fail(vtkErrorCode::UserError,
-        "level " + std::to_string(this->Level) + " is wanted, but the last one is level " +
-          std::to_string(levels - 1));
-    }
-    const Imath::Box2i& whole = header.dataWindow();
-    const Imath::Box2i& display = header.displayWindow();
-    const Imath::Box2i window = image.GetWindow(this->Level);
-    const double lift =
-      (double(display.min.y) + display.max.y) - (double(whole.min.y) + whole.max.y);
-    const std::array<int, 6> extent = GetExtent(window);
-    double origin[3] = { 0.0, 0.0, 0.0 };
-    double spacing[3] = { 1.0, 1.0, 1.0 };
-    PlaceLevel(whole.min.x, whole.size().x + 1.0, window.size().x + 1.0, 0.0, origin[0],
-      spacing[0]);
-    PlaceLevel(whole.min.y, whole.size().y + 1.0, window.size().y + 1.0, lift, origin[1],
-      spacing[1]);
-    vtkInformation* info = outputs->GetInformationObject(0);
-    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
-    info->Set(vtkDataObject::ORIGIN(), origin, 3);
-    info->Set(vtkDataObject::SPACING(), spacing, 3);
-    const std::vector<ArrayLayout> arrays = GroupChannels(header.channels());
-    const ArrayLayout& scalars = FindScalars(arrays);
-    const bool integers = FindType(header.channels(), scalars) == Imf::UINT;
-    this->DataScalarType = integers ? VTK_UNSIGNED_INT : VTK_FLOAT;
-    this->NumberOfScalarComponents = static_cast<int>(scalars.Channels.size());
-    std::copy_n(extent.data(), 6, this->DataExtent);
-    std::copy_n(origin, 3, this->DataOrigin);
-    std::copy_n(spacing, 3, this->DataSpacing);
-    vtkDataObject::SetPointDataActiveScalarInfo(info, this->DataScalarType,
-      this->NumberOfScalarComponents);
+    return this->ReadHeader(info);
   }
   catch (const std::exception& exception)
   {
     return this->Fail(vtkErrorCode::FileFormatError, exception.what());
   }
-  return 1;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkOpenEXRReader::ReadHeader(vtkInformation* info)
+{
+  const Image image(this->FileName);
+  const Imf::Header& header = image.GetHeader();
+  const int levels = image.GetNumberOfLevels();
+  this->NumberOfLevels = levels;
+  if (this->Level >= levels)
+  {
+    return this->Fail(vtkErrorCode::UserError,
+      "level " + std::to_string(this->Level) + " is wanted, but the last one is level " +
+        std::to_string(levels - 1));
+  }
+  const Imath::Box2i& whole = header.dataWindow();
+  const Imath::Box2i& display = header.displayWindow();
+  const Imath::Box2i window = image.GetWindow(this->Level);
+  const double lift = (double(display.min.y) + display.max.y) - (double(whole.min.y) + whole.max.y);
+  const std::array<int, 6> extent = GetExtent(window);
+  double origin[3] = { 0.0, 0.0, 0.0 };
+  double spacing[3] = { 1.0, 1.0, 1.0 };
+  PlaceLevel(whole.min.x, whole.size().x + 1.0, window.size().x + 1.0, 0.0, origin[0], spacing[0]);
+  PlaceLevel(whole.min.y, whole.size().y + 1.0, window.size().y + 1.0, lift, origin[1], spacing[1]);
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
+  info->Set(vtkDataObject::ORIGIN(), origin, 3);
+  info->Set(vtkDataObject::SPACING(), spacing, 3);
+  const std::vector<ChannelGroup> groups = ChannelGroups::Find(header.channels());
+  const ChannelGroup& scalars = ChannelGroups::FindScalars(groups);
+  const bool integers = ChannelGroups::FindType(header.channels(), scalars) == Imf::UINT;
+  this->DataScalarType = integers ? VTK_UNSIGNED_INT : VTK_FLOAT;
+  this->NumberOfScalarComponents = static_cast<int>(scalars.Channels.size());
+  std::copy_n(extent.data(), 6, this->DataExtent);
+  std::copy_n(origin, 3, this->DataOrigin);
+  std::copy_n(spacing, 3, this->DataSpacing);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, this->DataScalarType,
+    this->NumberOfScalarComponents);
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+int vtkOpenEXRReader::RequestData(vtkInformation*, vtkInformationVector**,
+  vtkInformationVector* outputs)
+{
+  Outcome outcome = this->CheckFile();
+  if (outcome)
+  {
+    outcome = this->TryToReadLevel(vtkImageData::GetData(outputs));
+  }
+  return this->Finish(outcome);
+}
+
+//------------------------------------------------------------------------------
+// The border to OpenEXR: what it throws becomes a failure.
+Outcome vtkOpenEXRReader::TryToReadLevel(vtkImageData* output)
+{
+  Outcome outcome = Outcome::Done();
+  try
+  {
+    this->ReadLevel(output);
+  }
+  catch (const std::bad_alloc&)
+  {
+    outcome = this->Fail(vtkErrorCode::UnknownError, "there is not enough memory for its pixels");
+  }
+  catch (const std::exception& exception)
+  {
+    outcome = this->Fail(vtkErrorCode::FileFormatError, exception.what());
+  }
+  if (!outcome)
+  {
+    output->Initialize();
+  }
+  return outcome;
 }
 
 //------------------------------------------------------------------------------
@@ -439,19 +361,15 @@ void vtkOpenEXRReader::ReadLevel(vtkImageData* output)
   Image image(this->FileName);
   const Imf::Header& header = image.GetHeader();
   const Imath::Box2i window = image.GetWindow(this->Level);
-  const std::vector<ArrayLayout> layouts = GroupChannels(header.channels());
+  const std::vector<ChannelGroup> groups = ChannelGroups::Find(header.channels());
   Imf::FrameBuffer target;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays;
-  for (const ArrayLayout& layout : layouts)
+  for (const ChannelGroup& group : groups)
   {
-    arrays.push_back(MakeArray(layout, FindType(header.channels(), layout), window, target));
+    const Imf::PixelType type = ChannelGroups::FindType(header.channels(), group);
+    arrays.push_back(MakeArray(group, type, window, target));
   }
-  image.Read(this->Level, target,
-    [this](double done)
-    {
-      this->UpdateProgress(done);
-      return !this->AbortExecute;
-    });
+  image.Read(this->Level, target, MakeFilterMonitor(this));
   output->SetExtent(GetExtent(window).data());
   output->SetOrigin(this->DataOrigin);
   output->SetSpacing(this->DataSpacing);
@@ -460,36 +378,13 @@ void vtkOpenEXRReader::ReadLevel(vtkImageData* output)
     TurnRows(array, vtkIdType(window.max.y) - window.min.y + 1);
     output->GetPointData()->AddArray(array);
   }
-  output->GetPointData()->SetActiveScalars(FindScalars(layouts).Name.c_str());
-  AddDisplayWindow(output, header.displayWindow());
-  AddNumber(output, "NumberOfLevels", image.GetNumberOfLevels());
-  AddNumber(output, "Level", this->Level);
-}
-
-//------------------------------------------------------------------------------
-int vtkOpenEXRReader::RequestData(vtkInformation*, vtkInformationVector**,
-  vtkInformationVector* outputs)
-{
-  vtkImageData* output = vtkImageData::GetData(outputs);
-  if (!this->CheckFile())
-  {
-    return 0;
-  }
-  try
-  {
-    this->ReadLevel(output);
-    return 1;
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->Fail(vtkErrorCode::UnknownError, "there is not enough memory for its pixels");
-  }
-  catch (const std::exception& exception)
-  {
-    this->Fail(vtkErrorCode::FileFormatError, exception.what());
-  }
-  output->Initialize();
-  return 0;
+  output->GetPointData()->SetActiveScalars(ChannelGroups::FindScalars(groups).Name.c_str());
+  vtkFieldData* fields = output->GetFieldData();
+  const Imath::Box2i& display = header.displayWindow();
+  FieldValues::AddAs<vtkIntArray>(fields, ArrayNames::DisplayWindow,
+    { display.min.x, display.max.x, display.min.y, display.max.y });
+  FieldValues::AddAs<vtkIntArray>(fields, "NumberOfLevels", { image.GetNumberOfLevels() });
+  FieldValues::AddAs<vtkIntArray>(fields, "Level", { this->Level });
 }
 
 //------------------------------------------------------------------------------

@@ -54,6 +54,10 @@
 
 #include <string> // for std::string
 
+namespace LightTransport
+{
+class Outcome;
+}
 class vtkImageData;
 
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRReader : public vtkImageReader2
@@ -93,8 +97,12 @@ private:
   vtkOpenEXRReader(const vtkOpenEXRReader&) = delete;
   void operator=(const vtkOpenEXRReader&) = delete;
 
-  bool Fail(unsigned long errorCode, const std::string& problem);
-  bool CheckFile();
+  LightTransport::Outcome Fail(unsigned long errorCode, const std::string& problem);
+  int Finish(const LightTransport::Outcome& outcome);
+  LightTransport::Outcome CheckFile();
+  LightTransport::Outcome TryToReadHeader(vtkInformation* info);
+  LightTransport::Outcome ReadHeader(vtkInformation* info);
+  LightTransport::Outcome TryToReadLevel(vtkImageData* output);
   void ReadLevel(vtkImageData* output);
 
   int Level = 0;

@@ -39,6 +39,10 @@
 
 #include <string> // for std::string
 
+namespace LightTransport
+{
+class Outcome;
+}
 class vtkImageData;
 
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRWriter : public vtkWriter
@@ -146,9 +150,12 @@ private:
   vtkOpenEXRWriter(const vtkOpenEXRWriter&) = delete;
   void operator=(const vtkOpenEXRWriter&) = delete;
 
-  void Fail(unsigned long errorCode, const std::string& problem);
-  std::string FindProblem(vtkImageData* image);
-  bool WriteImage(vtkImageData* image, const std::string& fileName);
+  LightTransport::Outcome Fail(unsigned long errorCode, const std::string& problem);
+  LightTransport::Outcome WriteFile();
+  LightTransport::Outcome CheckImage(vtkImageData* image) const;
+  LightTransport::Outcome TryToWrite(vtkImageData* image, const std::string& unfinished,
+    const std::string& target);
+  LightTransport::Outcome WriteImage(vtkImageData* image, const std::string& fileName);
 
   char* FileName = nullptr;
   int PixelType = PIXEL_TYPE_FLOAT;

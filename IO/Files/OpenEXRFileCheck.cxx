@@ -23,6 +23,8 @@ constexpr std::uint32_t DeepFlag = 0x800;
 constexpr std::uint32_t MultiPartFlag = 0x1000;
 constexpr std::size_t LongestName = 255;
 
+// Thrown and caught within this file: every byte that is read may be the one that is missing, and
+// returning that through all numbers and names would hide the layout that is walked over.
 struct Error
 {
   Fault Kind;
@@ -455,18 +457,19 @@ void CheckAll(const std::string& fileName)
 } // namespace
 
 //------------------------------------------------------------------------------
-Fault Find(const std::string& fileName, std::string& problem)
+Outcome Check(const std::string& fileName, Fault& fault)
 {
+  fault = Fault::None;
   try
   {
     CheckAll(fileName);
   }
   catch (const Error& error)
   {
-    problem = error.Problem;
-    return error.Kind;
+    fault = error.Kind;
+    return Outcome::Failed(error.Problem);
   }
-  return Fault::None;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

@@ -13,6 +13,8 @@
 #ifndef OpenEXRFileCheck_h
 #define OpenEXRFileCheck_h
 
+#include "Shared/Outcome.h"
+
 #include <string>
 
 namespace LightTransport
@@ -30,8 +32,8 @@ enum class Fault
   Unsupported
 };
 
-/// The first fault found, explained in `problem`.
-Fault Find(const std::string& fileName, std::string& problem);
+/// Fails with what is wrong first, of the kind `fault`.
+Outcome Check(const std::string& fileName, Fault& fault);
 
 /// Whether the file starts with OpenEXR's magic number.
 bool HasMagicNumber(const std::string& fileName);
