@@ -5,6 +5,7 @@
 #include "Atlas/TexelMaps.h"
 #include "Atlas/TexelPieces.h"
 #include "Common/MeshingRun.h"
+#include "Shared/FilterMonitor.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -31,28 +32,23 @@ vtkStandardNewMacro(vtkAtlasToSurface);
 
 namespace
 {
-using MeshingRun::Advice;
-using MeshingRun::InputError;
-using MeshingRun::Outcome;
-using MeshingRun::Report;
-using MeshingRun::Try;
-
 //------------------------------------------------------------------------------
-int GetResolution(vtkImageData* image)
+Outcome FindResolution(vtkImageData* image, int& resolution)
 {
   std::array<int, 3> size;
   image->GetDimensions(size.data());
   if (image->GetNumberOfPoints() == 0)
   {
-    throw InputError("The image has no points: give it one point per texel.");
+    return Outcome::Failed("The image has no points: give it one point per texel.");
   }
   if (size[0] != size[1] || size[2] != 1)
   {
-    throw InputError("The image has " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
-      " x " + std::to_string(size[2]) +
+    return Outcome::Failed("The image has " + std::to_string(size[0]) + " x " +
+      std::to_string(size[1]) + " x " + std::to_string(size[2]) +
       " points: it must be square and have one layer, with one point per texel of the atlas.");
   }
-  return size[0];
+  resolution = size[0];
+  return Outcome::Done();
 }
 
 // Weighted means of the texels of one array.
@@ -104,8 +100,9 @@ std::vector<vtkDataArray*> GetArrays(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPolyData* output)
+Outcome Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPolyData* output)
 {
+  output->ShallowCopy(surface);
   std::vector<Means> ofCells;
   std::vector<Means> ofPoints;
   for (vtkDataArray* array : GetArrays(image))
@@ -140,6 +137,7 @@ void Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPoly
         }
       }
     });
+  return Outcome::Done();
 }
 } // namespace
 
@@ -183,29 +181,28 @@ int vtkAtlasToSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector
 int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
+  vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
+  vtkImageData* image = vtkImageData::GetData(inputs[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  const Advice advice = { "give an image with fewer arrays",
+  const Monitor monitor = MakeFilterMonitor(this);
+  const MeshingRun::Advice advice = { "give an image with fewer arrays",
     "The texels could not be brought to the surface", "make the atlas again with vtkSurfaceAtlas" };
-  const Outcome outcome = Try(advice,
-    [&]()
-    {
-      vtkImageData* image = vtkImageData::GetData(inputs[1]);
-      vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
-      const int resolution = GetResolution(image);
-      TexelPieces::Check(surface, resolution);
-      Report(this, 0.1);
-      output->ShallowCopy(surface);
-      Transfer(image, resolution, surface, output);
-      Report(this, 1.0);
-    });
-  if (!outcome.Done)
+  int resolution = 0;
+  MeshingRun::Steps steps(advice);
+  steps.Take([&]() { return FindResolution(image, resolution); });
+  steps.Take([&]() { return TexelPieces::Check(surface, resolution); });
+  steps.Take([&]() { return monitor.Check(0.1); });
+  steps.Take([&]() { return Transfer(image, resolution, surface, output); });
+  steps.Take([&]() { return monitor.Check(1.0); });
+  const Outcome& outcome = steps.GetOutcome();
+  if (!outcome)
   {
     output->Initialize();
   }
-  if (outcome.Error.empty())
+  if (outcome.HasFailed())
   {
-    return 1;
+    vtkErrorMacro(<< outcome.GetMessage());
+    return 0;
   }
-  vtkErrorMacro(<< outcome.Error);
-  return 0;
+  return 1;
 }

@@ -3,37 +3,28 @@
 #include "vtkPatchMesher.h"
 
 #include "Common/MeshingRun.h"
+#include "Common/TriangleSoup.h"
+#include "Mesher/PatchOutput.h"
 #include "Mesher/SizedRemeshing.h"
 #include "Mesher/SurfaceRemesher.h"
 #include "Mesher/SurfaceRepair.h"
-#include "Mesher/TriangleSoup.h"
+#include "Shared/FilterMonitor.h"
 
 #include "vtkAbstractArray.h"
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace LightTransport;
@@ -42,212 +33,107 @@ vtkStandardNewMacro(vtkPatchMesher);
 
 namespace
 {
-using MeshingRun::Advice;
-using MeshingRun::InputError;
-using MeshingRun::Outcome;
-using MeshingRun::Report;
-using MeshingRun::Try;
+constexpr const char* DefaultRegionArray = "Region";
+constexpr const char* DefaultLengthArray = "EdgeLength";
 
-const char* const DEFAULT_REGION_ARRAY = "Region";
-const char* const DEFAULT_LENGTH_ARRAY = "EdgeLength";
+static_assert(static_cast<int>(SizedRemeshing::LengthSource::Uniform) ==
+      vtkPatchMesher::SIZE_FIELD_UNIFORM &&
+    static_cast<int>(SizedRemeshing::LengthSource::Curvature) ==
+      vtkPatchMesher::SIZE_FIELD_CURVATURE &&
+    static_cast<int>(SizedRemeshing::LengthSource::Array) == vtkPatchMesher::SIZE_FIELD_ARRAY,
+  "SizeField is passed on as it is");
+static_assert(static_cast<int>(SurfaceRepair::Intersections::Resolve) ==
+      vtkPatchMesher::SELF_INTERSECTIONS_RESOLVE &&
+    static_cast<int>(SurfaceRepair::Intersections::Refuse) ==
+      vtkPatchMesher::SELF_INTERSECTIONS_REFUSE &&
+    static_cast<int>(SurfaceRepair::Intersections::Keep) == vtkPatchMesher::SELF_INTERSECTIONS_KEEP,
+  "SelfIntersections is passed on as it is");
 
 //------------------------------------------------------------------------------
 // Number the different tuples of an array: one number per input cell.
-std::vector<int> NumberTuples(vtkAbstractArray* array)
+Outcome NumberTuples(vtkDataArray* array, std::vector<int>& numbers)
 {
-  const vtkIdType size = array->GetNumberOfTuples();
-  const int components = array->GetNumberOfComponents();
-  std::vector<int> numbers(size);
-  if (auto numeric = vtkDataArray::SafeDownCast(array))
+  std::map<std::vector<double>, int> known;
+  std::vector<double> tuple(array->GetNumberOfComponents());
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    std::map<std::vector<double>, int> known;
-    std::vector<double> tuple(components);
-    for (vtkIdType i = 0; i < size; ++i)
+    array->GetTuple(i, tuple.data());
+    if (std::any_of(tuple.begin(), tuple.end(), [](double value) { return std::isnan(value); }))
     {
-      numeric->GetTuple(i, tuple.data());
-      if (std::any_of(tuple.begin(), tuple.end(), [](double value) { return std::isnan(value); }))
-      {
-        throw InputError("The region array \"" + std::string(array->GetName()) +
-          "\" has NaN values: give every cell a region.");
-      }
-      numbers[i] = known.emplace(tuple, static_cast<int>(known.size())).first->second;
+      return Outcome::Failed("The region array \"" + std::string(array->GetName()) +
+        "\" has NaN values: give every cell a region.");
     }
-    return numbers;
+    numbers.push_back(known.emplace(tuple, static_cast<int>(known.size())).first->second);
   }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// The same of arrays that hold no numbers, by their texts.
+std::vector<int> NumberTexts(vtkAbstractArray* array)
+{
+  const int components = array->GetNumberOfComponents();
   std::map<std::vector<std::string>, int> known;
   std::vector<std::string> tuple(components);
-  for (vtkIdType i = 0; i < size; ++i)
+  std::vector<int> numbers;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     for (int j = 0; j < components; ++j)
     {
       tuple[j] = array->GetVariantValue(i * components + j).ToString();
     }
-    numbers[i] = known.emplace(tuple, static_cast<int>(known.size())).first->second;
+    numbers.push_back(known.emplace(tuple, static_cast<int>(known.size())).first->second);
   }
   return numbers;
 }
 
 //------------------------------------------------------------------------------
 // Lengths with a default that depends on the input.
-void CheckLength(const char* name, double length, const char* remedy)
+Outcome CheckLength(const char* name, double length, const char* remedy)
 {
   if (!(length >= 0.0) || !std::isfinite(length))
   {
-    throw InputError(std::string(name) + " is " + std::to_string(length) +
+    return Outcome::Failed(std::string(name) + " is " + std::to_string(length) +
       ": give a positive length, or 0 for " + remedy + ".");
   }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-double ChooseHoleSize(double wanted, const TriangleSoup& soup)
+// Per input cell to per triangle.
+std::vector<int> GetRegionsOfTriangles(const std::vector<int>& regionOfCell,
+  const TriangleSoup& soup)
 {
-  const double partsOfDiagonal = 100.0;
-  return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
-}
-
-//------------------------------------------------------------------------------
-std::string Describe(const SurfaceRepair::Intersections& found,
-  const SurfaceRepair::Intersections& left)
-{
-  std::ostringstream text;
-  text << "The surface intersects itself: " << found.NumberWithin
-       << " pairs of triangles of one connected component do";
-  if (left.NumberWithin < found.NumberWithin)
+  std::vector<int> regions;
+  for (const vtkIdType cell : soup.CellIds)
   {
-    text << ", and " << left.NumberWithin << " of them could not be resolved";
+    regions.push_back(regionOfCell[cell]);
   }
-  text << ", the first near (" << left.Place[0] << ", " << left.Place[1] << ", " << left.Place[2]
-       << "), of the input's cells " << left.CellIds[0] << " and " << left.CellIds[1] << ". ";
-  return text.str();
-}
-
-//------------------------------------------------------------------------------
-void CheckDefects(const TriangleSoup& soup)
-{
-  const std::string defects = soup.DescribeDefects();
-  if (!defects.empty())
-  {
-    throw InputError("The surface has " + defects + ": switch Repair on or repair it first.");
-  }
-}
-
-//------------------------------------------------------------------------------
-double ChooseEdgeLength(double wanted, const TriangleSoup& soup)
-{
-  if (soup.Triangles.empty())
-  {
-    throw InputError("The surface has no area: all its polygons are degenerate or ghost cells.");
-  }
-  const double partsOfDiagonal = 50.0;
-  return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
-}
-
-//------------------------------------------------------------------------------
-void WriteGeometry(const SurfaceRemesher::Result& patches, bool flip, vtkPolyData* output)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(patches.Points.size()));
-  for (std::size_t i = 0; i < patches.Points.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), patches.Points[i].data());
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(patches.Triangles.size()),
-    static_cast<vtkIdType>(3 * patches.Triangles.size()));
-  for (const TriangleSoup::Triangle& triangle : patches.Triangles)
-  {
-    const vtkIdType ids[3] = { static_cast<vtkIdType>(triangle[0]),
-      static_cast<vtkIdType>(triangle[flip ? 2 : 1]),
-      static_cast<vtkIdType>(triangle[flip ? 1 : 2]) };
-    cells->InsertNextCell(3, ids);
-  }
-  output->SetPoints(points);
-  output->SetPolys(cells);
-}
-
-//------------------------------------------------------------------------------
-void WriteCellData(const SurfaceRemesher::Result& patches, const TriangleSoup& soup,
-  vtkCellData* from, vtkCellData* to)
-{
-  const vtkIdType size = static_cast<vtkIdType>(patches.Triangles.size());
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("OriginalCellIds");
-  ids->SetNumberOfTuples(size);
-  to->CopyAllOn();
-  to->CopyAllocate(from, size);
-  for (vtkIdType i = 0; i < size; ++i)
-  {
-    const vtkIdType cell = soup.CellIds[patches.SourcesOfTriangles[i]];
-    to->CopyData(from, cell, i);
-    ids->SetValue(i, cell);
-  }
-  // Several patches come from one cell, so its id is no longer global; and no patch is a ghost.
-  to->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
-  to->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  to->AddArray(ids);
-}
-
-//------------------------------------------------------------------------------
-void WritePointData(const SurfaceRemesher::Result& patches, const TriangleSoup& soup,
-  vtkPointData* from, vtkPointData* to)
-{
-  if (from->GetNumberOfArrays() == 0)
-  {
-    return;
-  }
-  to->CopyNormalsOff();
-  to->CopyTangentsOff();
-  to->CopyTCoordsOff();
-  to->InterpolateAllocate(from, static_cast<vtkIdType>(patches.Points.size()));
-  vtkNew<vtkIdList> ids;
-  ids->SetNumberOfIds(3);
-  for (std::size_t i = 0; i < patches.Points.size(); ++i)
-  {
-    const TriangleSoup::Triangle& source = soup.Triangles[patches.SourcesOfPoints[i]];
-    SourceSurface::Place place = SourceSurface::GetClosest(soup.Points[source[0]],
-      soup.Points[source[1]], soup.Points[source[2]], patches.Points[i]);
-    for (int j = 0; j < 3; ++j)
-    {
-      ids->SetId(j, soup.PointIds[source[j]]);
-    }
-    to->InterpolatePoint(from, static_cast<vtkIdType>(i), ids, place.Weights.data());
-  }
-  to->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-}
-
-//------------------------------------------------------------------------------
-template <typename Array, typename Value>
-void AddSummary(vtkFieldData* fields, const char* name, Value value)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  fields->AddArray(array);
-}
-
-//------------------------------------------------------------------------------
-void WriteSummary(const TriangleSoup& soup, vtkIdType patches, double length, vtkFieldData* to)
-{
-  AddSummary<vtkIdTypeArray>(to, "NumberOfPatches", patches);
-  AddSummary<vtkIdTypeArray>(to, "NumberOfDroppedTriangles", soup.NumberOfDroppedTriangles);
-  AddSummary<vtkIdTypeArray>(to, "NumberOfReversedTriangles", soup.NumberOfReversedTriangles);
-  AddSummary<vtkIdTypeArray>(to, "NumberOfSplitPoints", soup.NumberOfSplitPoints);
-  AddSummary<vtkIdTypeArray>(to, "NumberOfFilledHoles", soup.NumberOfFilledHoles);
-  AddSummary<vtkIdTypeArray>(to, "NumberOfSelfIntersections", soup.NumberOfSelfIntersections);
-  AddSummary<vtkIdTypeArray>(to, "NumberOfIntersectionsBetweenComponents",
-    soup.NumberOfIntersectionsBetweenComponents);
-  AddSummary<vtkDoubleArray>(to, "TargetEdgeLength", length);
+  return regions;
 }
 } // namespace
 
 //------------------------------------------------------------------------------
+// What one run of the filter hands from step to step.
+struct vtkPatchMesher::Job
+{
+  vtkPolyData* Input;
+  vtkPolyData* Output;
+  Monitor Watcher;
+  std::vector<int> RegionOfCell;
+  std::vector<double> LengthOfPoint;
+  TriangleSoup Soup;
+  SurfaceRemesher Remesher;
+  /// The target edge length that was used.
+  double Length = 0.0;
+};
+
+//------------------------------------------------------------------------------
 vtkPatchMesher::vtkPatchMesher()
 {
-  this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS,
-    DEFAULT_REGION_ARRAY);
+  this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, DefaultRegionArray);
   this->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS,
-    DEFAULT_LENGTH_ARRAY);
+    DefaultLengthArray);
 }
 
 //------------------------------------------------------------------------------
@@ -277,173 +163,205 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
 int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData* output = vtkPolyData::GetData(outputs);
-  if (MeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
+  Job job;
+  job.Input = vtkPolyData::GetData(inputs[0]);
+  job.Output = vtkPolyData::GetData(outputs);
+  job.Watcher = MakeFilterMonitor(this);
+  if (MeshingRun::IsEmptyPiece(job.Input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
-  const Advice advice = { "give larger edge lengths", "CGAL could not remesh the surface",
+  const MeshingRun::Advice advice = { "give larger edge lengths",
+    "CGAL could not remesh the surface",
     "try another TargetEdgeLength, or repair the surface first" };
-  const Outcome outcome = Try(advice,
-    [&]()
-    {
-      this->CheckProperties();
-      this->Mesh(input, this->ReadRegions(inputs), this->ReadLengths(inputs), output);
-    });
-  if (!outcome.Done)
+  MeshingRun::Steps steps(advice);
+  steps.Take([&]() { return this->CheckProperties(); });
+  steps.Take([&]() { return this->ReadArrays(inputs, job); });
+  steps.Take([&]() { return this->ReadSurface(job); });
+  steps.Take([&]() { return this->Remesh(job); });
+  steps.Take([&]() { return this->Write(job); });
+  const Outcome& outcome = steps.GetOutcome();
+  if (!outcome)
   {
-    output->Initialize();
+    job.Output->Initialize();
   }
-  if (outcome.Error.empty())
+  if (outcome.HasFailed())
   {
-    return 1;
+    vtkErrorMacro(<< outcome.GetMessage());
+    return 0;
   }
-  vtkErrorMacro(<< outcome.Error);
-  return 0;
+  return 1;
 }
 
 //------------------------------------------------------------------------------
-std::vector<int> vtkPatchMesher::ReadRegions(vtkInformationVector** inputs)
+Outcome vtkPatchMesher::CheckProperties() const
+{
+  const Outcome lengths[] = { CheckLength("TargetEdgeLength", this->TargetEdgeLength,
+                                "the diagonal of the bounding box / 50"),
+    CheckLength("HoleSize", this->HoleSize, "the diagonal of the bounding box / 100"),
+    CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100"),
+    CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10") };
+  for (const Outcome& checked : lengths)
+  {
+    if (!checked)
+    {
+      return checked;
+    }
+  }
+  if (!(this->Grading > 0.0) || !std::isfinite(this->Grading))
+  {
+    return Outcome::Failed(
+      "Grading is " + std::to_string(this->Grading) + ": give a positive number, such as 0.3.");
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkPatchMesher::ReadArrays(vtkInformationVector** inputs, Job& job)
+{
+  if (Outcome read = this->ReadLengths(inputs, job.LengthOfPoint); !read)
+  {
+    return read;
+  }
+  return this->ReadRegions(inputs, job.RegionOfCell);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkPatchMesher::ReadRegions(vtkInformationVector** inputs, std::vector<int>& regions)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   int association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
   vtkAbstractArray* array = this->GetInputAbstractArrayToProcess(0, inputs, association);
   const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  const std::string name = chosen && *chosen ? chosen : DEFAULT_REGION_ARRAY;
-  if (!array && name == DEFAULT_REGION_ARRAY)
+  const std::string name = chosen && *chosen ? chosen : DefaultRegionArray;
+  if (!array && name == DefaultRegionArray)
   {
     // ParaView's empty name comes with the association of points.
     association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
-    array = input->GetCellData()->GetAbstractArray(DEFAULT_REGION_ARRAY);
+    array = input->GetCellData()->GetAbstractArray(DefaultRegionArray);
     if (!array)
     {
-      return std::vector<int>(input->GetNumberOfCells(), 0);
+      regions.assign(input->GetNumberOfCells(), 0);
+      return Outcome::Done();
     }
   }
   if (!array || association != vtkDataObject::FIELD_ASSOCIATION_CELLS)
   {
-    throw InputError("There is no cell array \"" + name +
-      "\" to take the regions from: name a cell array of the input, or \"" + DEFAULT_REGION_ARRAY +
+    return Outcome::Failed("There is no cell array \"" + name +
+      "\" to take the regions from: name a cell array of the input, or \"" + DefaultRegionArray +
       "\", which may be missing.");
   }
-  return NumberTuples(array);
+  if (auto numbers = vtkDataArray::SafeDownCast(array))
+  {
+    return NumberTuples(numbers, regions);
+  }
+  regions = NumberTexts(array);
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchMesher::RepairSurface(TriangleSoup& soup)
-{
-  soup.DropDegenerateTriangles();
-  soup.DropDuplicateTriangles();
-  soup.Orient();
-  Report(this, 0.04);
-
-  const double size = ChooseHoleSize(this->HoleSize, soup);
-  SurfaceRepair surface(soup);
-  // Where a crumb is gone, what else met there can be joined.
-  vtkIdType changes = surface.JoinBorders();
-  const vtkIdType crumbs = surface.DropCrumbs(size);
-  changes += crumbs + surface.JoinBorders();
-  Report(this, 0.05);
-  const vtkIdType holes = this->FillHoles ? surface.FillHoles(size) : 0;
-  const vtkIdType dropped = soup.NumberOfDroppedTriangles + crumbs;
-  if (changes + holes > 0)
-  {
-    surface.Write(soup);
-    // A crack without width has been filled with triangles without area.
-    soup.DropDegenerateTriangles();
-  }
-  soup.NumberOfDroppedTriangles = dropped;
-  soup.NumberOfFilledHoles = holes;
-  Report(this, 0.06);
-}
-
-//------------------------------------------------------------------------------
-void vtkPatchMesher::TreatSelfIntersections(TriangleSoup& soup)
-{
-  SurfaceRepair surface(soup);
-  const SurfaceRepair::Intersections found = surface.FindSelfIntersections();
-  soup.NumberOfSelfIntersections = found.NumberWithin;
-  soup.NumberOfIntersectionsBetweenComponents = found.NumberBetween;
-  Report(this, 0.08);
-  if (found.NumberWithin == 0 || this->SelfIntersections == SELF_INTERSECTIONS_KEEP)
-  {
-    return;
-  }
-  if (!this->Repair || this->SelfIntersections == SELF_INTERSECTIONS_REFUSE)
-  {
-    throw InputError(Describe(found, found) +
-      "Set SelfIntersections to Resolve (with Repair on) or Keep, or repair the surface first.");
-  }
-  const auto stop = [this]()
-  {
-    this->UpdateProgress(0.08);
-    return AbortCheck::IsAborted(this);
-  };
-  const SurfaceRepair::Intersections left =
-    surface.ResolveSelfIntersections(ChooseHoleSize(this->HoleSize, soup), stop);
-  Report(this, 0.1);
-  if (left.NumberWithin > 0)
-  {
-    throw InputError(Describe(found, left) +
-      "Set SelfIntersections to Keep, give a larger HoleSize, or repair the surface first.");
-  }
-  surface.Write(soup);
-}
-
-//------------------------------------------------------------------------------
-std::vector<double> vtkPatchMesher::ReadLengths(vtkInformationVector** inputs)
+Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<double>& lengths)
 {
   if (this->SizeField != SIZE_FIELD_ARRAY)
   {
-    return {};
+    return Outcome::Done();
   }
   int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
   vtkDataArray* array =
     vtkDataArray::SafeDownCast(this->GetInputAbstractArrayToProcess(1, inputs, association));
   const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
-  const std::string name = chosen && *chosen ? chosen : DEFAULT_LENGTH_ARRAY;
+  const std::string name = chosen && *chosen ? chosen : DefaultLengthArray;
   if (!chosen || !*chosen)
   {
     association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-    array = vtkPolyData::GetData(inputs[0])->GetPointData()->GetArray(DEFAULT_LENGTH_ARRAY);
+    array = vtkPolyData::GetData(inputs[0])->GetPointData()->GetArray(DefaultLengthArray);
   }
   if (!array || association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
-    throw InputError("There is no numeric point array \"" + name +
+    return Outcome::Failed("There is no numeric point array \"" + name +
       "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature.");
   }
-  return SizedRemeshing::ReadLengths(array);
+  return SizedRemeshing::ReadLengths(array, lengths);
 }
 
 //------------------------------------------------------------------------------
-void vtkPatchMesher::CheckProperties()
+Outcome vtkPatchMesher::ReadSurface(Job& job) const
 {
-  CheckLength("TargetEdgeLength", this->TargetEdgeLength, "the diagonal of the bounding box / 50");
-  CheckLength("HoleSize", this->HoleSize, "the diagonal of the bounding box / 100");
-  CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100");
-  CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10");
-  if (!(this->Grading > 0.0) || !std::isfinite(this->Grading))
+  if (Outcome read = job.Soup.Read(job.Input); !read)
   {
-    throw InputError(
-      "Grading is " + std::to_string(this->Grading) + ": give a positive number, such as 0.3.");
+    return read;
   }
+  if (!job.Watcher.Report(0.02))
+  {
+    return Outcome::Aborted();
+  }
+  const SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
+    static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
+  return SurfaceRepair::Run(settings, job.Watcher.GetStage(0.02, 0.1), job.Soup);
 }
 
 //------------------------------------------------------------------------------
-SizedRemeshing::Settings vtkPatchMesher::GetSettings(const TriangleSoup& soup,
-  const std::vector<double>& lengthOfPoint)
+Outcome vtkPatchMesher::Remesh(Job& job) const
 {
-  const double length = ChooseEdgeLength(this->TargetEdgeLength, soup);
+  SizedRemeshing::Settings settings;
+  if (Outcome chosen = this->ChooseSettings(job, settings); !chosen)
+  {
+    return chosen;
+  }
+  if (!job.Remesher.Build(job.Soup, GetRegionsOfTriangles(job.RegionOfCell, job.Soup),
+        this->FeatureAngle))
+  {
+    return Outcome::Failed("The surface is not a manifold, even after the repair: split it first.");
+  }
+  return SizedRemeshing::Remesh(job.Remesher, job.Soup, settings, job.Watcher.GetStage(0.1, 0.85),
+    job.Length);
+}
+
+//------------------------------------------------------------------------------
+// Fill in the defaults that depend on the surface.
+Outcome vtkPatchMesher::ChooseSettings(const Job& job, SizedRemeshing::Settings& settings) const
+{
+  if (job.Soup.Triangles.empty())
+  {
+    return Outcome::Failed(
+      "The surface has no area: all its polygons are degenerate or ghost cells.");
+  }
+  const double partsOfDiagonal = 50.0;
+  const double length = this->TargetEdgeLength > 0.0 ? this->TargetEdgeLength
+                                                     : job.Soup.GetDiagonal() / partsOfDiagonal;
   const double shortest = this->MinimumEdgeLength > 0.0 ? this->MinimumEdgeLength : 0.1 * length;
   const double error = this->ApproximationError > 0.0 ? this->ApproximationError : 0.01 * length;
   if (shortest > length)
   {
-    throw InputError("MinimumEdgeLength " + std::to_string(shortest) +
+    return Outcome::Failed("MinimumEdgeLength " + std::to_string(shortest) +
       " is larger than TargetEdgeLength " + std::to_string(length) + ": give a smaller one.");
   }
-  return { this->SizeField, length, shortest, error, this->Grading, this->CoarsePlanarRegions,
-    this->TargetNumberOfPatches, this->NumberOfIterations, lengthOfPoint };
+  settings = { static_cast<SizedRemeshing::LengthSource>(this->SizeField), length, shortest, error,
+    this->Grading, this->CoarsePlanarRegions, this->TargetNumberOfPatches, this->NumberOfIterations,
+    job.LengthOfPoint };
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkPatchMesher::Write(const Job& job)
+{
+  if (!job.Watcher.Report(0.85))
+  {
+    return Outcome::Aborted();
+  }
+  const SurfaceRemesher::Result patches = job.Remesher.GetResult();
+  const PatchOutput writer(job.Input, job.Soup, patches);
+  writer.WriteGeometry(this->FlipNormals, job.Output);
+  writer.WriteCellData(job.Output);
+  if (!job.Watcher.Report(0.95))
+  {
+    return Outcome::Aborted();
+  }
+  writer.WritePointData(job.Output);
+  writer.WriteSummary(job.Length, job.Output);
+  this->CheckNumberOfPatches(job.Output->GetNumberOfCells());
+  job.Watcher.Report(1.0);
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -456,47 +374,4 @@ void vtkPatchMesher::CheckNumberOfPatches(vtkIdType number)
                     << ", for the edges to keep allow no other number: ask for more patches, or "
                        "give a larger FeatureAngle.");
   }
-}
-
-//------------------------------------------------------------------------------
-void vtkPatchMesher::Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
-  const std::vector<double>& lengthOfPoint, vtkPolyData* output)
-{
-  TriangleSoup soup;
-  soup.Read(input);
-  Report(this, 0.02);
-  if (this->Repair)
-  {
-    this->RepairSurface(soup);
-  }
-  else
-  {
-    CheckDefects(soup);
-  }
-  this->TreatSelfIntersections(soup);
-  Report(this, 0.1);
-
-  std::vector<int> regions;
-  for (const vtkIdType cell : soup.CellIds)
-  {
-    regions.push_back(regionOfCell[cell]);
-  }
-  const SizedRemeshing::Settings settings = this->GetSettings(soup, lengthOfPoint);
-  SurfaceRemesher remesher;
-  if (!remesher.Build(soup, regions, this->FeatureAngle))
-  {
-    throw InputError("The surface is not a manifold, even after the repair: split it first.");
-  }
-  const double length = SizedRemeshing::Remesh(remesher, soup, settings,
-    [this](double fraction) { Report(this, 0.1 + 0.75 * fraction); });
-  Report(this, 0.85);
-
-  const SurfaceRemesher::Result patches = remesher.GetResult();
-  WriteGeometry(patches, this->FlipNormals, output);
-  WriteCellData(patches, soup, input->GetCellData(), output->GetCellData());
-  Report(this, 0.95);
-  WritePointData(patches, soup, input->GetPointData(), output->GetPointData());
-  WriteSummary(soup, output->GetNumberOfCells(), length, output->GetFieldData());
-  this->CheckNumberOfPatches(output->GetNumberOfCells());
-  this->UpdateProgress(1.0);
 }

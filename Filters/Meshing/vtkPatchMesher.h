@@ -66,7 +66,7 @@
 
 namespace LightTransport
 {
-class TriangleSoup;
+class Outcome;
 namespace SizedRemeshing
 {
 struct Settings;
@@ -279,18 +279,20 @@ private:
   vtkPatchMesher(const vtkPatchMesher&) = delete;
   void operator=(const vtkPatchMesher&) = delete;
 
+  struct Job;
+
+  LightTransport::Outcome CheckProperties() const;
+  LightTransport::Outcome ReadArrays(vtkInformationVector** inputs, Job& job);
   /// One number per input cell, equal for cells of the same region.
-  std::vector<int> ReadRegions(vtkInformationVector** inputs);
+  LightTransport::Outcome ReadRegions(vtkInformationVector** inputs, std::vector<int>& regions);
   /// One length per input point if the size field is an array, else none.
-  std::vector<double> ReadLengths(vtkInformationVector** inputs);
-  void RepairSurface(LightTransport::TriangleSoup& soup);
-  void TreatSelfIntersections(LightTransport::TriangleSoup& soup);
-  void CheckProperties();
-  LightTransport::SizedRemeshing::Settings GetSettings(const LightTransport::TriangleSoup& soup,
-    const std::vector<double>& lengthOfPoint);
+  LightTransport::Outcome ReadLengths(vtkInformationVector** inputs, std::vector<double>& lengths);
+  LightTransport::Outcome ReadSurface(Job& job) const;
+  LightTransport::Outcome Remesh(Job& job) const;
+  LightTransport::Outcome ChooseSettings(const Job& job,
+    LightTransport::SizedRemeshing::Settings& settings) const;
+  LightTransport::Outcome Write(const Job& job);
   void CheckNumberOfPatches(vtkIdType number);
-  void Mesh(vtkPolyData* input, const std::vector<int>& regionOfCell,
-    const std::vector<double>& lengthOfPoint, vtkPolyData* output);
 };
 
 #endif

@@ -8,15 +8,16 @@
 #include "Atlas/AtlasSurface.h"
 #include "Atlas/TexelMaps.h"
 #include "Common/MeshingRun.h"
+#include "Common/TriangleSoup.h"
+#include "Shared/ArrayNames.h"
+#include "Shared/FieldValues.h"
+#include "Shared/FilterMonitor.h"
 
 #include "vtkDataObject.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -26,7 +27,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 
 using namespace LightTransport;
 
@@ -34,71 +37,62 @@ vtkStandardNewMacro(vtkSurfaceAtlas);
 
 namespace
 {
-using MeshingRun::Advice;
-using MeshingRun::InputError;
-using MeshingRun::Outcome;
-using MeshingRun::Report;
-using MeshingRun::Try;
-
-constexpr int LARGEST_RESOLUTION = 16384;
+constexpr int LargestResolution = 16384;
 
 //------------------------------------------------------------------------------
 // Points with equal coordinates are one, unless only their being apart makes the surface a
 // manifold, as where vtkPatchMesher split it.
-TriangleSoup ReadSurface(vtkPolyData* input)
+Outcome ReadSurface(vtkPolyData* input, TriangleSoup& soup)
 {
-  TriangleSoup merged;
-  merged.Read(input);
-  if (merged.DescribeDefects().empty())
+  if (Outcome read = soup.Read(input); !read)
   {
-    return merged;
+    return read;
+  }
+  if (soup.DescribeDefects().empty())
+  {
+    return Outcome::Done();
   }
   TriangleSoup apart;
-  apart.Read(input, false);
-  return apart.DescribeDefects().empty() ? apart : merged;
+  Outcome read = apart.Read(input, false);
+  if (read && apart.DescribeDefects().empty())
+  {
+    soup = std::move(apart);
+  }
+  return read;
 }
 
 //------------------------------------------------------------------------------
-void CheckSurface(const TriangleSoup& soup)
+Outcome CheckSurface(const TriangleSoup& soup)
 {
   if (soup.Triangles.empty())
   {
-    throw InputError("The surface has no area: all its polygons are degenerate or ghost cells.");
+    return Outcome::Failed(
+      "The surface has no area: all its polygons are degenerate or ghost cells.");
   }
   const std::string defects = soup.DescribeDefects();
-  if (!defects.empty())
-  {
-    throw InputError("The surface has " + defects + ": pass it through vtkPatchMesher first.");
-  }
-}
-
-//------------------------------------------------------------------------------
-template <typename Array, typename Value>
-void AddValue(vtkPolyData* output, const char* name, Value value)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
+  return defects.empty()
+    ? Outcome::Done()
+    : Outcome::Failed("The surface has " + defects + ": pass it through vtkPatchMesher first.");
 }
 
 //------------------------------------------------------------------------------
 void WriteMetrics(const AtlasQuadtree& quadtree, vtkPolyData* output)
 {
   const AtlasMetrics metrics(output, output->GetPointData()->GetTCoords());
-  AddValue<vtkDoubleArray>(output, "L2Stretch", metrics.L2Stretch);
-  AddValue<vtkDoubleArray>(output, "LInfinityStretch", metrics.LInfinityStretch);
-  AddValue<vtkDoubleArray>(output, "AreaDistortion", metrics.AreaDistortion);
-  AddValue<vtkDoubleArray>(output, "TexelUse", metrics.TexelUse);
+  vtkFieldData* fields = output->GetFieldData();
+  FieldValues::Add(fields, "L2Stretch", metrics.L2Stretch);
+  FieldValues::Add(fields, "LInfinityStretch", metrics.LInfinityStretch);
+  FieldValues::Add(fields, "AreaDistortion", metrics.AreaDistortion);
+  FieldValues::Add(fields, "TexelUse", metrics.TexelUse);
   int smallestBlock = quadtree.GetNodes().front().Size;
   for (const AtlasQuadtree::Chart& chart : quadtree.GetCharts())
   {
     smallestBlock = std::min(smallestBlock, quadtree.GetNodes()[chart.Node].Size);
   }
-  AddValue<vtkIntArray>(output, "DeepestLeakFreeLevel", std::ilogb(smallestBlock));
-  AddValue<vtkIntArray>(output, "NumberOfCharts", static_cast<int>(quadtree.GetCharts().size()));
+  FieldValues::AddAs<vtkIntArray>(fields, "DeepestLeakFreeLevel", { std::ilogb(smallestBlock) });
+  FieldValues::AddAs<vtkIntArray>(fields, "NumberOfCharts",
+    { static_cast<int>(quadtree.GetCharts().size()) });
 }
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -151,79 +145,107 @@ int vtkSurfaceAtlas::RequestInformation(vtkInformation*, vtkInformationVector**,
 }
 
 //------------------------------------------------------------------------------
+// What one run of the filter hands from step to step.
+struct vtkSurfaceAtlas::Job
+{
+  vtkPolyData* Input;
+  vtkPolyData* Output;
+  vtkTable* Charts;
+  vtkImageData* Maps;
+  Monitor Watcher;
+  double Start = vtkTimerLog::GetUniversalTime();
+  TriangleSoup Soup;
+  std::unique_ptr<AtlasSurface> Surface;
+  std::unique_ptr<AtlasQuadtree> Quadtree;
+};
+
+//------------------------------------------------------------------------------
 int vtkSurfaceAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData* surface = vtkPolyData::GetData(outputs, 0);
-  vtkTable* charts = vtkTable::GetData(outputs, 1);
-  vtkImageData* maps = vtkImageData::GetData(outputs, 2);
-  if (MeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
+  Job job;
+  job.Input = vtkPolyData::GetData(inputs[0]);
+  job.Output = vtkPolyData::GetData(outputs, 0);
+  job.Charts = vtkTable::GetData(outputs, 1);
+  job.Maps = vtkImageData::GetData(outputs, 2);
+  job.Watcher = MakeFilterMonitor(this);
+  if (MeshingRun::IsEmptyPiece(job.Input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
-  const Advice advice = { "give a smaller Resolution, or a surface of fewer triangles",
+  const MeshingRun::Advice advice = { "give a smaller Resolution, or a surface of fewer triangles",
     "The surface could not be unfolded", "pass it through vtkPatchMesher first" };
-  const Outcome outcome = Try(advice,
-    [&]()
-    {
-      this->CheckProperties();
-      this->Unfold(input, surface, charts, maps);
-    });
-  if (!outcome.Done)
+  MeshingRun::Steps steps(advice);
+  steps.Take([&]() { return this->CheckProperties(); });
+  steps.Take([&]() { return ReadSurface(job.Input, job.Soup); });
+  steps.Take([&]() { return CheckSurface(job.Soup); });
+  steps.Take([&]() { return this->Unfold(job); });
+  steps.Take([&]() { return this->Write(job); });
+  const Outcome& outcome = steps.GetOutcome();
+  if (!outcome)
   {
-    surface->Initialize();
-    charts->Initialize();
-    maps->Initialize();
+    job.Output->Initialize();
+    job.Charts->Initialize();
+    job.Maps->Initialize();
   }
-  if (outcome.Error.empty())
+  if (outcome.HasFailed())
   {
-    return 1;
+    vtkErrorMacro(<< outcome.GetMessage());
+    return 0;
   }
-  vtkErrorMacro(<< outcome.Error);
-  return 0;
+  return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceAtlas::CheckProperties()
+Outcome vtkSurfaceAtlas::CheckProperties() const
 {
   const int side = this->Resolution;
-  if (side < 1 || side > LARGEST_RESOLUTION || (side & (side - 1)) != 0)
+  if (side < 1 || side > LargestResolution || (side & (side - 1)) != 0)
   {
-    throw InputError("Resolution is " + std::to_string(side) + ": give a power of two up to " +
-      std::to_string(LARGEST_RESOLUTION) + ".");
+    return Outcome::Failed("Resolution is " + std::to_string(side) +
+      ": give a power of two up to " + std::to_string(LargestResolution) + ".");
   }
   if (!(this->MaximumStretch > 1.0))
   {
-    throw InputError("MaximumStretch is " + std::to_string(this->MaximumStretch) +
+    return Outcome::Failed("MaximumStretch is " + std::to_string(this->MaximumStretch) +
       ": give a number above 1, the stretch of a map that keeps lengths.");
   }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceAtlas::Unfold(vtkPolyData* input, vtkPolyData* output, vtkTable* charts,
-  vtkImageData* maps)
+Outcome vtkSurfaceAtlas::Unfold(Job& job) const
 {
-  const double start = vtkTimerLog::GetUniversalTime();
-  const TriangleSoup soup = ReadSurface(input);
-  CheckSurface(soup);
-  Report(this, 0.05);
-  const AtlasSurface surface(soup);
-  const AtlasQuadtree quadtree(surface, this->Resolution, this->MaximumStretch,
-    [this](double done) { Report(this, 0.05 + 0.8 * done); });
+  if (!job.Watcher.Report(0.05))
+  {
+    return Outcome::Aborted();
+  }
+  job.Surface = std::make_unique<AtlasSurface>(job.Soup);
+  job.Quadtree =
+    std::make_unique<AtlasQuadtree>(*job.Surface, this->Resolution, this->MaximumStretch);
+  return job.Quadtree->Build(job.Watcher.GetStage(0.05, 0.85));
+}
 
-  const AtlasOutput writer(input, soup, surface, quadtree);
-  writer.WriteSurface(output);
-  writer.WriteTable(charts);
-  Report(this, 0.9);
-  AddValue<vtkIntArray>(output, GetResolutionArrayName(), this->Resolution);
-  WriteMetrics(quadtree, output);
+//------------------------------------------------------------------------------
+Outcome vtkSurfaceAtlas::Write(const Job& job) const
+{
+  const AtlasOutput writer(job.Input, job.Soup, *job.Surface, *job.Quadtree);
+  writer.WriteSurface(job.Output);
+  writer.WriteTable(job.Charts);
+  if (!job.Watcher.Report(0.9))
+  {
+    return Outcome::Aborted();
+  }
+  vtkFieldData* fields = job.Output->GetFieldData();
+  FieldValues::AddAs<vtkIntArray>(fields, ArrayNames::AtlasResolution, { this->Resolution });
+  WriteMetrics(*job.Quadtree, job.Output);
   const double unfolded = vtkTimerLog::GetUniversalTime();
   if (this->TexelMaps)
   {
-    TexelMaps::Make(output, this->Resolution, maps);
+    TexelMaps::Make(job.Output, this->Resolution, job.Maps);
   }
-  AddValue<vtkDoubleArray>(output, "AtlasSeconds", unfolded - start);
-  AddValue<vtkDoubleArray>(output, "TexelMapSeconds", vtkTimerLog::GetUniversalTime() - unfolded);
-  this->UpdateProgress(1.0);
+  FieldValues::Add(fields, "AtlasSeconds", unfolded - job.Start);
+  FieldValues::Add(fields, "TexelMapSeconds", vtkTimerLog::GetUniversalTime() - unfolded);
+  job.Watcher.Report(1.0);
+  return Outcome::Done();
 }

@@ -69,6 +69,10 @@
 #include "vtkLightTransportMeshingModule.h" // for export macro
 #include "vtkPolyDataAlgorithm.h"
 
+namespace LightTransport
+{
+class Outcome;
+}
 class vtkImageData;
 class vtkTable;
 
@@ -127,8 +131,11 @@ private:
   vtkSurfaceAtlas(const vtkSurfaceAtlas&) = delete;
   void operator=(const vtkSurfaceAtlas&) = delete;
 
-  void CheckProperties();
-  void Unfold(vtkPolyData* input, vtkPolyData* output, vtkTable* charts, vtkImageData* maps);
+  struct Job;
+
+  LightTransport::Outcome CheckProperties() const;
+  LightTransport::Outcome Unfold(Job& job) const;
+  LightTransport::Outcome Write(const Job& job) const;
 
   int Resolution = 512;
   double MaximumStretch = 1.2;

@@ -5,6 +5,8 @@
 #include "Atlas/TexelMaps.h"
 #include "Atlas/TexelPieces.h"
 #include "Common/MeshingRun.h"
+#include "Shared/ArrayNames.h"
+#include "Shared/FilterMonitor.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -27,12 +29,6 @@ vtkStandardNewMacro(vtkSurfaceToAtlas);
 
 namespace
 {
-using MeshingRun::Advice;
-using MeshingRun::InputError;
-using MeshingRun::Outcome;
-using MeshingRun::Report;
-using MeshingRun::Try;
-
 //------------------------------------------------------------------------------
 // 0 when neither the property nor the surface says it.
 int ChooseResolution(int wanted, vtkPolyData* surface)
@@ -41,17 +37,27 @@ int ChooseResolution(int wanted, vtkPolyData* surface)
   {
     return wanted;
   }
-  vtkDataArray* made = surface->GetFieldData()->GetArray("AtlasResolution");
+  vtkDataArray* made = surface->GetFieldData()->GetArray(ArrayNames::AtlasResolution);
   const bool known = made && made->GetNumberOfValues() == 1;
   return known ? static_cast<int>(made->GetComponent(0, 0)) : 0;
+}
+
+//------------------------------------------------------------------------------
+Outcome CheckResolution(int resolution)
+{
+  return resolution != 0
+    ? Outcome::Done()
+    : Outcome::Failed("The surface has no field data array \"AtlasResolution\" that says how many "
+                      "texels a side its atlas is made for: set Resolution.");
 }
 
 //------------------------------------------------------------------------------
 // Whether a mean of the array's values says anything.
 bool HasMeans(vtkDataSetAttributes* data, int index)
 {
-  static const std::set<std::string> skipped = { "AtlasCoordinates", "OriginalCellIds",
-    "OriginalPointIds", vtkDataSetAttributes::GhostArrayName() };
+  static const std::set<std::string> skipped = { ArrayNames::AtlasCoordinates,
+    ArrayNames::OriginalCellIds, ArrayNames::OriginalPointIds,
+    vtkDataSetAttributes::GhostArrayName() };
   vtkDataArray* array = data->GetArray(index);
   if (!array || !array->GetName())
   {
@@ -82,6 +88,13 @@ std::vector<TexelMaps::Source> GetSources(vtkPolyData* surface)
   add(surface->GetCellData(), false);
   add(surface->GetPointData(), true);
   return sources;
+}
+
+//------------------------------------------------------------------------------
+Outcome MakeMaps(vtkPolyData* surface, int resolution, vtkImageData* maps)
+{
+  TexelMaps::Make(surface, resolution, maps, GetSources(surface));
+  return Outcome::Done();
 }
 } // namespace
 
@@ -132,31 +145,25 @@ int vtkSurfaceToAtlas::RequestData(vtkInformation*, vtkInformationVector** input
 {
   vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
   vtkImageData* maps = vtkImageData::GetData(outputs);
-  const Advice advice = { "set a smaller Resolution", "The texel maps could not be made",
-    "make the atlas again with vtkSurfaceAtlas" };
-  const Outcome outcome = Try(advice,
-    [&]()
-    {
-      const int resolution = ChooseResolution(this->Resolution, surface);
-      if (resolution == 0)
-      {
-        throw InputError(
-          "The surface has no field data array \"AtlasResolution\" that says how many "
-          "texels a side its atlas is made for: set Resolution.");
-      }
-      TexelPieces::Check(surface, resolution);
-      Report(this, 0.1);
-      TexelMaps::Make(surface, resolution, maps, GetSources(surface));
-      Report(this, 1.0);
-    });
-  if (!outcome.Done)
+  const int resolution = ChooseResolution(this->Resolution, surface);
+  const Monitor monitor = MakeFilterMonitor(this);
+  const MeshingRun::Advice advice = { "set a smaller Resolution",
+    "The texel maps could not be made", "make the atlas again with vtkSurfaceAtlas" };
+  MeshingRun::Steps steps(advice);
+  steps.Take([&]() { return CheckResolution(resolution); });
+  steps.Take([&]() { return TexelPieces::Check(surface, resolution); });
+  steps.Take([&]() { return monitor.Check(0.1); });
+  steps.Take([&]() { return MakeMaps(surface, resolution, maps); });
+  steps.Take([&]() { return monitor.Check(1.0); });
+  const Outcome& outcome = steps.GetOutcome();
+  if (!outcome)
   {
     maps->Initialize();
   }
-  if (outcome.Error.empty())
+  if (outcome.HasFailed())
   {
-    return 1;
+    vtkErrorMacro(<< outcome.GetMessage());
+    return 0;
   }
-  vtkErrorMacro(<< outcome.Error);
-  return 0;
+  return 1;
 }

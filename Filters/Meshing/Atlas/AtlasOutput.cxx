@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/AtlasOutput.h"
 
-#include "vtkSurfaceAtlas.h"
+#include "Shared/ArrayNames.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -74,11 +74,11 @@ AtlasOutput::SurfaceWriter::SurfaceWriter(const AtlasOutput& parts, vtkPolyData*
   : Parts(parts), Output(output)
 {
   this->Points->SetDataTypeToDouble();
-  this->Coordinates->SetName(vtkSurfaceAtlas::GetCoordinatesArrayName());
+  this->Coordinates->SetName(ArrayNames::AtlasCoordinates);
   this->Coordinates->SetNumberOfComponents(2);
-  this->OriginalPoints->SetName("OriginalPointIds");
-  this->OriginalCells->SetName("OriginalCellIds");
-  this->Charts->SetName(vtkSurfaceAtlas::GetChartArrayName());
+  this->OriginalPoints->SetName(ArrayNames::OriginalPointIds);
+  this->OriginalCells->SetName(ArrayNames::OriginalCellIds);
+  this->Charts->SetName(ArrayNames::ChartId);
   const auto faces = static_cast<vtkIdType>(parts.Surface.Triangles.size());
   this->Cells->AllocateEstimate(faces, 3);
   output->GetCellData()->CopyAllOn();

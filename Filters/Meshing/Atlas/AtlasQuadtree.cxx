@@ -4,7 +4,6 @@
 
 #include "Atlas/ChartDisc.h"
 #include "Atlas/SurfaceBisection.h"
-#include "Common/MeshingRun.h"
 #include "Shared/Threads.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -19,7 +18,6 @@ namespace LightTransport
 {
 namespace
 {
-using MeshingRun::InputError;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 // Stretch is no reason to divide a block that is this small or a piece of so few faces: what is
@@ -71,8 +69,7 @@ void ForEach(std::size_t size, const Work& work)
 } // namespace
 
 //------------------------------------------------------------------------------
-AtlasQuadtree::AtlasQuadtree(const AtlasSurface& surface, int resolution, double maximumStretch,
-  const Monitor& monitor)
+AtlasQuadtree::AtlasQuadtree(const AtlasSurface& surface, int resolution, double maximumStretch)
   : Surface(surface), Resolution(resolution), MaximumStretch(maximumStretch), Nodes(1),
     Owners(surface.GetNumberOfFaces(), 0), Local(surface.GetNumberOfFaces()), NumberOfPieces(1)
 {
@@ -81,26 +78,41 @@ AtlasQuadtree::AtlasQuadtree(const AtlasSurface& surface, int resolution, double
   root.Area = surface.Area;
   root.Faces.resize(surface.GetNumberOfFaces());
   std::iota(root.Faces.begin(), root.Faces.end(), 0);
+}
 
+//------------------------------------------------------------------------------
+Outcome AtlasQuadtree::Build(const Monitor& monitor)
+{
   std::vector<int> level(1, 0);
   double done = 0.0;
   while (!level.empty())
   {
-    monitor(std::min(1.0, done / surface.Area));
+    if (!monitor.Report(done / this->Surface.Area))
+    {
+      return Outcome::Aborted();
+    }
     const std::size_t first = this->Charts.size();
-    const std::vector<int> divided = this->FindNodesToDivide(level);
+    std::vector<int> divided;
+    if (Outcome found = this->FindNodesToDivide(level, divided); !found)
+    {
+      return found;
+    }
     for (std::size_t chart = first; chart < this->Charts.size(); ++chart)
     {
       done += this->Nodes[this->Charts[chart].Node].Area;
     }
-    monitor(std::min(1.0, done / surface.Area));
+    if (!monitor.Report(done / this->Surface.Area))
+    {
+      return Outcome::Aborted();
+    }
     level = this->Divide(divided);
   }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-// Make charts of the nodes that can be charts, and return the others.
-std::vector<int> AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level)
+// Make charts of the nodes that can be charts, and find the others.
+Outcome AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level, std::vector<int>& others)
 {
   std::vector<Chart> charts(level.size());
   std::vector<char> made(level.size(), 0);
@@ -109,7 +121,6 @@ std::vector<int> AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level)
     [&](std::size_t i)
     { made[i] = this->MakeChart(this->Nodes[level[i]], charts[i], problems[i]); });
 
-  std::vector<int> others;
   for (std::size_t i = 0; i < level.size(); ++i)
   {
     Node& node = this->Nodes[level[i]];
@@ -126,14 +137,14 @@ std::vector<int> AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level)
       text << "Resolution " << this->Resolution << " leaves no texels for the surface near ("
            << center[0] << ", " << center[1] << ", " << center[2] << "), where " << problems[i]
            << ": double the Resolution, or remove such parts.";
-      throw InputError(text.str());
+      return Outcome::Failed(text.str());
     }
     else
     {
       others.push_back(level[i]);
     }
   }
-  return others;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

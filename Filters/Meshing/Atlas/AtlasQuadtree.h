@@ -12,9 +12,10 @@
 
 #include "Atlas/AtlasSurface.h"
 #include "Atlas/SquareMap.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,12 +47,12 @@ public:
     double L2Stretch = 0.0;
   };
 
-  /// Told the share of the surface that is done; throws to stop.
-  using Monitor = std::function<void(double)>;
+  /// The surface must outlive the tree; `resolution` is a power of two.
+  AtlasQuadtree(const AtlasSurface& surface, int resolution, double maximumStretch);
 
-  /// Throws MeshingRun::InputError when `resolution`, a power of two, is too small.
-  AtlasQuadtree(const AtlasSurface& surface, int resolution, double maximumStretch,
-    const Monitor& monitor);
+  /// Divide the surface until all leaves are charts. Fails when the resolution is too small. The
+  /// monitor hears the share of the surface that is done.
+  Outcome Build(const Monitor& monitor);
 
   /// Parents come before their children.
   const std::vector<Node>& GetNodes() const { return this->Nodes; }
@@ -67,7 +68,7 @@ private:
     bool IsLast;
   };
 
-  std::vector<int> FindNodesToDivide(const std::vector<int>& level);
+  Outcome FindNodesToDivide(const std::vector<int>& level, std::vector<int>& others);
   bool MakeChart(const Node& node, Chart& chart, std::string& problem);
   bool Place(const Node& node, const SquareMap& map, Chart& chart) const;
   bool IsFlatEnough(const std::vector<int>& faces) const;

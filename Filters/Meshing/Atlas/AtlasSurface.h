@@ -8,7 +8,7 @@
 #ifndef AtlasSurface_h
 #define AtlasSurface_h
 
-#include "Mesher/TriangleSoup.h"
+#include "Common/TriangleSoup.h"
 
 #include <Eigen/Core>
 

@@ -13,7 +13,7 @@
 #ifndef SquareMap_h
 #define SquareMap_h
 
-#include "Mesher/TriangleSoup.h"
+#include "Common/TriangleSoup.h"
 
 #include <array>
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include "Atlas/TexelMaps.h"
 
 #include "Atlas/TexelPieces.h"
+#include "Shared/ArrayNames.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -22,11 +23,6 @@ namespace LightTransport
 {
 namespace
 {
-const char* const POSITION = "Position";
-const char* const NORMAL = "Normal";
-const char* const AREA = "Area";
-const char* const CHART = "ChartId";
-
 using Triangle = std::array<vtkIdType, 3>;
 
 // The means of one array over all texels, as the pieces seen so far make them.
@@ -149,16 +145,17 @@ void TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
   MakeGrid(resolution, maps);
   const vtkSmartPointer<vtkDoubleArray> normals = MakeNormals(surface);
   std::vector<Mean> means;
-  means.emplace_back(TexelMaps::Source{ surface->GetPoints()->GetData(), true }, POSITION, maps);
-  means.emplace_back(TexelMaps::Source{ normals, false }, NORMAL, maps);
+  means.emplace_back(TexelMaps::Source{ surface->GetPoints()->GetData(), true },
+    ArrayNames::TexelPosition, maps);
+  means.emplace_back(TexelMaps::Source{ normals, false }, ArrayNames::TexelNormal, maps);
   for (const Source& source : sources)
   {
     means.emplace_back(source, source.Array->GetName(), maps);
   }
-  const auto areas = AddMap<vtkDoubleArray>(AREA, 0.0, maps);
-  const auto charts = AddMap<vtkIntArray>(CHART, -1, maps);
+  const auto areas = AddMap<vtkDoubleArray>(ArrayNames::TexelArea, 0.0, maps);
+  const auto charts = AddMap<vtkIntArray>(ArrayNames::ChartId, -1, maps);
 
-  vtkDataArray* chartOfCell = surface->GetCellData()->GetArray(CHART);
+  vtkDataArray* chartOfCell = surface->GetCellData()->GetArray(ArrayNames::ChartId);
   vtkIdType cell = -1;
   int chart = 0;
   TexelPieces::Visit(surface, resolution,
@@ -182,12 +179,13 @@ void TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
       }
       charts->SetValue(piece.Texel, chart);
     });
-  Normalize(maps->GetPointData()->GetArray(NORMAL));
+  Normalize(maps->GetPointData()->GetArray(ArrayNames::TexelNormal));
 }
 
 //------------------------------------------------------------------------------
 bool TexelMaps::IsTexelMap(const std::string& name)
 {
-  return name == POSITION || name == NORMAL || name == AREA || name == CHART;
+  return name == ArrayNames::TexelPosition || name == ArrayNames::TexelNormal ||
+    name == ArrayNames::TexelArea || name == ArrayNames::ChartId;
 }
 } // namespace LightTransport

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/TexelPieces.h"
 
-#include "Common/MeshingRun.h"
+#include "Shared/ArrayNames.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -24,14 +24,12 @@ namespace LightTransport
 {
 namespace
 {
-using MeshingRun::InputError;
-
 using Triangle = std::array<vtkIdType, 3>;
 
 //------------------------------------------------------------------------------
 vtkDataArray* GetCoordinates(vtkPolyData* surface)
 {
-  vtkDataArray* coordinates = surface->GetPointData()->GetArray("AtlasCoordinates");
+  vtkDataArray* coordinates = surface->GetPointData()->GetArray(ArrayNames::AtlasCoordinates);
   return coordinates ? coordinates : surface->GetPointData()->GetTCoords();
 }
 
@@ -50,63 +48,76 @@ void ForEachTriangle(vtkPolyData* surface, Function&& function)
 }
 
 //------------------------------------------------------------------------------
-void CheckCells(vtkPolyData* surface)
+Outcome CheckCells(vtkPolyData* surface)
 {
   vtkCellArray* cells = surface->GetPolys();
   const vtkIdType size = cells->GetNumberOfCells();
   if (size == 0)
   {
-    throw InputError("The surface has no triangles: give it the output of vtkSurfaceAtlas.");
+    return Outcome::Failed("The surface has no triangles: give it the output of vtkSurfaceAtlas.");
   }
   for (vtkIdType cell = 0; cell < size; ++cell)
   {
     if (cells->GetCellSize(cell) != 3)
     {
-      throw InputError("Cell " + std::to_string(cell) +
+      return Outcome::Failed("Cell " + std::to_string(cell) +
         " is not a triangle: give the surface as vtkSurfaceAtlas makes it.");
     }
   }
   if (surface->GetNumberOfCells() != size)
   {
-    throw InputError("The surface has vertices, lines or strips: give only triangles, as "
-                     "vtkSurfaceAtlas makes them.");
+    return Outcome::Failed("The surface has vertices, lines or strips: give only triangles, as "
+                           "vtkSurfaceAtlas makes them.");
   }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-void CheckCoordinates(vtkPolyData* surface)
+Outcome CheckCoordinatesOf(vtkIdType cell, const Triangle& corners, vtkDataArray* coordinates)
+{
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  std::array<Kernel::Point_2, 3> points;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double u = coordinates->GetComponent(corners[i], 0);
+    const double v = coordinates->GetComponent(corners[i], 1);
+    if (!(u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0))
+    {
+      std::ostringstream text;
+      text << "The atlas coordinates of point " << corners[i] << " are (" << u << ", " << v
+           << "): they must lie between 0 and 1.";
+      return Outcome::Failed(text.str());
+    }
+    points[i] = Kernel::Point_2(u, v);
+  }
+  if (CGAL::orientation(points[0], points[1], points[2]) != CGAL::LEFT_TURN)
+  {
+    return Outcome::Failed("Triangle " + std::to_string(cell) +
+      " is turned over or has no area in the atlas: its corners must go around "
+      "counter-clockwise in atlas coordinates, as vtkSurfaceAtlas makes them.");
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome CheckCoordinates(vtkPolyData* surface)
 {
   vtkDataArray* coordinates = GetCoordinates(surface);
   if (!coordinates || coordinates->GetNumberOfComponents() < 2)
   {
-    throw InputError("The surface has neither a point array \"AtlasCoordinates\" with two "
-                     "components nor texture coordinates: make them with vtkSurfaceAtlas.");
+    return Outcome::Failed("The surface has neither a point array \"AtlasCoordinates\" with two "
+                           "components nor texture coordinates: make them with vtkSurfaceAtlas.");
   }
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  Outcome outcome = Outcome::Done();
   ForEachTriangle(surface,
     [&](vtkIdType cell, const Triangle& corners)
     {
-      std::array<Kernel::Point_2, 3> points;
-      for (int i = 0; i < 3; ++i)
+      if (outcome)
       {
-        const double u = coordinates->GetComponent(corners[i], 0);
-        const double v = coordinates->GetComponent(corners[i], 1);
-        if (!(u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0))
-        {
-          std::ostringstream text;
-          text << "The atlas coordinates of point " << corners[i] << " are (" << u << ", " << v
-               << "): they must lie between 0 and 1.";
-          throw InputError(text.str());
-        }
-        points[i] = Kernel::Point_2(u, v);
-      }
-      if (CGAL::orientation(points[0], points[1], points[2]) != CGAL::LEFT_TURN)
-      {
-        throw InputError("Triangle " + std::to_string(cell) +
-          " is turned over or has no area in the atlas: its corners must go around "
-          "counter-clockwise in atlas coordinates, as vtkSurfaceAtlas makes them.");
+        outcome = CheckCoordinatesOf(cell, corners, coordinates);
       }
     });
+  return outcome;
 }
 
 struct Box
@@ -118,7 +129,7 @@ struct Box
 //------------------------------------------------------------------------------
 std::map<double, Box> GetBoxesOfCharts(vtkPolyData* surface)
 {
-  vtkDataArray* charts = surface->GetCellData()->GetArray("ChartId");
+  vtkDataArray* charts = surface->GetCellData()->GetArray(ArrayNames::ChartId);
   vtkDataArray* coordinates = GetCoordinates(surface);
   std::map<double, Box> boxes;
   if (charts)
@@ -156,6 +167,35 @@ double GetArea(vtkPolyData* surface, const Triangle& corners)
   vtkMath::Subtract(points[2].data(), points[0].data(), v.data());
   vtkMath::Cross(u.data(), v.data(), cross.data());
   return 0.5 * vtkMath::Norm(cross.data());
+}
+
+//------------------------------------------------------------------------------
+Outcome CheckResolution(vtkPolyData* surface, int resolution)
+{
+  const std::string size = std::to_string(resolution) + " x " + std::to_string(resolution);
+  if (resolution < 1 || resolution > TexelPieces::MAXIMUM_RESOLUTION ||
+    (resolution & (resolution - 1)) != 0)
+  {
+    return Outcome::Failed("A map of " + size +
+      " texels cannot be made or read: the number must be a "
+      "power of two, not above " +
+      std::to_string(TexelPieces::MAXIMUM_RESOLUTION) + ".");
+  }
+  const int smallest = TexelPieces::GetSmallestResolution(surface);
+  if (smallest > TexelPieces::MAXIMUM_RESOLUTION)
+  {
+    return Outcome::Failed("The charts of the surface do not end between texels at any resolution: "
+                           "make the atlas with vtkSurfaceAtlas.");
+  }
+  if (resolution < smallest)
+  {
+    const std::string needed = std::to_string(smallest);
+    return Outcome::Failed("In a map of " + size +
+      " texels some would belong to two charts: take at "
+      "least " +
+      needed + " x " + needed + ".");
+  }
+  return Outcome::Done();
 }
 
 struct Vertex
@@ -357,32 +397,17 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-void TexelPieces::Check(vtkPolyData* surface, int resolution)
+Outcome TexelPieces::Check(vtkPolyData* surface, int resolution)
 {
-  CheckCells(surface);
-  CheckCoordinates(surface);
-  const std::string size = std::to_string(resolution) + " x " + std::to_string(resolution);
-  if (resolution < 1 || resolution > MAXIMUM_RESOLUTION || (resolution & (resolution - 1)) != 0)
+  if (Outcome checked = CheckCells(surface); !checked)
   {
-    throw InputError("A map of " + size +
-      " texels cannot be made or read: the number must be a "
-      "power of two, not above " +
-      std::to_string(MAXIMUM_RESOLUTION) + ".");
+    return checked;
   }
-  const int smallest = GetSmallestResolution(surface);
-  if (smallest > MAXIMUM_RESOLUTION)
+  if (Outcome checked = CheckCoordinates(surface); !checked)
   {
-    throw InputError("The charts of the surface do not end between texels at any resolution: make "
-                     "the atlas with vtkSurfaceAtlas.");
+    return checked;
   }
-  if (resolution < smallest)
-  {
-    const std::string needed = std::to_string(smallest);
-    throw InputError("In a map of " + size +
-      " texels some would belong to two charts: take at "
-      "least " +
-      needed + " x " + needed + ".");
-  }
+  return CheckResolution(surface, resolution);
 }
 
 //------------------------------------------------------------------------------

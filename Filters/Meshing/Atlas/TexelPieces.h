@@ -12,6 +12,7 @@
 #ifndef TexelPieces_h
 #define TexelPieces_h
 
+#include "Shared/Outcome.h"
 #include "vtkType.h"
 
 #include <array>
@@ -40,11 +41,11 @@ public:
   static constexpr int MAXIMUM_RESOLUTION = 32768;
 
   /**
-   * Throws MeshingRun::InputError unless the surface is an atlas (only triangles, whose
-   * coordinates lie in [0,1]^2 and go around counter-clockwise) and `resolution` is a power of two,
-   * not above the maximum, at which no texel belongs to two charts.
+   * Fails unless the surface is an atlas (only triangles, whose coordinates lie in [0,1]^2 and go
+   * around counter-clockwise) and `resolution` is a power of two, not above the maximum, at which
+   * no texel belongs to two charts.
    */
-  static void Check(vtkPolyData* surface, int resolution);
+  static Outcome Check(vtkPolyData* surface, int resolution);
 
   /// The fewest texels a side, a power of two, at which the rectangles around all charts end
   /// between texels; more than the maximum if there is none. Surfaces whose charts fill blocks of a

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// What the filters of this module share while they run: how they stop, and how they say how far
-/// they are.
+/// How the filters of this module run: their steps, and the border to the libraries that throw.
 #ifndef MeshingRun_h
 #define MeshingRun_h
 
-#include "Shared/AbortCheck.h"
-#include "vtkAlgorithm.h"
+#include "Shared/Outcome.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -14,45 +12,12 @@
 
 #include <exception>
 #include <new>
-#include <stdexcept>
 #include <string>
 
 namespace LightTransport
 {
 namespace MeshingRun
 {
-/// A problem with the input or the properties: what it is and what to do about it.
-class InputError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Thrown where somebody asked the filter to abort.
-struct Aborted
-{
-};
-
-//------------------------------------------------------------------------------
-/// Tell the observers of the filter, on its own thread, and throw when one of them aborts it.
-inline void Report(vtkAlgorithm* algorithm, double progress)
-{
-  algorithm->UpdateProgress(progress);
-  if (AbortCheck::IsAborted(algorithm))
-  {
-    throw Aborted();
-  }
-}
-
-//------------------------------------------------------------------------------
-/// How the work of a filter ended: done; or not, with an error to report; or not, and without one,
-/// because somebody aborted it.
-struct Outcome
-{
-  bool Done = false;
-  std::string Error;
-};
-
 /// What to say when memory runs out, and when a library gives up.
 struct Advice
 {
@@ -61,35 +26,47 @@ struct Advice
   const char* Remedy;
 };
 
-//------------------------------------------------------------------------------
-/// Do the work of a filter, which may throw.
-template <typename Work>
-Outcome Try(const Advice& advice, const Work& work)
+/// Takes the steps of a filter, each of which returns an Outcome, as long as all before are done.
+/// What CGAL, Eigen and a lack of memory throw ends here and becomes a failure.
+class Steps
 {
-  Outcome outcome;
-  try
+public:
+  explicit Steps(const Advice& advice) : WhatToDo(advice) {}
+
+  template <typename Step>
+  void Take(const Step& step)
   {
-    work();
-    outcome.Done = true;
+    if (this->Result)
+    {
+      this->Result = this->Try(step);
+    }
   }
-  catch (const Aborted&)
+
+  const Outcome& GetOutcome() const { return this->Result; }
+
+private:
+  template <typename Step>
+  Outcome Try(const Step& step) const
   {
+    try
+    {
+      return step();
+    }
+    catch (const std::bad_alloc&)
+    {
+      return Outcome::Failed(
+        std::string("Not enough memory: ") + this->WhatToDo.WithoutMemory + ".");
+    }
+    catch (const std::exception& problem)
+    {
+      return Outcome::Failed(std::string(this->WhatToDo.Failure) + " (" + problem.what() +
+        "): " + this->WhatToDo.Remedy + ".");
+    }
   }
-  catch (const InputError& problem)
-  {
-    outcome.Error = problem.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    outcome.Error = std::string("Not enough memory: ") + advice.WithoutMemory + ".";
-  }
-  catch (const std::exception& problem)
-  {
-    outcome.Error =
-      std::string(advice.Failure) + " (" + problem.what() + "): " + advice.Remedy + ".";
-  }
-  return outcome;
-}
+
+  Advice WhatToDo;
+  Outcome Result = Outcome::Done();
+};
 
 //------------------------------------------------------------------------------
 /// Of data distributed over several processes a piece may be empty, which is no error.

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesher/TriangleSoup.h"
+#include "Common/TriangleSoup.h"
 
-#include "Common/MeshingRun.h"
 #include "Shared/DisjointSets.h"
 #include "vtkCell.h"
 #include "vtkCellArray.h"
@@ -255,11 +254,11 @@ struct OrientationRecord : public PMP::Default_orientation_visitor
 };
 
 //------------------------------------------------------------------------------
-void CheckInput(vtkPolyData* input)
+Outcome CheckInput(vtkPolyData* input)
 {
   if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
   {
-    throw MeshingRun::InputError(input->GetNumberOfCells() == 0
+    return Outcome::Failed(input->GetNumberOfCells() == 0
         ? "The input has no cells: give a surface made of polygons."
         : "The input has no polygons, only vertices or lines: give a surface made of polygons.");
   }
@@ -269,21 +268,26 @@ void CheckInput(vtkPolyData* input)
     input->GetPoint(i, point);
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
     {
-      throw MeshingRun::InputError("The coordinates of point " + std::to_string(i) +
+      return Outcome::Failed("The coordinates of point " + std::to_string(i) +
         " are not finite: remove the points whose coordinates are NaN or infinite.");
     }
   }
+  return Outcome::Done();
 }
 } // namespace
 
 //------------------------------------------------------------------------------
-void TriangleSoup::Read(vtkPolyData* input, bool mergePoints)
+Outcome TriangleSoup::Read(vtkPolyData* input, bool mergePoints)
 {
-  CheckInput(input);
+  if (Outcome checked = CheckInput(input); !checked)
+  {
+    return checked;
+  }
   SoupReader reader(input, *this, mergePoints);
   const vtkIdType firstPolygon = input->GetNumberOfVerts() + input->GetNumberOfLines();
   reader.ReadPolygons(firstPolygon);
   reader.ReadStrips(firstPolygon + input->GetNumberOfPolys());
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

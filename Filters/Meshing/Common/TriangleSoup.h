@@ -7,6 +7,7 @@
 #ifndef TriangleSoup_h
 #define TriangleSoup_h
 
+#include "Shared/Outcome.h"
 #include "vtkType.h"
 
 #include <array>
@@ -42,15 +43,14 @@ public:
 
   /**
    * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
-   * equal coordinates if asked to. Throws MeshingRun::InputError when there are no polygons or
-   * coordinates are not finite.
+   * equal coordinates if asked to. Fails when there are no polygons or coordinates are not finite.
    */
-  void Read(vtkPolyData* input, bool mergePoints = true);
+  Outcome Read(vtkPolyData* input, bool mergePoints = true);
 
   /// What keeps the soup from being an oriented manifold, in words; empty when nothing does.
   std::string DescribeDefects() const;
 
-  ///@{ The first steps of the repair, in this order; see SurfaceRepair for the others.
+  ///@{ The first steps of the repair, in this order; see ManifoldRepair for the others.
   void DropDegenerateTriangles();
   void DropDuplicateTriangles();
   /// Split non-manifold edges and points and orient neighbours alike, unless this is not needed.

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesher/SurfaceRepair.h"
+#include "Mesher/ManifoldRepair.h"
 
-#include "Common/MeshingRun.h"
 #include "Mesher/PatchSources.h"
 #include "vtkMath.h"
 #include "vtkSphere.h"
@@ -313,19 +312,19 @@ std::array<std::size_t, 3> GetTopology(const Mesh& input)
 using DefaultVisitor = PMP::experimental::Remove_self_intersection_default_visitor<Mesh>;
 struct StoppingVisitor : public DefaultVisitor
 {
-  explicit StoppingVisitor(const SurfaceRepair::Stop& ask) : Ask(&ask) {}
-  bool stop() const { return (*this->Ask)(); }
-  const SurfaceRepair::Stop* Ask;
+  explicit StoppingVisitor(const Monitor& monitor) : Watcher(&monitor) {}
+  bool stop() const { return !this->Watcher->Report(0.0); }
+  const Monitor* Watcher;
 };
 
 //------------------------------------------------------------------------------
-bool Resolve(Mesh& mesh, double distance, const SurfaceRepair::Stop& stop)
+bool Resolve(Mesh& mesh, double distance, const Monitor& monitor)
 {
   const Mesh old = mesh;
   const auto touch = [&mesh](const Pair& pair)
   { return OnlyTouch(GetTriangle(mesh, pair.first), GetTriangle(mesh, pair.second)); };
   PMP::experimental::remove_self_intersections(mesh,
-    CGAL::parameters::preserve_genus(true).filter(touch).visitor(StoppingVisitor(stop)));
+    CGAL::parameters::preserve_genus(true).filter(touch).visitor(StoppingVisitor(monitor)));
   mesh.collect_garbage();
   return GetIntersections(mesh).empty() && GetTopology(mesh) == GetTopology(old) &&
     !PMP::is_Hausdorff_distance_larger<CGAL::Sequential_tag>(old, mesh, distance, 0.01 * distance,
@@ -348,7 +347,7 @@ std::vector<Face> TriangulateHole(Mesh& mesh, Halfedge border)
 } // namespace
 
 //------------------------------------------------------------------------------
-struct SurfaceRepair::Internals : public RepairMesh
+struct ManifoldRepair::Internals : public RepairMesh
 {
   /// The pairs of triangles of one component that intersect.
   std::vector<Pair> Within;
@@ -358,7 +357,10 @@ struct SurfaceRepair::Internals : public RepairMesh
 };
 
 //------------------------------------------------------------------------------
-SurfaceRepair::SurfaceRepair(const TriangleSoup& soup) : Surface(new Internals)
+ManifoldRepair::ManifoldRepair() : Surface(new Internals) {}
+
+//------------------------------------------------------------------------------
+Outcome ManifoldRepair::Build(const TriangleSoup& soup)
 {
   Mesh& mesh = this->Surface->Triangles;
   std::vector<Vertex> vertices(soup.Points.size());
@@ -380,17 +382,18 @@ SurfaceRepair::SurfaceRepair(const TriangleSoup& soup) : Surface(new Internals)
       mesh.add_face(vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]);
     if (face == Mesh::null_face())
     {
-      throw MeshingRun::InputError("The surface is not a manifold: split it first.");
+      return Outcome::Failed("The surface is not a manifold: split it first.");
     }
     this->Surface->CellIds[face] = soup.CellIds[i];
   }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-SurfaceRepair::~SurfaceRepair() = default;
+ManifoldRepair::~ManifoldRepair() = default;
 
 //------------------------------------------------------------------------------
-vtkIdType SurfaceRepair::JoinBorders()
+vtkIdType ManifoldRepair::JoinBorders()
 {
   Mesh& mesh = this->Surface->Triangles;
   const std::size_t joined = PMP::stitch_borders(mesh);
@@ -410,7 +413,7 @@ vtkIdType SurfaceRepair::JoinBorders()
 }
 
 //------------------------------------------------------------------------------
-vtkIdType SurfaceRepair::DropCrumbs(double size)
+vtkIdType ManifoldRepair::DropCrumbs(double size)
 {
   Mesh& mesh = this->Surface->Triangles;
   const auto isOpen = [&mesh](const std::vector<Face>& faces)
@@ -458,7 +461,7 @@ vtkIdType SurfaceRepair::DropCrumbs(double size)
 }
 
 //------------------------------------------------------------------------------
-vtkIdType SurfaceRepair::FillHoles(double size)
+vtkIdType ManifoldRepair::FillHoles(double size)
 {
   Mesh& mesh = this->Surface->Triangles;
   const Components components(mesh);
@@ -495,7 +498,7 @@ vtkIdType SurfaceRepair::FillHoles(double size)
 }
 
 //------------------------------------------------------------------------------
-SurfaceRepair::Intersections SurfaceRepair::FindSelfIntersections()
+ManifoldRepair::Intersections ManifoldRepair::FindSelfIntersections()
 {
   const Components components(this->Surface->Triangles);
   this->Surface->Replaced.assign(components.Faces.size(), false);
@@ -512,7 +515,7 @@ SurfaceRepair::Intersections SurfaceRepair::FindSelfIntersections()
 }
 
 //------------------------------------------------------------------------------
-SurfaceRepair::Intersections SurfaceRepair::DescribeIntersections() const
+ManifoldRepair::Intersections ManifoldRepair::DescribeIntersections() const
 {
   Intersections result;
   const std::vector<Pair>& pairs = this->Surface->Within;
@@ -533,8 +536,8 @@ SurfaceRepair::Intersections SurfaceRepair::DescribeIntersections() const
 }
 
 //------------------------------------------------------------------------------
-SurfaceRepair::Intersections SurfaceRepair::ResolveSelfIntersections(double distance,
-  const Stop& stop)
+Outcome ManifoldRepair::ResolveSelfIntersections(double distance, const Monitor& monitor,
+  Intersections& left)
 {
   const Components components(this->Surface->Triangles);
   std::vector<bool> tried(components.Faces.size(), false);
@@ -549,7 +552,7 @@ SurfaceRepair::Intersections SurfaceRepair::ResolveSelfIntersections(double dist
       Extract(*this->Surface, components.Faces[component], old);
       auto part = std::make_unique<RepairMesh>();
       Extract(*this->Surface, components.Faces[component], *part);
-      if (Resolve(part->Triangles, distance, stop))
+      if (Resolve(part->Triangles, distance, monitor))
       {
         TakeNearestIds(*part, old);
         replaced[component] = true;
@@ -560,11 +563,12 @@ SurfaceRepair::Intersections SurfaceRepair::ResolveSelfIntersections(double dist
   std::vector<Pair>& within = this->Surface->Within;
   const auto resolved = [&](const Pair& pair) { return replaced[components.OfFace[pair.first]]; };
   within.erase(std::remove_if(within.begin(), within.end(), resolved), within.end());
-  return this->DescribeIntersections();
+  left = this->DescribeIntersections();
+  return monitor.Check(1.0);
 }
 
 //------------------------------------------------------------------------------
-void SurfaceRepair::Write(TriangleSoup& soup) const
+void ManifoldRepair::Write(TriangleSoup& soup) const
 {
   const Components components(this->Surface->Triangles);
   std::vector<Face> faces;

@@ -6,24 +6,28 @@
  *
  * A component is what is connected by edges. All methods throw what CGAL throws (std::exception).
  */
-#ifndef SurfaceRepair_h
-#define SurfaceRepair_h
+#ifndef ManifoldRepair_h
+#define ManifoldRepair_h
 
-#include "Mesher/TriangleSoup.h"
+#include "Common/TriangleSoup.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
 
-#include <functional>
+#include <array>
 #include <memory>
 
 namespace LightTransport
 {
-class SurfaceRepair
+class ManifoldRepair
 {
 public:
-  /// Takes a copy of the soup; throws MeshingRun::InputError when it is not a manifold.
-  explicit SurfaceRepair(const TriangleSoup& soup);
-  ~SurfaceRepair();
-  SurfaceRepair(const SurfaceRepair&) = delete;
-  void operator=(const SurfaceRepair&) = delete;
+  ManifoldRepair();
+  ~ManifoldRepair();
+  ManifoldRepair(const ManifoldRepair&) = delete;
+  void operator=(const ManifoldRepair&) = delete;
+
+  /// Take a copy of the soup. Fails when it is not a manifold.
+  Outcome Build(const TriangleSoup& soup);
 
   /**
    * Join borders that coincide: edges that had to be split only because of something else there.
@@ -56,15 +60,12 @@ public:
   };
   Intersections FindSelfIntersections();
 
-  /// Asked now and then; when it returns true, the work is given up.
-  using Stop = std::function<bool()>;
-
   /**
    * Take away the surface around the self-intersections that were found and close the gap. A
    * component is left as it was if this fails, changes how it is connected, or moves its surface by
-   * more than `distance`. Returns what is left.
+   * more than `distance`. `left` becomes what is left.
    */
-  Intersections ResolveSelfIntersections(double distance, const Stop& stop);
+  Outcome ResolveSelfIntersections(double distance, const Monitor& monitor, Intersections& left);
 
   /// The repaired surface. A new triangle or point has the ids of an old one next to it.
   void Write(TriangleSoup& soup) const;

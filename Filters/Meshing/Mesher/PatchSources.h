@@ -4,7 +4,7 @@
 #ifndef PatchSources_h
 #define PatchSources_h
 
-#include "Mesher/TriangleSoup.h"
+#include "Common/TriangleSoup.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
 #include "vtkStaticCellLocator.h"

@@ -73,19 +73,23 @@ double GetCotangent(const Point& a, const Point& b, const Point& c)
 
 //------------------------------------------------------------------------------
 RemeshingSteps::RemeshingSteps(WorkingMesh& mesh, const SourceSurface& sources,
-  const std::vector<double>& lengths, std::function<void()> alive)
-  : Work(mesh), Mesh(mesh.Mesh), Sources(sources), Lengths(lengths), Alive(std::move(alive))
+  const std::vector<double>& lengths, Monitor monitor)
+  : Work(mesh), Mesh(mesh.Mesh), Sources(sources), Lengths(lengths), Watcher(std::move(monitor))
 {
 }
 
 //------------------------------------------------------------------------------
-void RemeshingSteps::CountStep()
+bool RemeshingSteps::Report(double fraction)
+{
+  this->Fraction = fraction;
+  return this->Watcher.Report(fraction);
+}
+
+//------------------------------------------------------------------------------
+bool RemeshingSteps::CountStep()
 {
   const std::size_t interval = 4096;
-  if (++this->Steps % interval == 0)
-  {
-    this->Alive();
-  }
+  return ++this->Steps % interval != 0 || this->Watcher.Report(this->Fraction);
 }
 
 //------------------------------------------------------------------------------
@@ -168,7 +172,7 @@ bool RemeshingSteps::CanSplit(Halfedge h, const Point& to) const
 }
 
 //------------------------------------------------------------------------------
-void RemeshingSteps::SplitLongEdges(double longest, std::size_t most)
+bool RemeshingSteps::SplitLongEdges(double longest, std::size_t most)
 {
   std::priority_queue<std::pair<double, Edge>> queue;
   const auto add = [&](Edge edge)
@@ -187,7 +191,10 @@ void RemeshingSteps::SplitLongEdges(double longest, std::size_t most)
   {
     const std::pair<double, Edge> top = queue.top();
     queue.pop();
-    this->CountStep();
+    if (!this->CountStep())
+    {
+      return false;
+    }
     if (top.first != this->GetRatio(top.second))
     {
       continue;
@@ -209,6 +216,7 @@ void RemeshingSteps::SplitLongEdges(double longest, std::size_t most)
       add(this->Mesh.edge(around));
     }
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -291,7 +299,7 @@ RemeshingSteps::Vertex RemeshingSteps::Collapse(Halfedge h)
 }
 
 //------------------------------------------------------------------------------
-void RemeshingSteps::CollapseShortEdges(double shortest, std::size_t fewest)
+bool RemeshingSteps::CollapseShortEdges(double shortest, std::size_t fewest)
 {
   using Entry = std::pair<double, Edge>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
@@ -311,7 +319,10 @@ void RemeshingSteps::CollapseShortEdges(double shortest, std::size_t fewest)
   {
     const Entry top = queue.top();
     queue.pop();
-    this->CountStep();
+    if (!this->CountStep())
+    {
+      return false;
+    }
     if (this->Mesh.is_removed(top.second) || top.first != this->GetRatio(top.second))
     {
       continue;
@@ -327,6 +338,7 @@ void RemeshingSteps::CollapseShortEdges(double shortest, std::size_t fewest)
       add(this->Mesh.edge(around));
     }
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -360,14 +372,17 @@ bool RemeshingSteps::ShouldFlip(Edge edge) const
 }
 
 //------------------------------------------------------------------------------
-void RemeshingSteps::FlipEdges()
+bool RemeshingSteps::FlipEdges()
 {
   std::vector<Edge> stack(this->Mesh.edges().begin(), this->Mesh.edges().end());
   while (!stack.empty())
   {
     const Edge edge = stack.back();
     stack.pop_back();
-    this->CountStep();
+    if (!this->CountStep())
+    {
+      return false;
+    }
     if (!this->ShouldFlip(edge))
     {
       continue;
@@ -380,6 +395,7 @@ void RemeshingSteps::FlipEdges()
       stack.push_back(this->Mesh.edge(this->Mesh.prev(side)));
     }
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -442,7 +458,7 @@ void RemeshingSteps::Move(Vertex vertex)
 }
 
 //------------------------------------------------------------------------------
-void RemeshingSteps::MoveVertices()
+bool RemeshingSteps::MoveVertices()
 {
   for (const Vertex vertex : this->Mesh.vertices())
   {
@@ -450,7 +466,11 @@ void RemeshingSteps::MoveVertices()
     {
       this->Move(vertex);
     }
-    this->CountStep();
+    if (!this->CountStep())
+    {
+      return false;
+    }
   }
+  return true;
 }
 } // namespace LightTransport

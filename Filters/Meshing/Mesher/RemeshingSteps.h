@@ -14,8 +14,8 @@
 
 #include "Mesher/SourceSurface.h"
 #include "Mesher/WorkingMesh.h"
+#include "Shared/Monitor.h"
 
-#include <functional>
 #include <vector>
 
 namespace LightTransport
@@ -23,17 +23,20 @@ namespace LightTransport
 class RemeshingSteps
 {
 public:
-  /// `lengths` are those of the points of `sources`. `alive` is called now and then and may throw.
+  /// `lengths` are those of the points of `sources`. The monitor is asked now and then.
   RemeshingSteps(WorkingMesh& mesh, const SourceSurface& sources,
-    const std::vector<double>& lengths, std::function<void()> alive);
+    const std::vector<double>& lengths, Monitor monitor);
+
+  /// Tell the monitor how much is done. False when it is to stop, as of all steps below.
+  bool Report(double fraction);
 
   /// Split edges longer than `longest` times the wanted length, up to `most` faces.
-  void SplitLongEdges(double longest, std::size_t most);
+  bool SplitLongEdges(double longest, std::size_t most);
   /// Collapse edges shorter than `shortest` times the wanted length, down to `fewest` faces.
-  void CollapseShortEdges(double shortest, std::size_t fewest);
+  bool CollapseShortEdges(double shortest, std::size_t fewest);
   /// Flip edges until all are Delaunay, or flat enough no more.
-  void FlipEdges();
-  void MoveVertices();
+  bool FlipEdges();
+  bool MoveVertices();
 
   /// The triangle of `sources` that is closest to the center of a face.
   std::size_t FindSource(WorkingMesh::Face face) const;
@@ -57,13 +60,14 @@ private:
   bool ShouldFlip(Edge edge) const;
   bool CanMove(Vertex vertex, const Point& to) const;
   void Move(Vertex vertex);
-  void CountStep();
+  bool CountStep();
 
   WorkingMesh& Work;
   WorkingMesh::Surface& Mesh;
   const SourceSurface& Sources;
   const std::vector<double>& Lengths;
-  std::function<void()> Alive;
+  Monitor Watcher;
+  double Fraction = 0.0;
   std::size_t Steps = 0;
 };
 } // namespace LightTransport

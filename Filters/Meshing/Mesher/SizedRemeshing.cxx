@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/SizedRemeshing.h"
 
-#include "Common/MeshingRun.h"
 #include "Mesher/PatchSizing.h"
-#include "vtkPatchMesher.h"
 
 #include "vtkDataArray.h"
 
@@ -17,16 +15,15 @@ namespace LightTransport
 {
 namespace
 {
-using MeshingRun::InputError;
+using SizedRemeshing::LengthSource;
 using SizedRemeshing::Settings;
 
 constexpr double MAXIMUM_NUMBER_OF_TRIANGLES = 2e7;
 
 //------------------------------------------------------------------------------
-std::vector<double> GetLengthsOfArray(const SurfaceRemesher& remesher, const TriangleSoup& soup,
-  const Settings& settings)
+Outcome GetLengthsOfArray(const SurfaceRemesher& remesher, const TriangleSoup& soup,
+  const Settings& settings, std::vector<double>& lengths)
 {
-  std::vector<double> lengths;
   for (const std::size_t point : remesher.GetPointsOfSoup())
   {
     const vtkIdType id = soup.PointIds[point];
@@ -36,23 +33,23 @@ std::vector<double> GetLengthsOfArray(const SurfaceRemesher& remesher, const Tri
       std::ostringstream text;
       text << "The array of edge lengths has the value " << length << " at point " << id
            << ": give positive, finite lengths.";
-      throw InputError(text.str());
+      return Outcome::Failed(text.str());
     }
     lengths.push_back(length);
   }
-  return lengths;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> GetLengths(const SurfaceRemesher& remesher, const SourceSurface& surface,
-  const TriangleSoup& soup, const Settings& settings)
+Outcome GetLengths(const SurfaceRemesher& remesher, const SourceSurface& surface,
+  const TriangleSoup& soup, const Settings& settings, std::vector<double>& lengths)
 {
-  if (settings.SizeField == vtkPatchMesher::SIZE_FIELD_ARRAY)
+  if (settings.SizeField == LengthSource::Array)
   {
-    return GetLengthsOfArray(remesher, soup, settings);
+    return GetLengthsOfArray(remesher, soup, settings, lengths);
   }
-  std::vector<double> lengths(surface.Points.size(), settings.TargetEdgeLength);
-  if (settings.SizeField == vtkPatchMesher::SIZE_FIELD_CURVATURE)
+  lengths.assign(surface.Points.size(), settings.TargetEdgeLength);
+  if (settings.SizeField == LengthSource::Curvature)
   {
     const std::vector<double> curvatures = PatchSizing::GetCurvatures(surface);
     for (std::size_t i = 0; i < lengths.size(); ++i)
@@ -61,7 +58,7 @@ std::vector<double> GetLengths(const SurfaceRemesher& remesher, const SourceSurf
         settings.MinimumEdgeLength, settings.TargetEdgeLength);
     }
   }
-  return lengths;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -71,7 +68,7 @@ void FreePlanarRegions(SurfaceRemesher& remesher, const SourceSurface& surface,
   const Settings& settings, double diagonal, std::vector<double>& lengths)
 {
   const bool coarse = settings.CoarsePlanarRegions;
-  if (!coarse && settings.SizeField != vtkPatchMesher::SIZE_FIELD_CURVATURE)
+  if (!coarse && settings.SizeField != LengthSource::Curvature)
   {
     return;
   }
@@ -101,36 +98,45 @@ void FreePlanarRegions(SurfaceRemesher& remesher, const SourceSurface& surface,
 }
 
 //------------------------------------------------------------------------------
-void CheckNumberOfTriangles(double number, const Settings& settings)
+Outcome CheckNumberOfTriangles(double number, const Settings& settings)
 {
   // Written so that a length too small for the estimate, infinite then, is refused too.
-  if (!(number <= MAXIMUM_NUMBER_OF_TRIANGLES))
+  if (number <= MAXIMUM_NUMBER_OF_TRIANGLES)
   {
-    std::ostringstream text;
-    if (settings.SizeField == vtkPatchMesher::SIZE_FIELD_ARRAY)
-    {
-      text << "The array of edge lengths";
-    }
-    else
-    {
-      text << "TargetEdgeLength " << settings.TargetEdgeLength;
-    }
-    text << " would give about " << number << " triangles, more than "
-         << MAXIMUM_NUMBER_OF_TRIANGLES << " are refused: give larger lengths.";
-    throw InputError(text.str());
+    return Outcome::Done();
   }
+  std::ostringstream text;
+  if (settings.SizeField == LengthSource::Array)
+  {
+    text << "The array of edge lengths";
+  }
+  else
+  {
+    text << "TargetEdgeLength " << settings.TargetEdgeLength;
+  }
+  text << " would give about " << number << " triangles, more than " << MAXIMUM_NUMBER_OF_TRIANGLES
+       << " are refused: give larger lengths.";
+  return Outcome::Failed(text.str());
 }
 
 //------------------------------------------------------------------------------
-void CheckTargetNumber(vtkIdType number)
+Outcome CheckTargetNumber(vtkIdType number)
 {
   if (number > MAXIMUM_NUMBER_OF_TRIANGLES)
   {
     std::ostringstream text;
     text << "TargetNumberOfPatches is " << number << ", more than " << MAXIMUM_NUMBER_OF_TRIANGLES
          << " are refused: ask for fewer.";
-    throw InputError(text.str());
+    return Outcome::Failed(text.str());
   }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome RemeshToLengths(SurfaceRemesher& remesher, const Settings& settings, const Monitor& monitor)
+{
+  remesher.Prepare(1.0, settings.Grading);
+  return remesher.Remesh(settings.NumberOfIterations, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -172,9 +178,9 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// Returns the factor of all lengths.
-double RemeshToNumber(SurfaceRemesher& remesher, const Settings& settings, double firstNumber,
-  const SurfaceRemesher::Monitor& monitor)
+// `factor` becomes that of all lengths.
+Outcome RemeshToNumber(SurfaceRemesher& remesher, const Settings& settings, double firstNumber,
+  const Monitor& monitor, double& factor)
 {
   const double number = static_cast<double>(settings.TargetNumberOfPatches);
   FactorSearch search(remesher, settings, std::sqrt(firstNumber / number));
@@ -188,57 +194,67 @@ double RemeshToNumber(SurfaceRemesher& remesher, const Settings& settings, doubl
     search.Prepare(number / excess);
     // One correction is the rule.
     const double begin = 1.0 - std::pow(0.5, i);
-    remesher.Remesh(settings.NumberOfIterations,
-      [&](double fraction) { monitor(begin + 0.5 * (1.0 - begin) * fraction); });
+    const double end = begin + 0.5 * (1.0 - begin);
+    if (Outcome remeshed =
+          remesher.Remesh(settings.NumberOfIterations, monitor.GetStage(begin, end));
+        !remeshed)
+    {
+      return remeshed;
+    }
     result = static_cast<double>(remesher.GetNumberOfTriangles());
     excess = result / search.GetExpected();
   }
   // Where all edges are alike, the number jumps when they become long enough to be split. From too
   // few triangles any number can be reached, while it may be impossible to collapse edges.
-  remesher.AdjustNumberOfTriangles(static_cast<std::size_t>(number), monitor);
-  return search.GetFactor();
+  factor = search.GetFactor();
+  return remesher.AdjustNumberOfTriangles(static_cast<std::size_t>(number),
+    monitor.GetStage(1.0, 1.0));
 }
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<double> SizedRemeshing::ReadLengths(vtkDataArray* array)
+Outcome SizedRemeshing::ReadLengths(vtkDataArray* array, std::vector<double>& lengths)
 {
   if (array->GetNumberOfComponents() != 1)
   {
-    throw InputError("The array of edge lengths \"" + std::string(array->GetName()) + "\" has " +
-      std::to_string(array->GetNumberOfComponents()) + " components: give an array with one.");
+    return Outcome::Failed("The array of edge lengths \"" + std::string(array->GetName()) +
+      "\" has " + std::to_string(array->GetNumberOfComponents()) +
+      " components: give an array with one.");
   }
-  std::vector<double> lengths(array->GetNumberOfTuples());
+  lengths.resize(array->GetNumberOfTuples());
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     lengths[i] = array->GetTuple1(i);
   }
-  return lengths;
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-double SizedRemeshing::Remesh(SurfaceRemesher& remesher, const TriangleSoup& soup,
-  const Settings& settings, const SurfaceRemesher::Monitor& monitor)
+Outcome SizedRemeshing::Remesh(SurfaceRemesher& remesher, const TriangleSoup& soup,
+  const Settings& settings, const Monitor& monitor, double& length)
 {
   const SourceSurface surface = remesher.GetSurface();
-  std::vector<double> lengths = GetLengths(remesher, surface, soup, settings);
+  std::vector<double> lengths;
+  if (Outcome known = GetLengths(remesher, surface, soup, settings, lengths); !known)
+  {
+    return known;
+  }
   const double meanLength = PatchSizing::GetMeanLength(surface, lengths);
   FreePlanarRegions(remesher, surface, settings, soup.GetDiagonal(), lengths);
   remesher.SetLengths(lengths);
   const double number = PatchSizing::EstimateNumberOfTriangles(surface, lengths);
+  const bool fromArray = settings.SizeField == LengthSource::Array;
+  const bool toNumber = settings.TargetNumberOfPatches > 0 && std::isfinite(number);
+  if (Outcome checked = toNumber ? CheckTargetNumber(settings.TargetNumberOfPatches)
+                                 : CheckNumberOfTriangles(number, settings);
+      !checked)
+  {
+    return checked;
+  }
   double factor = 1.0;
-  if (settings.TargetNumberOfPatches > 0 && std::isfinite(number))
-  {
-    CheckTargetNumber(settings.TargetNumberOfPatches);
-    factor = RemeshToNumber(remesher, settings, number, monitor);
-  }
-  else
-  {
-    CheckNumberOfTriangles(number, settings);
-    remesher.Prepare(factor, settings.Grading);
-    remesher.Remesh(settings.NumberOfIterations, monitor);
-  }
-  const bool fromArray = settings.SizeField == vtkPatchMesher::SIZE_FIELD_ARRAY;
-  return factor * (fromArray ? meanLength : settings.TargetEdgeLength);
+  Outcome remeshed = toNumber ? RemeshToNumber(remesher, settings, number, monitor, factor)
+                              : RemeshToLengths(remesher, settings, monitor);
+  length = factor * (fromArray ? meanLength : settings.TargetEdgeLength);
+  return remeshed;
 }
 } // namespace LightTransport

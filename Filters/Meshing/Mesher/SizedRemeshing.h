@@ -16,10 +16,18 @@ namespace LightTransport
 {
 namespace SizedRemeshing
 {
+/// Where lengths come from: the same everywhere, from the curvature, or from an array.
+enum class LengthSource
+{
+  Uniform,
+  Curvature,
+  Array
+};
+
 /// The properties of vtkPatchMesher that bear on lengths, defaults filled in.
 struct Settings
 {
-  int SizeField;
+  LengthSource SizeField;
   double TargetEdgeLength;
   double MinimumEdgeLength;
   double ApproximationError;
@@ -32,19 +40,19 @@ struct Settings
 };
 
 /**
- * The lengths of an array, one per tuple. Throws MeshingRun::InputError when it has several
- * components. Whether its values make sense is seen in Remesh(), for the points in use.
+ * The lengths of an array, one per tuple. Fails when it has several components. Whether its values
+ * make sense is seen in Remesh(), for the points in use.
  */
-std::vector<double> ReadLengths(vtkDataArray* array);
+Outcome ReadLengths(vtkDataArray* array, std::vector<double>& lengths);
 
 /**
- * Remesh a surface that was built from the soup. Returns the length that was used: the target edge
- * length, or that of as many equal triangles for an array, times what leads to the number of
- * patches if one was asked for. Throws MeshingRun::InputError when a length makes no sense or
- * too many triangles would come out.
+ * Remesh a surface that was built from the soup. `length` becomes the one that was used: the target
+ * edge length, or that of as many equal triangles for an array, times what leads to the number of
+ * patches if one was asked for. Fails when a length makes no sense or too many triangles would come
+ * out.
  */
-double Remesh(SurfaceRemesher& remesher, const TriangleSoup& soup, const Settings& settings,
-  const SurfaceRemesher::Monitor& monitor);
+Outcome Remesh(SurfaceRemesher& remesher, const TriangleSoup& soup, const Settings& settings,
+  const Monitor& monitor, double& length);
 } // namespace SizedRemeshing
 } // namespace LightTransport
 

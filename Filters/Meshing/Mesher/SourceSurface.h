@@ -10,7 +10,7 @@
 #ifndef SourceSurface_h
 #define SourceSurface_h
 
-#include "Mesher/TriangleSoup.h"
+#include "Common/TriangleSoup.h"
 
 #include <array>
 #include <cstddef>

@@ -338,11 +338,9 @@ double SurfaceRemesher::Prepare(double factor, double grading)
 }
 
 //------------------------------------------------------------------------------
-void SurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
+Outcome SurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
 {
-  double done = 0.0;
-  const auto alive = [&]() { monitor(done); };
-  RemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, alive);
+  RemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, monitor);
   // Never reached, unless the surface is so crumpled that places on it are of no use.
   const double largestExcess = 4.0;
   const double expected = PatchSizing::EstimateNumberOfTriangles(this->Sources, this->Lengths);
@@ -350,34 +348,31 @@ void SurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
     this->GetNumberOfTriangles() + static_cast<std::size_t>(largestExcess * expected);
   for (int i = 0; i < numberOfIterations; ++i)
   {
-    steps.SplitLongEdges(LONGEST, most);
-    steps.CollapseShortEdges(SHORTEST, 0);
-    steps.FlipEdges();
-    steps.MoveVertices();
-    done = (i + 1.0) / (numberOfIterations + 1.0);
-    monitor(done);
+    const bool goesOn = steps.SplitLongEdges(LONGEST, most) &&
+      steps.CollapseShortEdges(SHORTEST, 0) && steps.FlipEdges() && steps.MoveVertices() &&
+      steps.Report((i + 1.0) / (numberOfIterations + 1.0));
+    if (!goesOn)
+    {
+      return Outcome::Aborted();
+    }
   }
   // The last move may have left edges that are better flipped, and better places then.
-  steps.FlipEdges();
-  steps.MoveVertices();
-  steps.FlipEdges();
+  return Outcome::DoneUnlessAborted(steps.FlipEdges() && steps.MoveVertices() && steps.FlipEdges());
 }
 
 //------------------------------------------------------------------------------
-void SurfaceRemesher::AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor)
+Outcome SurfaceRemesher::AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor)
 {
-  const auto alive = [&]() { monitor(1.0); };
-  RemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, alive);
+  RemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, monitor);
+  bool goesOn = true;
   // In rounds, so that edges that were moved apart or together can be next.
   const int rounds = 3;
-  for (int i = 0; i < rounds; ++i)
+  for (int i = 0; i < rounds && goesOn; ++i)
   {
-    steps.SplitLongEdges(SHORTEST, number);
-    steps.CollapseShortEdges(LONGEST, number);
-    steps.FlipEdges();
-    steps.MoveVertices();
+    goesOn = steps.SplitLongEdges(SHORTEST, number) && steps.CollapseShortEdges(LONGEST, number) &&
+      steps.FlipEdges() && steps.MoveVertices();
   }
-  steps.FlipEdges();
+  return Outcome::DoneUnlessAborted(goesOn && steps.FlipEdges());
 }
 
 //------------------------------------------------------------------------------
@@ -390,7 +385,7 @@ std::size_t SurfaceRemesher::GetNumberOfTriangles() const
 SurfaceRemesher::Result SurfaceRemesher::GetResult() const
 {
   WorkingMesh& work = *this->Meshes->Work;
-  const RemeshingSteps steps(work, this->Sources, this->Lengths, []() {});
+  const RemeshingSteps steps(work, this->Sources, this->Lengths, Monitor());
   Result result;
   std::vector<std::size_t> indices(
     work.Mesh.number_of_vertices() + work.Mesh.number_of_removed_vertices(), NONE);

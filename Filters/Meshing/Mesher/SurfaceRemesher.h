@@ -10,10 +10,11 @@
 #ifndef SurfaceRemesher_h
 #define SurfaceRemesher_h
 
+#include "Common/TriangleSoup.h"
 #include "Mesher/SourceSurface.h"
-#include "Mesher/TriangleSoup.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -56,16 +57,12 @@ public:
    */
   double Prepare(double factor, double grading);
 
-  /**
-   * Called now and then while Remesh() works, with the fraction of the work that is done (an
-   * estimate); it may throw to stop.
-   */
-  using Monitor = std::function<void(double)>;
-  void Remesh(int numberOfIterations, const Monitor& monitor);
+  /// The fractions that the monitor hears are estimates.
+  Outcome Remesh(int numberOfIterations, const Monitor& monitor);
 
   std::size_t GetNumberOfTriangles() const;
   /// After Remesh(): split the longest edges, or collapse the shortest, up or down to this number.
-  void AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor);
+  Outcome AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor);
 
   /// The prepared surface, and the length that edges should have at each of its points.
   const SourceSurface& GetSources() const { return this->Sources; }

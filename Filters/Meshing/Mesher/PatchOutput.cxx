@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/PatchOutput.h"
+
+#include "Mesher/SourceSurface.h"
+#include "Shared/ArrayNames.h"
+#include "Shared/FieldValues.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+PatchOutput::PatchOutput(vtkPolyData* input, const TriangleSoup& soup,
+  const SurfaceRemesher::Result& patches)
+  : Input(input), Soup(soup), Patches(patches)
+{
+}
+
+//------------------------------------------------------------------------------
+void PatchOutput::WriteGeometry(bool flip, vtkPolyData* output) const
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(this->Patches.Points.size()));
+  for (std::size_t i = 0; i < this->Patches.Points.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), this->Patches.Points[i].data());
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->AllocateExact(static_cast<vtkIdType>(this->Patches.Triangles.size()),
+    static_cast<vtkIdType>(3 * this->Patches.Triangles.size()));
+  for (const TriangleSoup::Triangle& triangle : this->Patches.Triangles)
+  {
+    const vtkIdType ids[3] = { static_cast<vtkIdType>(triangle[0]),
+      static_cast<vtkIdType>(triangle[flip ? 2 : 1]),
+      static_cast<vtkIdType>(triangle[flip ? 1 : 2]) };
+    cells->InsertNextCell(3, ids);
+  }
+  output->SetPoints(points);
+  output->SetPolys(cells);
+}
+
+//------------------------------------------------------------------------------
+void PatchOutput::WriteCellData(vtkPolyData* output) const
+{
+  vtkCellData* from = this->Input->GetCellData();
+  vtkCellData* to = output->GetCellData();
+  const vtkIdType size = static_cast<vtkIdType>(this->Patches.Triangles.size());
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName(ArrayNames::OriginalCellIds);
+  ids->SetNumberOfTuples(size);
+  to->CopyAllOn();
+  to->CopyAllocate(from, size);
+  for (vtkIdType i = 0; i < size; ++i)
+  {
+    const vtkIdType cell = this->Soup.CellIds[this->Patches.SourcesOfTriangles[i]];
+    to->CopyData(from, cell, i);
+    ids->SetValue(i, cell);
+  }
+  // Several patches come from one cell, so its id is no longer global; and no patch is a ghost.
+  to->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
+  to->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  to->AddArray(ids);
+}
+
+//------------------------------------------------------------------------------
+void PatchOutput::WritePointData(vtkPolyData* output) const
+{
+  vtkPointData* from = this->Input->GetPointData();
+  vtkPointData* to = output->GetPointData();
+  if (from->GetNumberOfArrays() == 0)
+  {
+    return;
+  }
+  to->CopyNormalsOff();
+  to->CopyTangentsOff();
+  to->CopyTCoordsOff();
+  to->InterpolateAllocate(from, static_cast<vtkIdType>(this->Patches.Points.size()));
+  vtkNew<vtkIdList> ids;
+  ids->SetNumberOfIds(3);
+  for (std::size_t i = 0; i < this->Patches.Points.size(); ++i)
+  {
+    const TriangleSoup::Triangle& source = this->Soup.Triangles[this->Patches.SourcesOfPoints[i]];
+    SourceSurface::Place place = SourceSurface::GetClosest(this->Soup.Points[source[0]],
+      this->Soup.Points[source[1]], this->Soup.Points[source[2]], this->Patches.Points[i]);
+    for (int j = 0; j < 3; ++j)
+    {
+      ids->SetId(j, this->Soup.PointIds[source[j]]);
+    }
+    to->InterpolatePoint(from, static_cast<vtkIdType>(i), ids, place.Weights.data());
+  }
+  to->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+}
+
+//------------------------------------------------------------------------------
+void PatchOutput::WriteSummary(double length, vtkPolyData* output) const
+{
+  vtkFieldData* fields = output->GetFieldData();
+  const auto add = [fields](const char* name, vtkIdType number)
+  { FieldValues::AddAs<vtkIdTypeArray>(fields, name, { number }); };
+  add("NumberOfPatches", output->GetNumberOfCells());
+  add("NumberOfDroppedTriangles", this->Soup.NumberOfDroppedTriangles);
+  add("NumberOfReversedTriangles", this->Soup.NumberOfReversedTriangles);
+  add("NumberOfSplitPoints", this->Soup.NumberOfSplitPoints);
+  add("NumberOfFilledHoles", this->Soup.NumberOfFilledHoles);
+  add("NumberOfSelfIntersections", this->Soup.NumberOfSelfIntersections);
+  add("NumberOfIntersectionsBetweenComponents", this->Soup.NumberOfIntersectionsBetweenComponents);
+  FieldValues::Add(fields, "TargetEdgeLength", length);
+}
+} // namespace LightTransport

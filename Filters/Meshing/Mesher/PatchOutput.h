@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Turns a remeshed surface into a data object: see vtkPatchMesher for the arrays.
+#ifndef PatchOutput_h
+#define PatchOutput_h
+
+#include "Common/TriangleSoup.h"
+#include "Mesher/SurfaceRemesher.h"
+
+class vtkPolyData;
+
+namespace LightTransport
+{
+class PatchOutput
+{
+public:
+  /// `soup` was read from `input` and repaired, and `patches` was made of it.
+  PatchOutput(vtkPolyData* input, const TriangleSoup& soup, const SurfaceRemesher::Result& patches);
+
+  void WriteGeometry(bool flip, vtkPolyData* output) const;
+  void WriteCellData(vtkPolyData* output) const;
+  void WritePointData(vtkPolyData* output) const;
+  /// `length` is the target edge length that was used.
+  void WriteSummary(double length, vtkPolyData* output) const;
+
+private:
+  vtkPolyData* Input;
+  const TriangleSoup& Soup;
+  const SurfaceRemesher::Result& Patches;
+};
+} // namespace LightTransport
+
+#endif
