@@ -114,6 +114,24 @@ void vtkSurfaceAtlas::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+const char* vtkSurfaceAtlas::GetCoordinatesArrayName()
+{
+  return ArrayNames::AtlasCoordinates;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceAtlas::GetChartArrayName()
+{
+  return ArrayNames::ChartId;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceAtlas::GetResolutionArrayName()
+{
+  return ArrayNames::AtlasResolution;
+}
+
+//------------------------------------------------------------------------------
 vtkTable* vtkSurfaceAtlas::GetCharts()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));

@@ -84,9 +84,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /// Names of the arrays that other filters look for.
-  static const char* GetCoordinatesArrayName() { return "AtlasCoordinates"; }
-  static const char* GetChartArrayName() { return "ChartId"; }
-  static const char* GetResolutionArrayName() { return "AtlasResolution"; }
+  static const char* GetCoordinatesArrayName();
+  static const char* GetChartArrayName();
+  static const char* GetResolutionArrayName();
 
   ///@{
   /// Texels a side: a power of two up to 16384. Default 512.

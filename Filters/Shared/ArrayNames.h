@@ -18,8 +18,7 @@ constexpr const char* OriginalPointIds = "OriginalPointIds";
 ///@}
 /// Cell array of an atlas and texel map, 1 component: the chart that a cell or texel belongs to.
 constexpr const char* ChartId = "ChartId";
-///@{ Texel maps: where the surface is in a texel and how it lies (3 components), and its area
-///there.
+///@{ Texel maps: place and normal of the surface in a texel (3 components), and its area there.
 constexpr const char* TexelPosition = "Position";
 constexpr const char* TexelNormal = "Normal";
 constexpr const char* TexelArea = "Area";

@@ -22,20 +22,20 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 // Stretch is no reason to divide a block that is this small or a piece of so few faces: what is
 // gained in stretch is lost in texels at borders.
-constexpr int SMALLEST_BLOCK = 8;
-constexpr std::size_t FEWEST_FACES = 16;
+constexpr int SmallestBlock = 8;
+constexpr std::size_t FewestFaces = 16;
 
 // Maps cost more than in proportion to their faces, so that a piece of more of them is divided
 // before any map is tried.
-constexpr std::size_t MOST_FACES = 50000;
+constexpr std::size_t MostFaces = 50000;
 
 // The texels per area of a node may differ by this factor from those of the whole surface.
-constexpr double LARGEST_DENSITY = 1.5;
+constexpr double LargestDensity = 1.5;
 
 // A piece is not even tried as a chart when its mean normal is shorter than this (a hemisphere has
 // one half), or when it has more holes and handles than this.
-constexpr double SHORTEST_MEAN_NORMAL = 0.35;
-constexpr int LEAST_EULER_CHARACTERISTIC = -2;
+constexpr double ShortestMeanNormal = 0.35;
+constexpr int LeastEulerCharacteristic = -2;
 
 //------------------------------------------------------------------------------
 // Call work(i) for all i < size on threads; what one of them throws is thrown when all are done.
@@ -161,10 +161,10 @@ bool AtlasQuadtree::MakeChart(const Node& node, Chart& chart, std::string& probl
     problem = "a closed part is too small to be cut open";
     return false;
   }
-  const bool last = node.Size <= SMALLEST_BLOCK || node.Faces.size() < FEWEST_FACES;
+  const bool last = node.Size <= SmallestBlock || node.Faces.size() < FewestFaces;
   if (!last &&
-    (node.Faces.size() > MOST_FACES || !this->IsFlatEnough(node.Faces) ||
-      piece.GetEulerCharacteristic() < LEAST_EULER_CHARACTERISTIC))
+    (node.Faces.size() > MostFaces || !this->IsFlatEnough(node.Faces) ||
+      piece.GetEulerCharacteristic() < LeastEulerCharacteristic))
   {
     return false;
   }
@@ -221,7 +221,7 @@ bool AtlasQuadtree::IsFlatEnough(const std::vector<int>& faces) const
   {
     sum += this->Surface.Areas[face] * this->Surface.Normals[face];
   }
-  return sum.norm() >= SHORTEST_MEAN_NORMAL * this->GetArea(faces);
+  return sum.norm() >= ShortestMeanNormal * this->GetArea(faces);
 }
 
 //------------------------------------------------------------------------------
@@ -254,7 +254,7 @@ std::vector<AtlasQuadtree::Piece> AtlasQuadtree::Bisect(const std::vector<Piece>
       const double share = piece.IsLast
         ? 0.0
         : std::min(0.49,
-            std::max(0.5 / (LARGEST_DENSITY * density), 1.0 - 0.5 * LARGEST_DENSITY / density));
+            std::max(0.5 / (LargestDensity * density), 1.0 - 0.5 * LargestDensity / density));
       SurfaceBisection bisection(this->Surface, this->Owners, this->Local);
       halves[i] = bisection.Divide(piece.Faces, share, density);
     });
@@ -282,8 +282,8 @@ std::vector<int> AtlasQuadtree::Divide(const std::vector<int>& nodes)
   for (const int node : nodes)
   {
     const double side = static_cast<double>(this->Nodes[node].Size) / this->Resolution;
-    pieces.push_back({ std::move(this->Nodes[node].Faces), side * side,
-      this->Nodes[node].Size <= SMALLEST_BLOCK });
+    pieces.push_back(
+      { std::move(this->Nodes[node].Faces), side * side, this->Nodes[node].Size <= SmallestBlock });
   }
   pieces = this->Bisect(this->Bisect(pieces));
 

@@ -14,9 +14,9 @@ namespace
 {
 // An edge is halved when it is longer than this part of the square root of the area of the
 // surface, or of its component; but never into more pieces than the last number says.
-constexpr double EDGES_ACROSS_SURFACE = 24.0;
-constexpr double EDGES_ACROSS_COMPONENT = 4.0;
-constexpr double MAXIMUM_PIECES_OF_EDGE = 64.0;
+constexpr double EdgesAcrossSurface = 24.0;
+constexpr double EdgesAcrossComponent = 4.0;
+constexpr double MaximumPiecesOfEdge = 64.0;
 
 //------------------------------------------------------------------------------
 std::uint64_t MakeKey(std::size_t a, std::size_t b)
@@ -161,9 +161,8 @@ std::vector<double> AtlasSurface::FindLongestEdges() const
         }
       }
     }
-    const double length = std::max(longest / MAXIMUM_PIECES_OF_EDGE,
-      std::min(std::sqrt(this->Area) / EDGES_ACROSS_SURFACE,
-        std::sqrt(area) / EDGES_ACROSS_COMPONENT));
+    const double length = std::max(longest / MaximumPiecesOfEdge,
+      std::min(std::sqrt(this->Area) / EdgesAcrossSurface, std::sqrt(area) / EdgesAcrossComponent));
     for (const int face : component)
     {
       lengths[face] = length;

@@ -17,13 +17,13 @@ namespace
 {
 using Coordinates = SquareMap::Coordinates;
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double Infinite = std::numeric_limits<double>::infinity();
 
 // Springs are not weaker than this, where 1.15 is what the edges of an even mesh have.
-constexpr double WEAKEST_SPRING = 1e-4;
+constexpr double WeakestSpring = 1e-4;
 
 // Iterations end when the next one would lower the squared stretch by less than this fraction.
-constexpr double LEAST_GAIN = 1e-4;
+constexpr double LeastGain = 1e-4;
 
 //------------------------------------------------------------------------------
 double Cross(const Coordinates& a, const Coordinates& b)
@@ -166,8 +166,8 @@ struct Freedom
 
   explicit Freedom(const std::vector<unsigned char>& sides) : Unknowns(sides.size())
   {
-    const int holders[2] = { SquareLayout::LEFT | SquareLayout::RIGHT,
-      SquareLayout::BOTTOM | SquareLayout::TOP };
+    const int holders[2] = { SquareLayout::Left | SquareLayout::Right,
+      SquareLayout::Bottom | SquareLayout::Top };
     for (std::size_t point = 0; point < sides.size(); ++point)
     {
       for (int axis = 0; axis < 2; ++axis)
@@ -224,6 +224,31 @@ private:
     return Eigen::Map<const Gradient>(mode.data());
   }
 };
+
+//------------------------------------------------------------------------------
+// The unknowns of a triangle: u and v of each corner, those of all v after those of all u.
+StepSolver<6>::Unknowns GetUnknowns(const Freedom& freedom, const SquareMap::Triangle& triangle)
+{
+  StepSolver<6>::Unknowns unknowns;
+  for (int j = 0; j < 6; ++j)
+  {
+    const int unknown = freedom.Unknowns[triangle[j / 2]][j % 2];
+    unknowns[j] = unknown < 0 ? -1 : unknown + (j % 2) * freedom.Numbers[0];
+  }
+  return unknowns;
+}
+
+//------------------------------------------------------------------------------
+// In the plane of the triangle, of the three functions that are one at a corner.
+template <typename Shape>
+Eigen::Matrix<double, 2, 3> GetShapeGradients(const Shape& shape)
+{
+  const Eigen::Vector2d second(1.0 / shape.Length, -shape.Apex[0] / (shape.Length * shape.Apex[1]));
+  const Eigen::Vector2d third(0.0, 1.0 / shape.Apex[1]);
+  Eigen::Matrix<double, 2, 3> gradients;
+  gradients << -second - third, second, third;
+  return gradients;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -292,9 +317,9 @@ void SquareLayout::MakeConformalSprings()
     const auto other = half + 1;
     const bool paired = other != halves.end() && other->From == half->From && other->To == half->To;
     const double sum = *half->Spring + (paired ? *other->Spring : 0.0);
-    if (sum < WEAKEST_SPRING)
+    if (sum < WeakestSpring)
     {
-      *half->Spring = WEAKEST_SPRING;
+      *half->Spring = WeakestSpring;
       if (paired)
       {
         *other->Spring = 0.0;
@@ -323,7 +348,7 @@ bool SquareLayout::Solve(std::vector<Coordinates>& uv) const
   uv.resize(this->Sides.size());
   for (std::size_t point = 0; point < uv.size(); ++point)
   {
-    uv[point] = { this->Sides[point] & RIGHT ? 1.0 : 0.0, this->Sides[point] & TOP ? 1.0 : 0.0 };
+    uv[point] = { this->Sides[point] & Right ? 1.0 : 0.0, this->Sides[point] & Top ? 1.0 : 0.0 };
   }
   for (int axis = 0; axis < 2; ++axis)
   {
@@ -402,7 +427,7 @@ double SquareLayout::GetSquaredStretch(std::size_t triangle,
   const double twiceArea = Cross(first, second);
   if (!(twiceArea > 0.0))
   {
-    return INFINITE;
+    return Infinite;
   }
   // The derivatives of the surface's point by u and by v, in the triangle's plane. Squares of these
   // add up without cancellation, unlike the products of edges' lengths.
@@ -467,14 +492,14 @@ double SquareLayout::GetLInfinityStretch() const
 //------------------------------------------------------------------------------
 bool SquareLayout::IsOneToOne() const
 {
-  return this->MeasureL2Stretch(this->UV) < INFINITE;
+  return this->MeasureL2Stretch(this->UV) < Infinite;
 }
 
 //------------------------------------------------------------------------------
 // The multiple of the step at which the first triangle loses its area.
 double SquareLayout::GetLargestStep(const std::vector<Coordinates>& step) const
 {
-  double largest = INFINITE;
+  double largest = Infinite;
   for (const auto& corners : this->Surface.Triangles)
   {
     const Coordinates first = Subtract(this->UV[corners[1]], this->UV[corners[0]]);
@@ -499,6 +524,36 @@ double SquareLayout::GetLargestStep(const std::vector<Coordinates>& step) const
 }
 
 //------------------------------------------------------------------------------
+double SquareLayout::MeasureSquaredStretch(const std::vector<Coordinates>& uv) const
+{
+  const double stretch = this->MeasureL2Stretch(uv);
+  return stretch * stretch;
+}
+
+//------------------------------------------------------------------------------
+// Go along a step, whose slope is that of the squared stretch `value`, as far as it lowers that
+// enough and no triangle loses its area. False if nothing is gained.
+bool SquareLayout::Descend(const std::vector<Coordinates>& step, double slope, double& value)
+{
+  double length = std::min(1.0, 0.8 * this->GetLargestStep(step));
+  std::vector<Coordinates> uv = Add(this->UV, length, step);
+  double next = this->MeasureSquaredStretch(uv);
+  while (!(next <= value + 1e-4 * length * slope))
+  {
+    length *= 0.5;
+    if (length < 1e-8)
+    {
+      return false;
+    }
+    uv = Add(this->UV, length, step);
+    next = this->MeasureSquaredStretch(uv);
+  }
+  this->UV = std::move(uv);
+  value = next;
+  return true;
+}
+
+//------------------------------------------------------------------------------
 void SquareLayout::Minimize(int maximumNumberOfIterations)
 {
   const Freedom freedom(this->Sides);
@@ -506,28 +561,12 @@ void SquareLayout::Minimize(int maximumNumberOfIterations)
   std::vector<Eigen::Matrix<double, 2, 3>> shapeGradients;
   for (std::size_t i = 0; i < this->Shapes.size(); ++i)
   {
-    StepSolver<6>::Unknowns unknowns;
-    for (int j = 0; j < 6; ++j)
-    {
-      const int unknown = freedom.Unknowns[this->Surface.Triangles[i][j / 2]][j % 2];
-      unknowns[j] = unknown < 0 ? -1 : unknown + (j % 2) * freedom.Numbers[0];
-    }
-    elements.push_back(unknowns);
-    const Shape& shape = this->Shapes[i];
-    const Eigen::Vector2d second(1.0 / shape.Length,
-      -shape.Apex[0] / (shape.Length * shape.Apex[1]));
-    const Eigen::Vector2d third(0.0, 1.0 / shape.Apex[1]);
-    shapeGradients.emplace_back();
-    shapeGradients.back() << -second - third, second, third;
+    elements.push_back(GetUnknowns(freedom, this->Surface.Triangles[i]));
+    shapeGradients.push_back(GetShapeGradients(this->Shapes[i]));
   }
   StepSolver<6> solver(std::move(elements), freedom.Numbers[0] + freedom.Numbers[1]);
 
-  const auto measure = [this](const std::vector<Coordinates>& uv)
-  {
-    const double stretch = this->MeasureL2Stretch(uv);
-    return stretch * stretch;
-  };
-  double value = measure(this->UV);
+  double value = this->MeasureSquaredStretch(this->UV);
   std::vector<Coordinates> step(this->UV.size());
   for (int iteration = 0; iteration < maximumNumberOfIterations; ++iteration)
   {
@@ -557,22 +596,7 @@ void SquareLayout::Minimize(int maximumNumberOfIterations)
       }
     }
     const double slope = solver.GetSlope().dot(unknowns);
-    double length = std::min(1.0, 0.8 * this->GetLargestStep(step));
-    std::vector<Coordinates> uv = Add(this->UV, length, step);
-    double next = measure(uv);
-    while (!(next <= value + 1e-4 * length * slope))
-    {
-      length *= 0.5;
-      if (length < 1e-8)
-      {
-        return;
-      }
-      uv = Add(this->UV, length, step);
-      next = measure(uv);
-    }
-    this->UV = std::move(uv);
-    value = next;
-    if (!(-slope > LEAST_GAIN * value))
+    if (!this->Descend(step, slope, value) || !(-slope > LeastGain * value))
     {
       return;
     }

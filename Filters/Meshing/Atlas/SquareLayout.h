@@ -28,10 +28,10 @@ public:
   /// Sides of the square, as bits: a corner has two, an inner point none.
   enum Side : unsigned char
   {
-    LEFT = 1,
-    RIGHT = 2,
-    BOTTOM = 4,
-    TOP = 8
+    Left = 1,
+    Right = 2,
+    Bottom = 4,
+    Top = 8
   };
 
   enum class SpringKind
@@ -80,6 +80,8 @@ private:
   void MakeConformalSprings();
   bool Solve(std::vector<Coordinates>& uv) const;
   double GetLargestStep(const std::vector<Coordinates>& step) const;
+  double MeasureSquaredStretch(const std::vector<Coordinates>& uv) const;
+  bool Descend(const std::vector<Coordinates>& step, double slope, double& value);
 
   const SquareMap::Disc& Surface;
   const std::vector<unsigned char>& Sides;

@@ -27,13 +27,13 @@ using Edge = std::pair<std::size_t, std::size_t>;
 using Corners = std::array<std::size_t, 4>;
 
 // How many corners are tried, and how many of these after a first look.
-constexpr int BEGINNINGS = 8;
-constexpr std::size_t FINALISTS = 3;
+constexpr int Beginnings = 8;
+constexpr std::size_t Finalists = 3;
 
 // Newton's method ends by itself, mostly after ten iterations; long branches take up to this many.
-constexpr int LAST_ITERATIONS = 200;
+constexpr int LastIterations = 200;
 
-constexpr double PI = 3.14159265358979323846;
+constexpr double Pi = 3.14159265358979323846;
 
 //------------------------------------------------------------------------------
 Point Subtract(const Point& a, const Point& b)
@@ -103,7 +103,7 @@ Border::Border(const Disc& disc)
   for (std::size_t i = 0; i < next.size(); ++i)
   {
     this->Points.push_back(point);
-    this->Turns.push_back(PI - angles[point]);
+    this->Turns.push_back(Pi - angles[point]);
     const Point step = Subtract(disc.Points[next[point]], disc.Points[point]);
     this->Lengths.push_back(this->Lengths.back() + std::sqrt(Dot(step, step)));
     point = next[point];
@@ -170,8 +170,8 @@ const Disc& HalveEdgesAlongSides(Disc& disc, std::vector<unsigned char>& sides)
 std::vector<unsigned char> GetSides(const Border& border, const Corners& corners,
   std::size_t numberOfPoints)
 {
-  constexpr unsigned char order[4] = { SquareLayout::BOTTOM, SquareLayout::RIGHT, SquareLayout::TOP,
-    SquareLayout::LEFT };
+  constexpr unsigned char order[4] = { SquareLayout::Bottom, SquareLayout::Right, SquareLayout::Top,
+    SquareLayout::Left };
   std::vector<unsigned char> sides(numberOfPoints, 0);
   for (int side = 0; side < 4; ++side)
   {
@@ -285,9 +285,9 @@ std::set<Corners> GetCandidates(const Border& border)
     }
   };
   const double quarter = 0.25 * border.GetLength();
-  for (int beginning = 0; beginning < BEGINNINGS; ++beginning)
+  for (int beginning = 0; beginning < Beginnings; ++beginning)
   {
-    const double window = quarter / BEGINNINGS;
+    const double window = quarter / Beginnings;
     Corners corners;
     for (int i = 0; i < 4; ++i)
     {
@@ -363,14 +363,14 @@ bool SquareMap::Map(Disc& disc, std::string& problem)
     {
       trials.push_back(std::make_unique<Trial>(disc, border, corners));
     }
-    KeepBest(trials, FINALISTS,
+    KeepBest(trials, Finalists,
       [&](SquareLayout& layout)
       {
         const bool isOneToOne = layout.Balance(springs) && layout.IsOneToOne();
         layout.Reweight(1);
         return isOneToOne;
       });
-    KeepBest(trials, FINALISTS,
+    KeepBest(trials, Finalists,
       [](SquareLayout& layout)
       {
         layout.Reweight(10);
@@ -379,7 +379,7 @@ bool SquareMap::Map(Disc& disc, std::string& problem)
       });
     for (auto& trial : trials)
     {
-      trial->Layout.Minimize(LAST_ITERATIONS);
+      trial->Layout.Minimize(LastIterations);
       if (IsBijective(trial->Halved, border, trial->SquareCorners, trial->Layout.GetCoordinates()))
       {
         this->UV = trial->Layout.GetCoordinates();

@@ -18,35 +18,35 @@ namespace
 {
 using Vector = AtlasSurface::Vector;
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double Infinite = std::numeric_limits<double>::infinity();
 
 // Edges sharper than this are creases. Crossing one at a right angle is as far as going this part
 // of the way across the whole piece, so that level lines gather there; and to cut along it costs a
 // fifth of what a cut elsewhere costs.
-const double CREASE_COSINE = std::cos(30.0 * M_PI / 180.0);
-constexpr double WIDTH_OF_CREASE = 0.5;
-constexpr double COST_OF_CREASE = 0.2;
+const double CreaseCosine = std::cos(30.0 * M_PI / 180.0);
+constexpr double WidthOfCrease = 0.5;
+constexpr double CostOfCrease = 0.2;
 
 // How much a half that is e times too large or too small weighs against a longer cut: that much of
 // the square root of the area of the piece.
-constexpr double WEIGHT_OF_BALANCE = 12.0;
+constexpr double WeightOfBalance = 12.0;
 
 // A half has at least so many faces of each component that it has a part of: a single triangle
 // has too few corners for a square.
-constexpr std::size_t SMALLEST_PART = 4;
+constexpr std::size_t SmallestPart = 4;
 
 //------------------------------------------------------------------------------
 // 0 for no crease, 1 for a right angle, more beyond.
 double GetSharpness(const Vector& a, const Vector& b)
 {
-  return std::max(0.0, (CREASE_COSINE - a.dot(b)) / CREASE_COSINE);
+  return std::max(0.0, (CreaseCosine - a.dot(b)) / CreaseCosine);
 }
 } // namespace
 
 //------------------------------------------------------------------------------
 struct SurfaceBisection::Cut
 {
-  double Score = INFINITE;
+  double Score = Infinite;
   std::vector<char> Sides;
 };
 
@@ -132,6 +132,7 @@ void SurfaceBisection::Gather(const std::vector<int>& faces)
   {
     this->Area += this->Surface.Areas[face];
   }
+  this->Crease = WidthOfCrease * std::sqrt(this->Area);
 }
 
 //------------------------------------------------------------------------------
@@ -189,11 +190,23 @@ void SurfaceBisection::TieComponents()
 }
 
 //------------------------------------------------------------------------------
+// The distance of a face's neighbour from where the face is at `distance`.
+double SurfaceBisection::GetDistanceAcross(int face, int edge, double distance) const
+{
+  const int global = this->Faces[face];
+  const int other = this->Faces[this->Neighbors[face][edge]];
+  const Vector middle = this->Surface.GetEdgeMiddle(global, edge);
+  return distance + (this->Surface.Centers[global] - middle).norm() +
+    (this->Surface.Centers[other] - middle).norm() +
+    this->Crease * GetSharpness(this->Surface.Normals[global], this->Surface.Normals[other]);
+}
+
+//------------------------------------------------------------------------------
 // Distances from one face to all others, from centre to centre through the middles of edges.
 std::vector<double> SurfaceBisection::FindDistances(int start) const
 {
   using Entry = std::pair<double, int>;
-  std::vector<double> distances(this->Faces.size(), INFINITE);
+  std::vector<double> distances(this->Faces.size(), Infinite);
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   const auto reach = [&](int face, double distance)
   {
@@ -205,7 +218,6 @@ std::vector<double> SurfaceBisection::FindDistances(int start) const
   };
   const auto place = std::find_if(this->TiedFaces.begin(), this->TiedFaces.end(),
     [&](int face) { return this->Components[face] == this->Components[start]; });
-  const double crease = WIDTH_OF_CREASE * std::sqrt(this->Area);
   // Ties join faces of different components, in a chain; so the components are done in its order,
   // away from the first on both sides.
   const auto settle = [&]()
@@ -219,20 +231,13 @@ std::vector<double> SurfaceBisection::FindDistances(int start) const
       {
         continue;
       }
-      const int global = this->Faces[face];
       for (int edge = 0; edge < 3; ++edge)
       {
         const int neighbor = this->Neighbors[face][edge];
-        if (neighbor < 0)
+        if (neighbor >= 0)
         {
-          continue;
+          reach(neighbor, this->GetDistanceAcross(face, edge, entry.first));
         }
-        const int other = this->Faces[neighbor];
-        const Vector middle = this->Surface.GetEdgeMiddle(global, edge);
-        reach(neighbor,
-          entry.first + (this->Surface.Centers[global] - middle).norm() +
-            (this->Surface.Centers[other] - middle).norm() +
-            crease * GetSharpness(this->Surface.Normals[global], this->Surface.Normals[other]));
       }
     }
   };
@@ -267,7 +272,7 @@ std::array<std::vector<double>, 4> SurfaceBisection::FindDistancesFromCorners() 
   };
   std::array<std::vector<double>, 4> distances;
   int corner = findFarthest(this->FindDistances(0));
-  std::vector<double> nearest(this->Faces.size(), INFINITE);
+  std::vector<double> nearest(this->Faces.size(), Infinite);
   for (std::vector<double>& values : distances)
   {
     values = this->FindDistances(corner);
@@ -310,7 +315,7 @@ double SurfaceBisection::GetCost(int face, int edge) const
   const double sharpness =
     GetSharpness(this->Surface.Normals[global], this->Surface.Normals[other]);
   return this->Surface.GetEdgeLength(global, edge) *
-    std::max(COST_OF_CREASE, 1.0 - (1.0 - COST_OF_CREASE) * sharpness);
+    std::max(CostOfCrease, 1.0 - (1.0 - CostOfCrease) * sharpness);
 }
 
 //------------------------------------------------------------------------------
@@ -339,7 +344,7 @@ SurfaceBisection::Cut SurfaceBisection::FindBestCut(const std::vector<double>& v
     const double low = std::log(2.0 * density * part);
     const double high = std::log(2.0 * density * (1.0 - part));
     double score =
-      costs[i] / std::sqrt(this->Area) + WEIGHT_OF_BALANCE * 0.5 * (low * low + high * high);
+      costs[i] / std::sqrt(this->Area) + WeightOfBalance * 0.5 * (low * low + high * high);
     const double miss = share - std::min(part, 1.0 - part);
     if (miss > 0.0)
     {
@@ -439,7 +444,7 @@ void SurfaceBisection::JoinCrumbs(std::vector<char>& sides, char side) const
     const int component = this->Components[members[part].front()];
     const std::size_t size = members[part].size();
     const bool kept = largest[component] == static_cast<int>(part) &&
-      (size >= SMALLEST_PART || size == sizes[component]);
+      (size >= SmallestPart || size == sizes[component]);
     for (std::size_t i = 0; i < size && !kept; ++i)
     {
       sides[members[part][i]] = !side;

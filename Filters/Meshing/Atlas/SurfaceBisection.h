@@ -49,6 +49,7 @@ private:
   void TieComponents();
   std::vector<char> DivideComponents() const;
   std::vector<char> CutBetweenCorners(double share, double density) const;
+  double GetDistanceAcross(int face, int edge, double distance) const;
   std::vector<double> FindDistances(int start) const;
   std::array<std::vector<double>, 4> FindDistancesFromCorners() const;
   Cut FindBestCut(const std::vector<double>& values, double share, double density) const;
@@ -68,6 +69,7 @@ private:
   int NumberOfComponents = 0;
   std::vector<int> TiedFaces; ///< one of each component; neighbours in this list are tied
   double Area = 0.0;
+  double Crease = 0.0; ///< how far it is to cross one at a right angle
 };
 } // namespace LightTransport
 

@@ -173,16 +173,16 @@ double GetArea(vtkPolyData* surface, const Triangle& corners)
 Outcome CheckResolution(vtkPolyData* surface, int resolution)
 {
   const std::string size = std::to_string(resolution) + " x " + std::to_string(resolution);
-  if (resolution < 1 || resolution > TexelPieces::MAXIMUM_RESOLUTION ||
+  if (resolution < 1 || resolution > TexelPieces::MaximumResolution ||
     (resolution & (resolution - 1)) != 0)
   {
     return Outcome::Failed("A map of " + size +
       " texels cannot be made or read: the number must be a "
       "power of two, not above " +
-      std::to_string(TexelPieces::MAXIMUM_RESOLUTION) + ".");
+      std::to_string(TexelPieces::MaximumResolution) + ".");
   }
   const int smallest = TexelPieces::GetSmallestResolution(surface);
-  if (smallest > TexelPieces::MAXIMUM_RESOLUTION)
+  if (smallest > TexelPieces::MaximumResolution)
   {
     return Outcome::Failed("The charts of the surface do not end between texels at any resolution: "
                            "make the atlas with vtkSurfaceAtlas.");
@@ -420,7 +420,7 @@ int TexelPieces::GetSmallestResolution(vtkPolyData* surface)
     for (const double value : { box.Least[0], box.Least[1], box.Largest[0], box.Largest[1] })
     {
       while (
-        resolution <= MAXIMUM_RESOLUTION && value * resolution != std::floor(value * resolution))
+        resolution <= MaximumResolution && value * resolution != std::floor(value * resolution))
       {
         resolution *= 2;
       }

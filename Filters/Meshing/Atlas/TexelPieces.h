@@ -38,7 +38,7 @@ public:
   };
   using Visitor = std::function<void(const Piece&)>;
 
-  static constexpr int MAXIMUM_RESOLUTION = 32768;
+  static constexpr int MaximumResolution = 32768;
 
   /**
    * Fails unless the surface is an atlas (only triangles, whose coordinates lie in [0,1]^2 and go
