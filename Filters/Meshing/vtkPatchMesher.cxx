@@ -4,10 +4,11 @@
 
 #include "Common/MeshingRun.h"
 #include "Common/TriangleSoup.h"
+#include "Mesher/IsotropicRemesher.h"
 #include "Mesher/PatchOutput.h"
-#include "Mesher/SizedRemeshing.h"
-#include "Mesher/SurfaceRemesher.h"
+#include "Mesher/RemeshToTarget.h"
 #include "Mesher/SurfaceRepair.h"
+#include "Mesher/WantedLengths.h"
 #include "Shared/FilterMonitor.h"
 
 #include "vtkAbstractArray.h"
@@ -36,11 +37,11 @@ namespace
 constexpr const char* DefaultRegionArray = "Region";
 constexpr const char* DefaultLengthArray = "EdgeLength";
 
-static_assert(static_cast<int>(SizedRemeshing::LengthSource::Uniform) ==
+static_assert(static_cast<int>(PatchTarget::LengthSource::Uniform) ==
       vtkPatchMesher::SIZE_FIELD_UNIFORM &&
-    static_cast<int>(SizedRemeshing::LengthSource::Curvature) ==
+    static_cast<int>(PatchTarget::LengthSource::Curvature) ==
       vtkPatchMesher::SIZE_FIELD_CURVATURE &&
-    static_cast<int>(SizedRemeshing::LengthSource::Array) == vtkPatchMesher::SIZE_FIELD_ARRAY,
+    static_cast<int>(PatchTarget::LengthSource::Array) == vtkPatchMesher::SIZE_FIELD_ARRAY,
   "SizeField is passed on as it is");
 static_assert(static_cast<int>(SurfaceRepair::Intersections::Resolve) ==
       vtkPatchMesher::SELF_INTERSECTIONS_RESOLVE &&
@@ -123,7 +124,8 @@ struct vtkPatchMesher::Job
   std::vector<int> RegionOfCell;
   std::vector<double> LengthOfPoint;
   TriangleSoup Soup;
-  SurfaceRemesher Remesher;
+  RepairCounts Counts;
+  IsotropicRemesher Remesher;
   /// The target edge length that was used.
   double Length = 0.0;
 };
@@ -281,7 +283,7 @@ Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<d
     return Outcome::Failed("There is no numeric point array \"" + name +
       "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature.");
   }
-  return SizedRemeshing::ReadLengths(array, lengths);
+  return WantedLengths::Read(array, lengths);
 }
 
 //------------------------------------------------------------------------------
@@ -297,14 +299,14 @@ Outcome vtkPatchMesher::ReadSurface(Job& job) const
   }
   const SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
     static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
-  return SurfaceRepair::Run(settings, job.Watcher.GetStage(0.02, 0.1), job.Soup);
+  return SurfaceRepair::Run(settings, job.Watcher.GetStage(0.02, 0.1), job.Soup, job.Counts);
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkPatchMesher::Remesh(Job& job) const
 {
-  SizedRemeshing::Settings settings;
-  if (Outcome chosen = this->ChooseSettings(job, settings); !chosen)
+  PatchTarget target;
+  if (Outcome chosen = this->ChooseTarget(job, target); !chosen)
   {
     return chosen;
   }
@@ -313,13 +315,13 @@ Outcome vtkPatchMesher::Remesh(Job& job) const
   {
     return Outcome::Failed("The surface is not a manifold, even after the repair: split it first.");
   }
-  return SizedRemeshing::Remesh(job.Remesher, job.Soup, settings, job.Watcher.GetStage(0.1, 0.85),
+  return RemeshToTarget::Run(job.Remesher, job.Soup, target, job.Watcher.GetStage(0.1, 0.85),
     job.Length);
 }
 
 //------------------------------------------------------------------------------
 // Fill in the defaults that depend on the surface.
-Outcome vtkPatchMesher::ChooseSettings(const Job& job, SizedRemeshing::Settings& settings) const
+Outcome vtkPatchMesher::ChooseTarget(const Job& job, PatchTarget& target) const
 {
   if (job.Soup.Triangles.empty())
   {
@@ -336,7 +338,7 @@ Outcome vtkPatchMesher::ChooseSettings(const Job& job, SizedRemeshing::Settings&
     return Outcome::Failed("MinimumEdgeLength " + std::to_string(shortest) +
       " is larger than TargetEdgeLength " + std::to_string(length) + ": give a smaller one.");
   }
-  settings = { static_cast<SizedRemeshing::LengthSource>(this->SizeField), length, shortest, error,
+  target = { static_cast<PatchTarget::LengthSource>(this->SizeField), length, shortest, error,
     this->Grading, this->CoarsePlanarRegions, this->TargetNumberOfPatches, this->NumberOfIterations,
     job.LengthOfPoint };
   return Outcome::Done();
@@ -349,7 +351,7 @@ Outcome vtkPatchMesher::Write(const Job& job)
   {
     return Outcome::Aborted();
   }
-  const SurfaceRemesher::Result patches = job.Remesher.GetResult();
+  const IsotropicRemesher::Result patches = job.Remesher.GetResult();
   const PatchOutput writer(job.Input, job.Soup, patches);
   writer.WriteGeometry(this->FlipNormals, job.Output);
   writer.WriteCellData(job.Output);
@@ -358,7 +360,7 @@ Outcome vtkPatchMesher::Write(const Job& job)
     return Outcome::Aborted();
   }
   writer.WritePointData(job.Output);
-  writer.WriteSummary(job.Length, job.Output);
+  writer.WriteSummary(job.Counts, job.Length, job.Output);
   this->CheckNumberOfPatches(job.Output->GetNumberOfCells());
   job.Watcher.Report(1.0);
   return Outcome::Done();

@@ -67,10 +67,7 @@
 namespace LightTransport
 {
 class Outcome;
-namespace SizedRemeshing
-{
-struct Settings;
-}
+struct PatchTarget;
 } // namespace LightTransport
 
 class VTKLIGHTTRANSPORTMESHING_EXPORT vtkPatchMesher : public vtkPolyDataAlgorithm
@@ -289,8 +286,7 @@ private:
   LightTransport::Outcome ReadLengths(vtkInformationVector** inputs, std::vector<double>& lengths);
   LightTransport::Outcome ReadSurface(Job& job) const;
   LightTransport::Outcome Remesh(Job& job) const;
-  LightTransport::Outcome ChooseSettings(const Job& job,
-    LightTransport::SizedRemeshing::Settings& settings) const;
+  LightTransport::Outcome ChooseTarget(const Job& job, LightTransport::PatchTarget& target) const;
   LightTransport::Outcome Write(const Job& job);
   void CheckNumberOfPatches(vtkIdType number);
 };

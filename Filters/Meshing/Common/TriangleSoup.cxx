@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/TriangleSoup.h"
 
-#include "Shared/DisjointSets.h"
+#include "Common/SoupEdges.h"
+
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -18,13 +19,11 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <numeric>
 #include <sstream>
 #include <unordered_map>
@@ -36,74 +35,11 @@ namespace
 {
 namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Edge = std::pair<std::size_t, std::size_t>;
-
-//------------------------------------------------------------------------------
-Edge MakeEdge(std::size_t a, std::size_t b)
-{
-  return a < b ? Edge(a, b) : Edge(b, a);
-}
 
 //------------------------------------------------------------------------------
 Kernel::Point_3 ToKernel(const TriangleSoup::Point& point)
 {
   return Kernel::Point_3(point[0], point[1], point[2]);
-}
-
-//------------------------------------------------------------------------------
-bool HasRepeatedPoint(const TriangleSoup::Triangle& t)
-{
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
-//------------------------------------------------------------------------------
-// For each triangle, whether none before it has the same points.
-std::vector<bool> FindFirstOfDuplicates(const std::vector<TriangleSoup::Triangle>& triangles)
-{
-  std::vector<std::pair<TriangleSoup::Triangle, std::size_t>> sorted;
-  sorted.reserve(triangles.size());
-  for (const TriangleSoup::Triangle& triangle : triangles)
-  {
-    sorted.emplace_back(triangle, sorted.size());
-    std::sort(sorted.back().first.begin(), sorted.back().first.end());
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<bool> first(triangles.size(), true);
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-  {
-    first[sorted[i].second] = sorted[i].first != sorted[i - 1].first;
-  }
-  return first;
-}
-
-//------------------------------------------------------------------------------
-// Calls function(edge, uses from its lower point to its higher one, uses the other way) for each
-// edge.
-template <typename Function>
-void ForEachEdge(const std::vector<TriangleSoup::Triangle>& triangles, const Function& function)
-{
-  std::vector<std::pair<Edge, bool>> uses;
-  uses.reserve(3 * triangles.size());
-  for (const TriangleSoup::Triangle& triangle : triangles)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      const std::size_t from = triangle[i];
-      const std::size_t to = triangle[(i + 1) % 3];
-      uses.emplace_back(MakeEdge(from, to), from < to);
-    }
-  }
-  std::sort(uses.begin(), uses.end());
-  for (std::size_t i = 0; i < uses.size();)
-  {
-    int numbers[2] = { 0, 0 };
-    const Edge edge = uses[i].first;
-    for (; i < uses.size() && uses[i].first == edge; ++i)
-    {
-      ++numbers[uses[i].second];
-    }
-    function(edge, numbers[1], numbers[0]);
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -234,26 +170,6 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// Writes down what orient_polygon_soup does.
-struct OrientationRecord : public PMP::Default_orientation_visitor
-{
-  std::vector<bool>* Reversed = nullptr;
-  std::vector<vtkIdType>* PointIds = nullptr;
-  std::vector<bool>* SplitPoints = nullptr;
-
-  void polygon_orientation_reversed(std::size_t triangle)
-  {
-    (*this->Reversed)[triangle] = !(*this->Reversed)[triangle];
-  }
-  void duplicated_vertex(std::size_t point, std::size_t)
-  {
-    const vtkIdType id = (*this->PointIds)[point];
-    this->PointIds->push_back(id);
-    this->SplitPoints->push_back((*this->SplitPoints)[point]);
-  }
-};
-
-//------------------------------------------------------------------------------
 Outcome CheckInput(vtkPolyData* input)
 {
   if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
@@ -295,12 +211,12 @@ std::string TriangleSoup::DescribeDefects() const
 {
   const auto degenerate = std::count_if(this->Triangles.begin(), this->Triangles.end(),
     [this](const Triangle& triangle) { return this->IsDegenerate(triangle); });
-  const std::vector<bool> first = FindFirstOfDuplicates(this->Triangles);
+  const std::vector<bool> first = this->FindFirstOfDuplicates();
   const auto duplicates = std::count(first.begin(), first.end(), false);
   vtkIdType nonManifold = 0;
   vtkIdType opposed = 0;
-  ForEachEdge(this->Triangles,
-    [&](const Edge&, int forward, int backward)
+  SoupEdges::ForEach(this->Triangles,
+    [&](const SoupEdges::Edge&, int forward, int backward)
     {
       nonManifold += forward + backward > 2;
       opposed += forward + backward == 2 && forward != backward;
@@ -326,159 +242,22 @@ std::string TriangleSoup::DescribeDefects() const
 }
 
 //------------------------------------------------------------------------------
-void TriangleSoup::DropDegenerateTriangles()
+std::vector<bool> TriangleSoup::FindFirstOfDuplicates() const
 {
-  this->NumberOfDroppedTriangles += std::count_if(this->Triangles.begin(), this->Triangles.end(),
-    [this](const Triangle& triangle) { return this->IsDegenerate(triangle); });
-  // Needles can hang on needles, so one pass may make new ones; the points on a line are soon used
-  // up, and what is left after many passes is dropped as it is.
-  const int manyPasses = 100;
-  for (int pass = 0; pass < manyPasses && this->SplitNeighboursOfDegenerateTriangles(); ++pass)
-  {
-  }
-  std::vector<bool> kept(this->Triangles.size());
-  std::transform(this->Triangles.begin(), this->Triangles.end(), kept.begin(),
-    [this](const Triangle& triangle) { return !this->IsDegenerate(triangle); });
-  this->Keep(kept);
-}
-
-//------------------------------------------------------------------------------
-// A triangle whose points lie on one line cannot simply go: its neighbour across the longest side
-// would lose its own, and a closed surface would be open. So that neighbour is split at the third
-// point, which then lies between the others anyway. Drops the degenerate triangles that were seen;
-// returns whether others came up.
-bool TriangleSoup::SplitNeighboursOfDegenerateTriangles()
-{
-  std::map<Edge, std::size_t> splits;
-  std::vector<bool> kept(this->Triangles.size(), true);
-  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
-  {
-    const Triangle& t = this->Triangles[i];
-    if (!this->IsDegenerate(t))
-    {
-      continue;
-    }
-    if (HasRepeatedPoint(t))
-    {
-      kept[i] = false;
-      continue;
-    }
-    std::array<double, 3> lengths;
-    for (int j = 0; j < 3; ++j)
-    {
-      lengths[j] = vtkMath::Distance2BetweenPoints(this->Points[t[j]].data(),
-        this->Points[t[(j + 1) % 3]].data());
-    }
-    const auto j = std::max_element(lengths.begin(), lengths.end()) - lengths.begin();
-    kept[i] = !splits.emplace(MakeEdge(t[j], t[(j + 1) % 3]), t[(j + 2) % 3]).second;
-  }
-  if (splits.empty())
-  {
-    return false;
-  }
-
-  bool again = false;
-  const std::size_t size = this->Triangles.size();
-  for (std::size_t i = 0; i < size; ++i)
-  {
-    if (!kept[i])
-    {
-      continue;
-    }
-    for (int j = 0; j < 3; ++j)
-    {
-      const Triangle t = this->Triangles[i];
-      const auto split = splits.find(MakeEdge(t[j], t[(j + 1) % 3]));
-      if (split != splits.end() && split->second != t[(j + 2) % 3])
-      {
-        this->Triangles[i][(j + 1) % 3] = split->second;
-        this->Triangles.push_back({ split->second, t[(j + 1) % 3], t[(j + 2) % 3] });
-        this->CellIds.push_back(this->CellIds[i]);
-        kept.push_back(true);
-        break;
-      }
-    }
-    again = again || this->IsDegenerate(this->Triangles[i]);
-  }
-  this->Keep(kept);
-  return again ||
-    std::any_of(this->Triangles.begin(), this->Triangles.end(),
-      [this](const Triangle& triangle) { return this->IsDegenerate(triangle); });
-}
-
-//------------------------------------------------------------------------------
-void TriangleSoup::DropDuplicateTriangles()
-{
-  const std::vector<bool> kept = FindFirstOfDuplicates(this->Triangles);
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    for (const std::size_t corner : this->Triangles[i])
-    {
-      this->SplitPoints[corner] = this->SplitPoints[corner] || !kept[i];
-    }
-  }
-  this->NumberOfDroppedTriangles += std::count(kept.begin(), kept.end(), false);
-  this->Keep(kept);
-}
-
-//------------------------------------------------------------------------------
-void TriangleSoup::Orient()
-{
-  if (PMP::is_polygon_soup_a_polygon_mesh(this->Triangles))
-  {
-    return;
-  }
-  std::vector<bool> reversed(this->Triangles.size(), false);
-  OrientationRecord record;
-  record.Reversed = &reversed;
-  record.PointIds = &this->PointIds;
-  record.SplitPoints = &this->SplitPoints;
-  this->MarkEdgesToSplit();
-  const std::size_t size = this->Points.size();
-  PMP::orient_polygon_soup(this->Points, this->Triangles, CGAL::parameters::visitor(record));
-  this->NumberOfSplitPoints += static_cast<vtkIdType>(this->Points.size() - size);
-  this->TurnComponentsToMajority(reversed);
-}
-
-//------------------------------------------------------------------------------
-void TriangleSoup::MarkEdgesToSplit()
-{
-  ForEachEdge(this->Triangles,
-    [this](const Edge& edge, int forward, int backward)
-    {
-      if (forward + backward > 2)
-      {
-        this->SplitPoints[edge.first] = true;
-        this->SplitPoints[edge.second] = true;
-      }
-    });
-}
-
-//------------------------------------------------------------------------------
-// Orienting starts at an arbitrary triangle, which may be the only wrong one.
-void TriangleSoup::TurnComponentsToMajority(const std::vector<bool>& reversed)
-{
-  DisjointSets components(this->Points.size());
+  std::vector<std::pair<Triangle, std::size_t>> sorted;
+  sorted.reserve(this->Triangles.size());
   for (const Triangle& triangle : this->Triangles)
   {
-    components.Join(triangle[0], triangle[1]);
-    components.Join(triangle[0], triangle[2]);
+    sorted.emplace_back(triangle, sorted.size());
+    std::sort(sorted.back().first.begin(), sorted.back().first.end());
   }
-  std::map<std::size_t, double> balance;
-  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> first(this->Triangles.size(), true);
+  for (std::size_t i = 1; i < sorted.size(); ++i)
   {
-    const double area = vtkMath::Norm(this->GetNormal(this->Triangles[i]).data());
-    balance[components.Find(this->Triangles[i][0])] += reversed[i] ? -area : area;
+    first[sorted[i].second] = sorted[i].first != sorted[i - 1].first;
   }
-  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
-  {
-    const bool turn = balance[components.Find(this->Triangles[i][0])] < 0.0;
-    if (turn)
-    {
-      std::swap(this->Triangles[i][1], this->Triangles[i][2]);
-    }
-    this->NumberOfReversedTriangles += turn != reversed[i];
-  }
+  return first;
 }
 
 //------------------------------------------------------------------------------
@@ -516,6 +295,12 @@ TriangleSoup::Point TriangleSoup::GetNormal(const Triangle& triangle) const
 }
 
 //------------------------------------------------------------------------------
+bool TriangleSoup::HasRepeatedPoint(const Triangle& t)
+{
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+//------------------------------------------------------------------------------
 bool TriangleSoup::IsDegenerate(const Triangle& triangle) const
 {
   return HasRepeatedPoint(triangle) ||
@@ -523,20 +308,4 @@ bool TriangleSoup::IsDegenerate(const Triangle& triangle) const
       ToKernel(this->Points[triangle[2]]));
 }
 
-//------------------------------------------------------------------------------
-void TriangleSoup::Keep(const std::vector<bool>& kept)
-{
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
-  {
-    if (kept[i])
-    {
-      this->Triangles[next] = this->Triangles[i];
-      this->CellIds[next] = this->CellIds[i];
-      ++next;
-    }
-  }
-  this->Triangles.resize(next);
-  this->CellIds.resize(next);
-}
 } // namespace LightTransport

@@ -34,13 +34,6 @@ public:
   /// The input cell that each triangle comes from.
   std::vector<vtkIdType> CellIds;
 
-  vtkIdType NumberOfDroppedTriangles = 0;
-  vtkIdType NumberOfReversedTriangles = 0;
-  vtkIdType NumberOfSplitPoints = 0;
-  vtkIdType NumberOfFilledHoles = 0;
-  vtkIdType NumberOfSelfIntersections = 0;
-  vtkIdType NumberOfIntersectionsBetweenComponents = 0;
-
   /**
    * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
    * equal coordinates if asked to. Fails when there are no polygons or coordinates are not finite.
@@ -50,24 +43,16 @@ public:
   /// What keeps the soup from being an oriented manifold, in words; empty when nothing does.
   std::string DescribeDefects() const;
 
-  ///@{ The first steps of the repair, in this order; see ManifoldRepair for the others.
-  void DropDegenerateTriangles();
-  void DropDuplicateTriangles();
-  /// Split non-manifold edges and points and orient neighbours alike, unless this is not needed.
-  void Orient();
-  ///@}
+  /// For each triangle, whether none before it has the same points.
+  std::vector<bool> FindFirstOfDuplicates() const;
 
   /// Length of the diagonal of the bounding box of the triangles.
   double GetDiagonal() const;
   /// Twice the area times the unit normal.
   Point GetNormal(const Triangle& triangle) const;
-
-private:
+  /// Whether a triangle has no area, by exact arithmetic.
   bool IsDegenerate(const Triangle& triangle) const;
-  bool SplitNeighboursOfDegenerateTriangles();
-  void MarkEdgesToSplit();
-  void TurnComponentsToMajority(const std::vector<bool>& reversed);
-  void Keep(const std::vector<bool>& kept);
+  static bool HasRepeatedPoint(const Triangle& triangle);
 };
 } // namespace LightTransport
 

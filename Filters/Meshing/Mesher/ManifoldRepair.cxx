@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/ManifoldRepair.h"
 
-#include "Mesher/PatchSources.h"
+#include "Mesher/SoupLocator.h"
 #include "vtkMath.h"
 #include "vtkSphere.h"
 
@@ -38,16 +38,16 @@ using Halfedge = Mesh::Halfedge_index;
 using Face = Mesh::Face_index;
 using Pair = std::pair<Face, Face>;
 
-constexpr vtkIdType NEW = -1;
+constexpr vtkIdType New = -1;
 
 // A mesh that knows where its points and triangles come from.
 struct RepairMesh
 {
   RepairMesh()
   {
-    this->PointIds = this->Triangles.add_property_map<Vertex, vtkIdType>("v:id", NEW).first;
+    this->PointIds = this->Triangles.add_property_map<Vertex, vtkIdType>("v:id", New).first;
     this->Split = this->Triangles.add_property_map<Vertex, bool>("v:split", false).first;
-    this->CellIds = this->Triangles.add_property_map<Face, vtkIdType>("f:id", NEW).first;
+    this->CellIds = this->Triangles.add_property_map<Face, vtkIdType>("f:id", New).first;
   }
   RepairMesh(const RepairMesh&) = delete;
   void operator=(const RepairMesh&) = delete;
@@ -238,22 +238,22 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
 {
   TriangleSoup soup;
   Append(old, GetFaces(old.Triangles), soup);
-  PatchSources sources(soup);
+  SoupLocator locator(soup);
   const double reach = soup.GetDiagonal() / 1000.0;
   const Mesh& mesh = surface.Triangles;
   for (const Face face : mesh.faces())
   {
-    if (surface.CellIds[face] == NEW)
+    if (surface.CellIds[face] == New)
     {
       const Point center = CGAL::centroid(GetTriangle(mesh, face));
-      surface.CellIds[face] = soup.CellIds[sources.Find(FromKernel(center), reach).Triangle];
+      surface.CellIds[face] = soup.CellIds[locator.Find(FromKernel(center), reach).Triangle];
     }
   }
   for (const Vertex vertex : mesh.vertices())
   {
-    if (surface.PointIds[vertex] == NEW)
+    if (surface.PointIds[vertex] == New)
     {
-      const auto place = sources.Find(FromKernel(mesh.point(vertex)), reach);
+      const auto place = locator.Find(FromKernel(mesh.point(vertex)), reach);
       const auto corner = std::max_element(place.Weights.begin(), place.Weights.end());
       surface.PointIds[vertex] =
         soup.PointIds[soup.Triangles[place.Triangle][corner - place.Weights.begin()]];
@@ -273,13 +273,13 @@ void TakeIdsOfNeighbours(RepairMesh& surface, const std::vector<Face>& added)
     std::vector<Face> left;
     for (const Face face : open)
     {
-      vtkIdType cell = NEW;
+      vtkIdType cell = New;
       for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(face)))
       {
         const Face neighbour = mesh.face(mesh.opposite(h));
-        cell = std::max(cell, mesh.is_valid(neighbour) ? surface.CellIds[neighbour] : NEW);
+        cell = std::max(cell, mesh.is_valid(neighbour) ? surface.CellIds[neighbour] : New);
       }
-      if (cell == NEW)
+      if (cell == New)
       {
         left.push_back(face);
       }

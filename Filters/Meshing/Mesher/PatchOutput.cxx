@@ -19,7 +19,7 @@ namespace LightTransport
 {
 //------------------------------------------------------------------------------
 PatchOutput::PatchOutput(vtkPolyData* input, const TriangleSoup& soup,
-  const SurfaceRemesher::Result& patches)
+  const IsotropicRemesher::Result& patches)
   : Input(input), Soup(soup), Patches(patches)
 {
 }
@@ -101,18 +101,18 @@ void PatchOutput::WritePointData(vtkPolyData* output) const
 }
 
 //------------------------------------------------------------------------------
-void PatchOutput::WriteSummary(double length, vtkPolyData* output) const
+void PatchOutput::WriteSummary(const RepairCounts& counts, double length, vtkPolyData* output) const
 {
   vtkFieldData* fields = output->GetFieldData();
   const auto add = [fields](const char* name, vtkIdType number)
   { FieldValues::AddAs<vtkIdTypeArray>(fields, name, { number }); };
   add("NumberOfPatches", output->GetNumberOfCells());
-  add("NumberOfDroppedTriangles", this->Soup.NumberOfDroppedTriangles);
-  add("NumberOfReversedTriangles", this->Soup.NumberOfReversedTriangles);
-  add("NumberOfSplitPoints", this->Soup.NumberOfSplitPoints);
-  add("NumberOfFilledHoles", this->Soup.NumberOfFilledHoles);
-  add("NumberOfSelfIntersections", this->Soup.NumberOfSelfIntersections);
-  add("NumberOfIntersectionsBetweenComponents", this->Soup.NumberOfIntersectionsBetweenComponents);
+  add("NumberOfDroppedTriangles", counts.NumberOfDroppedTriangles);
+  add("NumberOfReversedTriangles", counts.NumberOfReversedTriangles);
+  add("NumberOfSplitPoints", counts.NumberOfSplitPoints);
+  add("NumberOfFilledHoles", counts.NumberOfFilledHoles);
+  add("NumberOfSelfIntersections", counts.NumberOfSelfIntersections);
+  add("NumberOfIntersectionsBetweenComponents", counts.NumberOfIntersectionsBetweenComponents);
   FieldValues::Add(fields, "TargetEdgeLength", length);
 }
 } // namespace LightTransport

@@ -5,7 +5,8 @@
 #define PatchOutput_h
 
 #include "Common/TriangleSoup.h"
-#include "Mesher/SurfaceRemesher.h"
+#include "Mesher/IsotropicRemesher.h"
+#include "Mesher/RepairCounts.h"
 
 class vtkPolyData;
 
@@ -15,18 +16,19 @@ class PatchOutput
 {
 public:
   /// `soup` was read from `input` and repaired, and `patches` was made of it.
-  PatchOutput(vtkPolyData* input, const TriangleSoup& soup, const SurfaceRemesher::Result& patches);
+  PatchOutput(vtkPolyData* input, const TriangleSoup& soup,
+    const IsotropicRemesher::Result& patches);
 
   void WriteGeometry(bool flip, vtkPolyData* output) const;
   void WriteCellData(vtkPolyData* output) const;
   void WritePointData(vtkPolyData* output) const;
   /// `length` is the target edge length that was used.
-  void WriteSummary(double length, vtkPolyData* output) const;
+  void WriteSummary(const RepairCounts& counts, double length, vtkPolyData* output) const;
 
 private:
   vtkPolyData* Input;
   const TriangleSoup& Soup;
-  const SurfaceRemesher::Result& Patches;
+  const IsotropicRemesher::Result& Patches;
 };
 } // namespace LightTransport
 

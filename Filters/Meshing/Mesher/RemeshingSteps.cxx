@@ -19,17 +19,17 @@ using Vector = WorkingMesh::Vector;
 
 // Limit of the length over the wanted one that edges may get when others are collapsed. It lets the
 // legs of right triangles, which halving leads to, be collapsed as long as they are short.
-constexpr double LONGEST_COLLAPSED = 1.5;
+constexpr double LongestCollapsed = 1.5;
 // Limit of the length of the halves of an edge over its own.
-constexpr double LONGEST_HALF = 0.65;
+constexpr double LongestHalf = 0.65;
 // Limits of the quality of the triangles that splitting makes: at all, and over that of the old
 // one.
-constexpr double WORST_SPLIT = 1e-4;
-constexpr double LARGEST_LOSS = 0.2;
+constexpr double WorstSplit = 1e-4;
+constexpr double LargestLoss = 0.2;
 // New triangles may be as bad as this, or as the worst they replace. See GetQuality().
-constexpr double GOOD_ENOUGH = 0.5;
+constexpr double GoodEnough = 0.5;
 // Cosine by which the normal of a triangle may turn in one step.
-constexpr double LARGEST_TURN = 0.5;
+constexpr double LargestTurn = 0.5;
 
 //------------------------------------------------------------------------------
 SourceSurface::Point ToArray(const Point& point)
@@ -58,7 +58,7 @@ bool TurnsTooFar(const Vector& from, const Vector& to)
 {
   // A degenerate triangle has no normal to keep.
   const double lengths2 = from.squared_length() * to.squared_length();
-  return lengths2 > 0.0 && from * to < LARGEST_TURN * std::sqrt(lengths2);
+  return lengths2 > 0.0 && from * to < LargestTurn * std::sqrt(lengths2);
 }
 
 //------------------------------------------------------------------------------
@@ -158,7 +158,7 @@ bool RemeshingSteps::CanSplit(Halfedge h, const Point& to) const
   const double length2 = CGAL::squared_distance(p, q);
   const double longestHalf2 =
     std::max(CGAL::squared_distance(p, to), CGAL::squared_distance(q, to));
-  bool good = longestHalf2 < LONGEST_HALF * LONGEST_HALF * length2;
+  bool good = longestHalf2 < LongestHalf * LongestHalf * length2;
   for (const Halfedge side : { h, this->Mesh.opposite(h) })
   {
     const Point& apex = this->Mesh.point(this->Mesh.target(this->Mesh.next(side)));
@@ -166,7 +166,7 @@ bool RemeshingSteps::CanSplit(Halfedge h, const Point& to) const
       std::max(length2, std::max(CGAL::squared_distance(p, apex), CGAL::squared_distance(q, apex)));
     const double quality = std::min(GetQuality(p, to, apex), GetQuality(q, to, apex));
     good = good && CGAL::squared_distance(to, apex) <= longest2 &&
-      quality >= std::max(WORST_SPLIT, LARGEST_LOSS * GetQuality(p, q, apex));
+      quality >= std::max(WorstSplit, LargestLoss * GetQuality(p, q, apex));
   }
   return good;
 }
@@ -237,7 +237,7 @@ bool RemeshingSteps::CanCollapse(Halfedge h) const
     const Vertex around = this->Mesh.source(in);
     const double wanted = 0.5 * (this->Work.Lengths[q] + this->Work.Lengths[around]);
     const double length2 = CGAL::squared_distance(to, this->Mesh.point(around));
-    if (length2 > LONGEST_COLLAPSED * LONGEST_COLLAPSED * wanted * wanted)
+    if (length2 > LongestCollapsed * LongestCollapsed * wanted * wanted)
     {
       return false;
     }
@@ -260,7 +260,7 @@ bool RemeshingSteps::CanCollapse(Halfedge h) const
       return false;
     }
   }
-  return newQuality >= std::min(oldQuality, GOOD_ENOUGH) && newQuality > 0.0;
+  return newQuality >= std::min(oldQuality, GoodEnough) && newQuality > 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -415,7 +415,7 @@ bool RemeshingSteps::CanMove(Vertex vertex, const Point& to) const
     oldQuality = std::min(oldQuality, GetQuality(a, b, c));
     newQuality = std::min(newQuality, GetQuality(a, to, c));
   }
-  return newQuality >= std::min(oldQuality, GOOD_ENOUGH) && newQuality > 0.0;
+  return newQuality >= std::min(oldQuality, GoodEnough) && newQuality > 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -448,7 +448,7 @@ void RemeshingSteps::Move(Vertex vertex)
   const Vector along = shift - (shift * normal) / normal2 * normal;
   for (const double part : { 1.0, 0.5, 0.25 })
   {
-    const SourceSurface::Place place = this->Find(vertex, SourceSurface::NONE, from + part * along);
+    const SourceSurface::Place place = this->Find(vertex, SourceSurface::None, from + part * along);
     if (this->CanMove(vertex, ToPoint(place.Position)))
     {
       this->Put(vertex, place);

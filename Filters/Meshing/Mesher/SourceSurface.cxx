@@ -103,7 +103,7 @@ SourceSurface::Place SourceSurface::Find(const std::vector<std::size_t>& starts,
     }
     for (const std::size_t neighbour : this->Neighbours[triangle])
     {
-      if (distance2 <= radius2 && neighbour != NONE && this->Visits[neighbour] != search)
+      if (distance2 <= radius2 && neighbour != None && this->Visits[neighbour] != search)
       {
         this->Visits[neighbour] = search;
         this->Queue.push_back(neighbour);

@@ -24,11 +24,11 @@ class SourceSurface
 public:
   using Point = TriangleSoup::Point;
   using Triangle = TriangleSoup::Triangle;
-  static constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t None = std::numeric_limits<std::size_t>::max();
 
   std::vector<Point> Points;
   std::vector<Triangle> Triangles;
-  /// The triangle beyond the side from each corner to the next one; NONE beyond an edge to keep.
+  /// The triangle beyond the side from each corner to the next one; None beyond an edge to keep.
   std::vector<std::array<std::size_t, 3>> Neighbours;
   /// The part of the surface, bounded by the edges to keep, that each triangle belongs to.
   std::vector<std::size_t> Parts;
@@ -50,7 +50,7 @@ public:
 
   struct Place
   {
-    std::size_t Triangle = NONE;
+    std::size_t Triangle = None;
     /// Barycentric coordinates.
     Point Weights{ 1.0, 0.0, 0.0 };
     Point Position{ 0.0, 0.0, 0.0 };

@@ -3,6 +3,7 @@
 #include "Mesher/SurfaceRepair.h"
 
 #include "Mesher/ManifoldRepair.h"
+#include "Mesher/SoupRepair.h"
 
 #include <sstream>
 #include <string>
@@ -30,11 +31,13 @@ Outcome CheckDefects(const TriangleSoup& soup)
 }
 
 //------------------------------------------------------------------------------
-Outcome RepairDefects(const Settings& settings, const Monitor& monitor, TriangleSoup& soup)
+Outcome RepairDefects(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,
+  RepairCounts& counts)
 {
-  soup.DropDegenerateTriangles();
-  soup.DropDuplicateTriangles();
-  soup.Orient();
+  SoupRepair triangles(soup, counts);
+  triangles.DropDegenerateTriangles();
+  triangles.DropDuplicateTriangles();
+  triangles.Orient();
   if (!monitor.Report(0.5))
   {
     return Outcome::Aborted();
@@ -55,15 +58,15 @@ Outcome RepairDefects(const Settings& settings, const Monitor& monitor, Triangle
     return Outcome::Aborted();
   }
   const vtkIdType holes = settings.FillHoles ? surface.FillHoles(size) : 0;
-  const vtkIdType dropped = soup.NumberOfDroppedTriangles + crumbs;
+  const vtkIdType dropped = counts.NumberOfDroppedTriangles + crumbs;
   if (changes + holes > 0)
   {
     surface.Write(soup);
     // A crack without width has been filled with triangles without area.
-    soup.DropDegenerateTriangles();
+    triangles.DropDegenerateTriangles();
   }
-  soup.NumberOfDroppedTriangles = dropped;
-  soup.NumberOfFilledHoles = holes;
+  counts.NumberOfDroppedTriangles = dropped;
+  counts.NumberOfFilledHoles = holes;
   return monitor.Check(1.0);
 }
 
@@ -84,7 +87,8 @@ std::string Describe(const ManifoldRepair::Intersections& found,
 }
 
 //------------------------------------------------------------------------------
-Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor, TriangleSoup& soup)
+Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,
+  RepairCounts& counts)
 {
   ManifoldRepair surface;
   if (Outcome built = surface.Build(soup); !built)
@@ -92,8 +96,8 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
     return built;
   }
   const ManifoldRepair::Intersections found = surface.FindSelfIntersections();
-  soup.NumberOfSelfIntersections = found.NumberWithin;
-  soup.NumberOfIntersectionsBetweenComponents = found.NumberBetween;
+  counts.NumberOfSelfIntersections = found.NumberWithin;
+  counts.NumberOfIntersectionsBetweenComponents = found.NumberBetween;
   if (!monitor.Report(0.5))
   {
     return Outcome::Aborted();
@@ -125,15 +129,17 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome SurfaceRepair::Run(const Settings& settings, const Monitor& monitor, TriangleSoup& soup)
+Outcome SurfaceRepair::Run(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,
+  RepairCounts& counts)
 {
-  if (Outcome defects = settings.Repair ? RepairDefects(settings, monitor.GetStage(0.0, 0.5), soup)
-                                        : CheckDefects(soup);
+  if (Outcome defects = settings.Repair
+        ? RepairDefects(settings, monitor.GetStage(0.0, 0.5), soup, counts)
+        : CheckDefects(soup);
       !defects)
   {
     return defects;
   }
-  if (Outcome treated = TreatSelfIntersections(settings, monitor.GetStage(0.5, 1.0), soup);
+  if (Outcome treated = TreatSelfIntersections(settings, monitor.GetStage(0.5, 1.0), soup, counts);
       !treated)
   {
     return treated;

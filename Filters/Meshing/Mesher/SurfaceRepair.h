@@ -6,6 +6,7 @@
 #define SurfaceRepair_h
 
 #include "Common/TriangleSoup.h"
+#include "Mesher/RepairCounts.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 
@@ -33,7 +34,8 @@ struct Settings
 
 /// Make a soup an oriented manifold that does not intersect itself, or fail with what is in the
 /// way.
-Outcome Run(const Settings& settings, const Monitor& monitor, TriangleSoup& soup);
+Outcome Run(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,
+  RepairCounts& counts);
 } // namespace SurfaceRepair
 } // namespace LightTransport
 

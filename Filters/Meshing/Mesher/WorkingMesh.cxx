@@ -27,7 +27,7 @@ WorkingMesh::WorkingMesh(const WorkingMesh& other) : Mesh(other.Mesh)
 //------------------------------------------------------------------------------
 void WorkingMesh::FindMaps()
 {
-  const std::size_t none = SourceSurface::NONE;
+  const std::size_t none = SourceSurface::None;
   this->Kept = this->Mesh.add_property_map<Edge, bool>("e:kept", false).first;
   this->Parts = this->Mesh.add_property_map<Face, std::size_t>("f:part", none).first;
   this->Sources = this->Mesh.add_property_map<Face, std::size_t>("f:source", none).first;

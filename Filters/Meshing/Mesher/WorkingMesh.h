@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// The halfedge mesh that SurfaceRemesher changes step by step, with all that it knows.
+/// The halfedge mesh that IsotropicRemesher changes step by step, with all that it knows.
 #ifndef WorkingMesh_h
 #define WorkingMesh_h
 

@@ -3,8 +3,9 @@
 // How good, how large and how true the patches are: over many surfaces, for each size field.
 #include "PatchQuality.h"
 
-#include "Mesher/PatchSizing.h"
+#include "Mesher/EdgeLengths.h"
 #include "Mesher/SourceSurface.h"
+#include "Mesher/SurfaceCurvature.h"
 
 #include "vtkCubeSource.h"
 #include "vtkCylinderSource.h"
@@ -371,7 +372,7 @@ SourceSurface MakeSource(vtkPolyData* mesh)
     for (int j = 0; j < 3; ++j)
     {
       const auto side = sides.find({ triangle[(j + 1) % 3], triangle[j] });
-      neighbours[j] = side == sides.end() ? SourceSurface::NONE : side->second;
+      neighbours[j] = side == sides.end() ? SourceSurface::None : side->second;
     }
     surface.Neighbours.push_back(neighbours);
   }
@@ -383,7 +384,7 @@ SourceSurface MakeSource(vtkPolyData* mesh)
 void TestCurvature(meshTest::Checker& check)
 {
   // Ring: the tube's own curvature is the largest everywhere.
-  const std::vector<double> ring = PatchSizing::GetCurvatures(MakeSource(MakeRing(0.25, 120, 48)));
+  const std::vector<double> ring = SurfaceCurvature::Find(MakeSource(MakeRing(0.25, 120, 48)));
   for (const double curvature : ring)
   {
     check.Equal(curvature, 4.0, 0.2, "curvature of the ring");
@@ -397,10 +398,10 @@ void TestCurvature(meshTest::Checker& check)
     vtkMath::Normalize(point.data());
     sphere->GetPoints()->SetPoint(i, point.data());
   }
-  std::vector<double> curvatures = PatchSizing::GetCurvatures(MakeSource(sphere));
+  std::vector<double> curvatures = SurfaceCurvature::Find(MakeSource(sphere));
   std::sort(curvatures.begin(), curvatures.end());
   check.Equal(curvatures[curvatures.size() / 2], 1.0, 0.15, "median curvature of the sphere");
-  for (const double curvature : PatchSizing::GetCurvatures(MakeSource(MakePlane(3))))
+  for (const double curvature : SurfaceCurvature::Find(MakeSource(MakePlane(3))))
   {
     check.Equal(curvature, 0.0, 1e-12, "curvature of the plane");
   }
@@ -415,7 +416,7 @@ void TestGrading(meshTest::Checker& check)
   const double grading = 0.3;
   std::vector<double> lengths(plane.Points.size(), 10.0);
   lengths[7] = 0.01;
-  PatchSizing::Grade(plane, grading, lengths);
+  EdgeLengths::Grade(plane, grading, lengths);
   for (std::size_t i = 0; i < lengths.size(); ++i)
   {
     const double distance =
@@ -430,7 +431,7 @@ void TestGrading(meshTest::Checker& check)
     slow.push_back(1.0 + 0.2 * p[0] - 0.2 * p[1]);
   }
   std::vector<double> graded = slow;
-  PatchSizing::Grade(plane, grading, graded);
+  EdgeLengths::Grade(plane, grading, graded);
   check.True(graded == slow, "lengths that grow slowly enough stay");
 
   // A jump from 0.02 to 0.2 within a short way.

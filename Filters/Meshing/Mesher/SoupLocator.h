@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Finds the triangle of the original surface that a place on the repaired one comes from.
-#ifndef PatchSources_h
-#define PatchSources_h
+/// Finds the triangle of a soup that is closest to a position: where a repaired surface comes from.
+#ifndef SoupLocator_h
+#define SoupLocator_h
 
 #include "Common/TriangleSoup.h"
 #include "vtkGenericCell.h"
@@ -11,11 +11,11 @@
 
 namespace LightTransport
 {
-class PatchSources
+class SoupLocator
 {
 public:
   /// The soup must stay alive.
-  explicit PatchSources(const TriangleSoup& soup);
+  explicit SoupLocator(const TriangleSoup& soup);
 
   struct Place
   {
@@ -24,7 +24,7 @@ public:
     /// Barycentric coordinates of the closest point in it.
     TriangleSoup::Point Weights;
   };
-  /// The closest place on the original surface, fastest when it is about `reach` away.
+  /// The closest place on the surface, fastest when it is about `reach` away.
   Place Find(const TriangleSoup::Point& position, double reach);
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesher/PatchSources.h"
+#include "Mesher/SoupLocator.h"
 
 #include "vtkCellArray.h"
 #include "vtkMath.h"
@@ -46,7 +46,7 @@ TriangleSoup::Point GetWeights(const TriangleSoup& soup, const TriangleSoup::Tri
 } // namespace
 
 //------------------------------------------------------------------------------
-PatchSources::PatchSources(const TriangleSoup& soup) : Soup(soup)
+SoupLocator::SoupLocator(const TriangleSoup& soup) : Soup(soup)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -68,7 +68,7 @@ PatchSources::PatchSources(const TriangleSoup& soup) : Soup(soup)
 }
 
 //------------------------------------------------------------------------------
-PatchSources::Place PatchSources::Find(const TriangleSoup::Point& position, double reach)
+SoupLocator::Place SoupLocator::Find(const TriangleSoup::Point& position, double reach)
 {
   TriangleSoup::Point from = position;
   TriangleSoup::Point closest = position;

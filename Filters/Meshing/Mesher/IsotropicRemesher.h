@@ -7,8 +7,8 @@
  * Call Build(), SetLengths(), Prepare() and Remesh() in this order; Prepare() starts anew from what
  * SetLengths() left. All methods throw what CGAL throws (std::exception).
  */
-#ifndef SurfaceRemesher_h
-#define SurfaceRemesher_h
+#ifndef IsotropicRemesher_h
+#define IsotropicRemesher_h
 
 #include "Common/TriangleSoup.h"
 #include "Mesher/SourceSurface.h"
@@ -20,13 +20,13 @@
 
 namespace LightTransport
 {
-class SurfaceRemesher
+class IsotropicRemesher
 {
 public:
-  SurfaceRemesher();
-  ~SurfaceRemesher();
-  SurfaceRemesher(const SurfaceRemesher&) = delete;
-  void operator=(const SurfaceRemesher&) = delete;
+  IsotropicRemesher();
+  ~IsotropicRemesher();
+  IsotropicRemesher(const IsotropicRemesher&) = delete;
+  void operator=(const IsotropicRemesher&) = delete;
 
   /**
    * Take the triangles of a soup without defects, and mark the edges to keep: borders, edges
@@ -44,7 +44,7 @@ public:
   void SetLengths(const std::vector<double>& lengths);
 
   /**
-   * Let edges inside the planar `regions` be as long as `lengths`, both one per triangle; NONE
+   * Let edges inside the planar `regions` be as long as `lengths`, both one per triangle; None
    * where there is no region. `keepBorders`: also keep the edges around them.
    */
   void SetPlanarRegions(const std::vector<std::size_t>& regions, const std::vector<double>& lengths,

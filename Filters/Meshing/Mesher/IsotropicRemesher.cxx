@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesher/SurfaceRemesher.h"
+#include "Mesher/IsotropicRemesher.h"
 
-#include "Mesher/PatchSizing.h"
+#include "Mesher/EdgeLengths.h"
 #include "Mesher/RemeshingSteps.h"
 #include "Mesher/WorkingMesh.h"
 
@@ -27,15 +27,15 @@ using Point = WorkingMesh::Point;
 using Vector = WorkingMesh::Vector;
 using Vertex = WorkingMesh::Vertex;
 
-constexpr std::size_t NONE = SourceSurface::NONE;
+constexpr std::size_t None = SourceSurface::None;
 
 // Edges between these multiples of the wanted length may stay: halves of longer ones are no
 // shorter.
-constexpr double LONGEST = 4.0 / 3.0;
-constexpr double SHORTEST = 4.0 / 5.0;
+constexpr double LongestRatio = 4.0 / 3.0;
+constexpr double ShortestRatio = 4.0 / 5.0;
 // Beside edges to keep that are shorter than wanted, others may be this much longer than they are:
 // the smallest angle of such a triangle is 39 degrees.
-constexpr double LONGEST_BESIDE_KEPT = 1.5;
+constexpr double LongestBesideKept = 1.5;
 
 //------------------------------------------------------------------------------
 // Whether the normals at an edge differ by more than the angle with this cosine.
@@ -83,13 +83,13 @@ double FindSplit(const WorkingMesh& work, Edge edge)
   const double b = work.Lengths[work.Mesh.vertex(edge, 1)];
   if (!work.Kept[edge])
   {
-    return length > LONGEST * std::max(a, b) ? 0.5 : 0.0;
+    return length > LongestRatio * std::max(a, b) ? 0.5 : 0.0;
   }
   const double growth = std::log(b / a);
   const bool even = std::abs(growth) < 1e-6;
   // The integral of 1 / wanted length along the edge.
   const double count = even ? length / a : length * growth / (b - a);
-  const double pieces = std::max(std::ceil(count / LONGEST * (1.0 - 1e-9)), std::round(count));
+  const double pieces = std::max(std::ceil(count / LongestRatio * (1.0 - 1e-9)), std::round(count));
   const double part = std::floor(0.5 * pieces) / pieces;
   return even ? part : std::expm1(part * growth) / std::expm1(growth);
 }
@@ -156,7 +156,7 @@ void LimitToKeptEdges(WorkingMesh& work)
   {
     if (work.Fixed[vertex] && !work.IsStraight(vertex))
     {
-      work.Lengths[vertex] = std::min(work.Lengths[vertex], LONGEST_BESIDE_KEPT * longest[vertex]);
+      work.Lengths[vertex] = std::min(work.Lengths[vertex], LongestBesideKept * longest[vertex]);
     }
   }
 }
@@ -180,7 +180,7 @@ SourceSurface ToSources(const WorkingMesh& work)
     {
       triangle[i] = work.Mesh.source(h);
       neighbours[i] =
-        work.Kept[work.Mesh.edge(h)] ? NONE : std::size_t(work.Mesh.face(work.Mesh.opposite(h)));
+        work.Kept[work.Mesh.edge(h)] ? None : std::size_t(work.Mesh.face(work.Mesh.opposite(h)));
       h = work.Mesh.next(h);
     }
     sources.Triangles.push_back(triangle);
@@ -194,7 +194,7 @@ SourceSurface ToSources(const WorkingMesh& work)
 } // namespace
 
 //------------------------------------------------------------------------------
-struct SurfaceRemesher::Internals
+struct IsotropicRemesher::Internals
 {
   /// The mesh that Build() and Set...() make, and the one that Prepare() and Remesh() change.
   WorkingMesh Original;
@@ -214,13 +214,13 @@ struct SurfaceRemesher::Internals
 };
 
 //------------------------------------------------------------------------------
-SurfaceRemesher::SurfaceRemesher() : Meshes(new Internals) {}
+IsotropicRemesher::IsotropicRemesher() : Meshes(new Internals) {}
 
 //------------------------------------------------------------------------------
-SurfaceRemesher::~SurfaceRemesher() = default;
+IsotropicRemesher::~IsotropicRemesher() = default;
 
 //------------------------------------------------------------------------------
-bool SurfaceRemesher::Build(const TriangleSoup& soup, const std::vector<int>& regions,
+bool IsotropicRemesher::Build(const TriangleSoup& soup, const std::vector<int>& regions,
   double featureAngle)
 {
   WorkingMesh& work = this->Meshes->Original;
@@ -260,13 +260,13 @@ bool SurfaceRemesher::Build(const TriangleSoup& soup, const std::vector<int>& re
 }
 
 //------------------------------------------------------------------------------
-SourceSurface SurfaceRemesher::GetSurface() const
+SourceSurface IsotropicRemesher::GetSurface() const
 {
   return ToSources(this->Meshes->Original);
 }
 
 //------------------------------------------------------------------------------
-void SurfaceRemesher::SetLengths(const std::vector<double>& lengths)
+void IsotropicRemesher::SetLengths(const std::vector<double>& lengths)
 {
   WorkingMesh& work = this->Meshes->Original;
   for (const Vertex vertex : work.Mesh.vertices())
@@ -276,13 +276,13 @@ void SurfaceRemesher::SetLengths(const std::vector<double>& lengths)
 }
 
 //------------------------------------------------------------------------------
-void SurfaceRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions,
+void IsotropicRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions,
   const std::vector<double>& lengths, bool keepBorders)
 {
   WorkingMesh& work = this->Meshes->Original;
   for (const Face face : work.Mesh.faces())
   {
-    work.Ceilings[face] = regions[face] == NONE ? 0.0 : lengths[face];
+    work.Ceilings[face] = regions[face] == None ? 0.0 : lengths[face];
   }
   for (const Edge edge : work.Mesh.edges())
   {
@@ -298,7 +298,7 @@ void SurfaceRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions,
 }
 
 //------------------------------------------------------------------------------
-double SurfaceRemesher::Prepare(double factor, double grading)
+double IsotropicRemesher::Prepare(double factor, double grading)
 {
   this->Meshes->Work.reset(new WorkingMesh(this->Meshes->Original));
   WorkingMesh& work = *this->Meshes->Work;
@@ -322,7 +322,7 @@ double SurfaceRemesher::Prepare(double factor, double grading)
     {
       this->Lengths.push_back(work.Lengths[vertex]);
     }
-    PatchSizing::Grade(this->Sources, grading, this->Lengths);
+    EdgeLengths::Grade(this->Sources, grading, this->Lengths);
     for (const Vertex vertex : work.Mesh.vertices())
     {
       work.Lengths[vertex] = this->Lengths[vertex];
@@ -334,22 +334,22 @@ double SurfaceRemesher::Prepare(double factor, double grading)
     work.Places[vertex].Triangle = *this->Sources.GetTrianglesAround(vertex).First;
     work.Places[vertex].Position = this->Sources.Points[vertex];
   }
-  return PatchSizing::EstimateNumberOfTriangles(this->Sources, this->Lengths);
+  return EdgeLengths::EstimateNumberOfTriangles(this->Sources, this->Lengths);
 }
 
 //------------------------------------------------------------------------------
-Outcome SurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
+Outcome IsotropicRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
 {
   RemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, monitor);
   // Never reached, unless the surface is so crumpled that places on it are of no use.
   const double largestExcess = 4.0;
-  const double expected = PatchSizing::EstimateNumberOfTriangles(this->Sources, this->Lengths);
+  const double expected = EdgeLengths::EstimateNumberOfTriangles(this->Sources, this->Lengths);
   const std::size_t most =
     this->GetNumberOfTriangles() + static_cast<std::size_t>(largestExcess * expected);
   for (int i = 0; i < numberOfIterations; ++i)
   {
-    const bool goesOn = steps.SplitLongEdges(LONGEST, most) &&
-      steps.CollapseShortEdges(SHORTEST, 0) && steps.FlipEdges() && steps.MoveVertices() &&
+    const bool goesOn = steps.SplitLongEdges(LongestRatio, most) &&
+      steps.CollapseShortEdges(ShortestRatio, 0) && steps.FlipEdges() && steps.MoveVertices() &&
       steps.Report((i + 1.0) / (numberOfIterations + 1.0));
     if (!goesOn)
     {
@@ -361,7 +361,7 @@ Outcome SurfaceRemesher::Remesh(int numberOfIterations, const Monitor& monitor)
 }
 
 //------------------------------------------------------------------------------
-Outcome SurfaceRemesher::AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor)
+Outcome IsotropicRemesher::AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor)
 {
   RemeshingSteps steps(*this->Meshes->Work, this->Sources, this->Lengths, monitor);
   bool goesOn = true;
@@ -369,33 +369,33 @@ Outcome SurfaceRemesher::AdjustNumberOfTriangles(std::size_t number, const Monit
   const int rounds = 3;
   for (int i = 0; i < rounds && goesOn; ++i)
   {
-    goesOn = steps.SplitLongEdges(SHORTEST, number) && steps.CollapseShortEdges(LONGEST, number) &&
-      steps.FlipEdges() && steps.MoveVertices();
+    goesOn = steps.SplitLongEdges(ShortestRatio, number) &&
+      steps.CollapseShortEdges(LongestRatio, number) && steps.FlipEdges() && steps.MoveVertices();
   }
   return Outcome::DoneUnlessAborted(goesOn && steps.FlipEdges());
 }
 
 //------------------------------------------------------------------------------
-std::size_t SurfaceRemesher::GetNumberOfTriangles() const
+std::size_t IsotropicRemesher::GetNumberOfTriangles() const
 {
   return this->Meshes->Work->Mesh.number_of_faces();
 }
 
 //------------------------------------------------------------------------------
-SurfaceRemesher::Result SurfaceRemesher::GetResult() const
+IsotropicRemesher::Result IsotropicRemesher::GetResult() const
 {
   WorkingMesh& work = *this->Meshes->Work;
   const RemeshingSteps steps(work, this->Sources, this->Lengths, Monitor());
   Result result;
   std::vector<std::size_t> indices(
-    work.Mesh.number_of_vertices() + work.Mesh.number_of_removed_vertices(), NONE);
+    work.Mesh.number_of_vertices() + work.Mesh.number_of_removed_vertices(), None);
   for (const Face face : work.Mesh.faces())
   {
     TriangleSoup::Triangle triangle;
     int corner = 0;
     for (const Vertex vertex : work.Mesh.vertices_around_face(work.Mesh.halfedge(face)))
     {
-      if (indices[vertex] == NONE)
+      if (indices[vertex] == None)
       {
         const Point& point = work.Mesh.point(vertex);
         indices[vertex] = result.Points.size();

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/EdgeLengths.h"
+
+#include "Mesher/PointVectors.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace LightTransport
+{
+namespace
+{
+//------------------------------------------------------------------------------
+// The largest length at C that lengths at A and B, and on the line between them, allow.
+double LimitLength(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+  double lengthAtA, double lengthAtB, double grading)
+{
+  const double side = (b - a).norm();
+  double t = lengthAtA <= lengthAtB ? 0.0 : 1.0;
+  const double slope = side > 0.0 ? (lengthAtB - lengthAtA) / side : grading;
+  if (std::abs(slope) < grading)
+  {
+    // Minimum over x of lengthAtA + slope x + grading sqrt((foot - x)^2 + height^2).
+    const double foot = (c - a).dot(b - a) / side;
+    const double height = (c - a).cross(b - a).norm() / side;
+    const double x = foot - height * slope / std::sqrt(grading * grading - slope * slope);
+    t = std::min(std::max(x / side, 0.0), 1.0);
+  }
+  return lengthAtA + t * (lengthAtB - lengthAtA) + grading * (c - (a + t * (b - a))).norm();
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+double EdgeLengths::GetLengthForCurvature(double curvature, double error, double shortest,
+  double longest)
+{
+  // Written so that curvature 0 gives the longest length and a negative root the shortest.
+  const double length2 = 6.0 * error / curvature - 3.0 * error * error;
+  return std::sqrt(std::min(std::max(length2, shortest * shortest), longest * longest));
+}
+
+//------------------------------------------------------------------------------
+void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths)
+{
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+  {
+    queue.emplace(lengths[i], i);
+  }
+  // Corners of obtuse triangles shorten each other by turns; smaller changes end it.
+  const double significant = 1.0 - 1e-4;
+  while (!queue.empty())
+  {
+    const Entry entry = queue.top();
+    queue.pop();
+    const std::size_t from = entry.second;
+    if (entry.first > lengths[from])
+    {
+      continue;
+    }
+    for (const std::size_t triangle : surface.GetTrianglesAround(from))
+    {
+      const SourceSurface::Triangle& corners = surface.Triangles[triangle];
+      for (int i = 0; i < 3; ++i)
+      {
+        const std::size_t to = corners[i];
+        const std::size_t a = corners[(i + 1) % 3];
+        const std::size_t b = corners[(i + 2) % 3];
+        if (to == from)
+        {
+          continue;
+        }
+        // From the other corner of the side only when its own length is settled.
+        const std::size_t other = a == from ? b : a;
+        const std::size_t last = lengths[other] <= lengths[from] ? other : from;
+        const double limit =
+          LimitLength(ToVector(surface.Points[from]), ToVector(surface.Points[last]),
+            ToVector(surface.Points[to]), lengths[from], lengths[last], grading);
+        if (limit < significant * lengths[to])
+        {
+          lengths[to] = limit;
+          queue.emplace(limit, to);
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// How many equilateral triangles fill a triangle.
+double EdgeLengths::CountTriangles(const SourceSurface& surface, std::size_t triangle,
+  const std::vector<double>& lengths)
+{
+  double perArea = 0.0;
+  for (const std::size_t corner : surface.Triangles[triangle])
+  {
+    perArea += 4.0 / std::sqrt(3.0) / (lengths[corner] * lengths[corner]) / 3.0;
+  }
+  return perArea * surface.GetArea(triangle);
+}
+
+//------------------------------------------------------------------------------
+double EdgeLengths::EstimateNumberOfTriangles(const SourceSurface& surface,
+  const std::vector<double>& lengths)
+{
+  double number = 0.0;
+  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
+  {
+    number += CountTriangles(surface, i, lengths);
+    for (int j = 0; j < 3; ++j)
+    {
+      if (surface.Neighbours[i][j] == SourceSurface::None)
+      {
+        // Each side of an edge to keep has about half a triangle more per length.
+        const std::size_t from = surface.Triangles[i][j];
+        const std::size_t to = surface.Triangles[i][(j + 1) % 3];
+        const double side = (ToVector(surface.Points[to]) - ToVector(surface.Points[from])).norm();
+        number += side / (lengths[from] + lengths[to]);
+      }
+    }
+  }
+  return number;
+}
+
+//------------------------------------------------------------------------------
+double EdgeLengths::GetMeanLength(const SourceSurface& surface, const std::vector<double>& lengths)
+{
+  double area = 0.0;
+  double number = 0.0;
+  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
+  {
+    area += surface.GetArea(i);
+    number += CountTriangles(surface, i, lengths);
+  }
+  return std::sqrt(4.0 / std::sqrt(3.0) * area / number);
+}
+} // namespace LightTransport
