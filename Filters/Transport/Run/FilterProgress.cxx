@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/FilterProgress.h"
 
-#include "Shared/AbortCheck.h"
+#include "Shared/FilterMonitor.h"
 #include "vtkAlgorithm.h"
 #include "vtkTimerLog.h"
 
@@ -41,8 +41,8 @@ Monitor FilterProgress::GetMonitor()
 bool FilterProgress::Report(double done)
 {
   this->TellTimeLeft(done);
-  this->Filter->UpdateProgress(done);
-  return this->AllRanks.GetLargest(AbortCheck::IsAborted(this->Filter) ? 1 : 0) == 0;
+  const bool goesOn = MakeFilterMonitor(this->Filter).Report(done);
+  return this->AllRanks.GetLargest(goesOn ? 0 : 1) == 0;
 }
 
 //------------------------------------------------------------------------------
