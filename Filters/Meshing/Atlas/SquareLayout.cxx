@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/SquareLayout.h"
 
+#include "Atlas/StepSolver.h"
+#include "Atlas/StretchElement.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
@@ -57,107 +60,6 @@ std::vector<Coordinates> Add(const std::vector<Coordinates>& a, double factor,
 }
 
 //------------------------------------------------------------------------------
-// The step to the minimum of a sum of quadratic forms, one per element of Size unknowns. Unknowns
-// may be -1: held fast.
-template <int Size>
-class StepSolver
-{
-public:
-  using Unknowns = std::array<int, Size>;
-  using Hessian = Eigen::Matrix<double, Size, Size>;
-  using Gradient = Eigen::Matrix<double, Size, 1>;
-
-  StepSolver(std::vector<Unknowns> elements, int numberOfUnknowns)
-    : Elements(std::move(elements)), Matrix(numberOfUnknowns, numberOfUnknowns),
-      Slope(numberOfUnknowns)
-  {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const Unknowns& unknowns : this->Elements)
-    {
-      ForEachEntry(unknowns,
-        [&](int i, int j) { entries.emplace_back(unknowns[i], unknowns[j], 0.0); });
-    }
-    this->Matrix.setFromTriplets(entries.begin(), entries.end());
-    for (const Unknowns& unknowns : this->Elements)
-    {
-      ForEachEntry(unknowns,
-        [&](int i, int j) { this->Slots.push_back(this->FindSlot(unknowns[i], unknowns[j])); });
-    }
-    this->Solver.analyzePattern(this->Matrix);
-  }
-
-  void Clear()
-  {
-    std::fill_n(this->Matrix.valuePtr(), this->Matrix.nonZeros(), 0.0);
-    this->Slope.setZero();
-    this->NextElement = 0;
-    this->NextSlot = 0;
-  }
-
-  /// For the elements in their order.
-  void Add(const Hessian& hessian, const Gradient& gradient)
-  {
-    const Unknowns& unknowns = this->Elements[this->NextElement++];
-    ForEachEntry(unknowns,
-      [&](int i, int j)
-      { this->Matrix.valuePtr()[this->Slots[this->NextSlot++]] += hessian(i, j); });
-    for (int i = 0; i < Size; ++i)
-    {
-      if (unknowns[i] >= 0)
-      {
-        this->Slope[unknowns[i]] += gradient[i];
-      }
-    }
-  }
-
-  bool Solve(Eigen::VectorXd& step)
-  {
-    this->Solver.factorize(this->Matrix);
-    if (this->Solver.info() != Eigen::Success)
-    {
-      return false;
-    }
-    step = this->Solver.solve(-this->Slope);
-    return step.allFinite();
-  }
-
-  const Eigen::VectorXd& GetSlope() const { return this->Slope; }
-
-private:
-  // The lower triangle, all that the solver reads.
-  template <typename Visitor>
-  static void ForEachEntry(const Unknowns& unknowns, Visitor&& visit)
-  {
-    for (int i = 0; i < Size; ++i)
-    {
-      for (int j = 0; j < Size; ++j)
-      {
-        if (unknowns[j] >= 0 && unknowns[i] >= unknowns[j])
-        {
-          visit(i, j);
-        }
-      }
-    }
-  }
-
-  int FindSlot(int row, int column) const
-  {
-    const int* rows = this->Matrix.innerIndexPtr();
-    const int* columns = this->Matrix.outerIndexPtr();
-    return static_cast<int>(
-      std::lower_bound(rows + columns[column], rows + columns[column + 1], row) - rows);
-  }
-
-  std::vector<Unknowns> Elements;
-  Eigen::SparseMatrix<double> Matrix;
-  Eigen::VectorXd Slope;
-  std::vector<int> Slots;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> Solver;
-  std::size_t NextElement = 0;
-  std::size_t NextSlot = 0;
-};
-
-//------------------------------------------------------------------------------
 // Numbers the coordinates that are not held by a side.
 struct Freedom
 {
@@ -175,53 +77,6 @@ struct Freedom
         this->Unknowns[point][axis] = (sides[point] & holders[axis]) ? -1 : this->Numbers[axis]++;
       }
     }
-  }
-};
-
-//------------------------------------------------------------------------------
-// A triangle's part of the squared stretch, 1/2 area (1/s^2 + 1/t^2) with the singular values s >=
-// t of the map from the surface to the square, and its derivatives by the corners' coordinates. The
-// Hessian lacks its one negative eigenvalue, that of the mode which is a rotation for s = t (Smith,
-// de Goes and Kim, "Analytic Eigensystems for Isotropic Distortion Energies", 2019).
-class StretchElement
-{
-public:
-  using Hessian = StepSolver<6>::Hessian;
-  using Gradient = StepSolver<6>::Gradient;
-
-  StretchElement(const Eigen::Matrix<double, 2, 3>& shapeGradients,
-    const Eigen::Matrix<double, 2, 3>& uv, double area)
-  {
-    const Eigen::Matrix2d map = uv * shapeGradients.transpose();
-    const double e = 0.5 * (map(0, 0) + map(1, 1));
-    const double f = 0.5 * (map(0, 0) - map(1, 1));
-    const double g = 0.5 * (map(1, 0) + map(0, 1));
-    const double h = 0.5 * (map(1, 0) - map(0, 1));
-    const double turn = std::atan2(h, e);
-    const double lean = std::atan2(g, f);
-    const double s = std::hypot(e, h) + std::hypot(f, g);
-    const double t = map.determinant() / s;
-
-    const Eigen::Matrix2d left = Eigen::Rotation2Dd(0.5 * (turn + lean)).toRotationMatrix();
-    const Eigen::Matrix<double, 2, 3> right =
-      Eigen::Rotation2Dd(0.5 * (turn - lean)).toRotationMatrix() * shapeGradients;
-    const Gradient major = GetMode(left, Eigen::Vector2d(1.0, 0.0).asDiagonal() * right);
-    const Gradient minor = GetMode(left, Eigen::Vector2d(0.0, 1.0).asDiagonal() * right);
-    const Gradient shear = GetMode(left, right.colwise().reverse());
-    this->Slope = -area * (major / (s * s * s) + minor / (t * t * t));
-    this->Curvature = (3.0 * area / (s * s * s * s)) * major * major.transpose() +
-      (3.0 * area / (t * t * t * t)) * minor * minor.transpose() +
-      (0.5 * area * (s * s + s * t + t * t) / (s * t * s * t * s * t)) * shear * shear.transpose();
-  }
-
-  Hessian Curvature;
-  Gradient Slope;
-
-private:
-  static Gradient GetMode(const Eigen::Matrix2d& left, const Eigen::Matrix<double, 2, 3>& right)
-  {
-    const Eigen::Matrix<double, 2, 3> mode = left * right;
-    return Eigen::Map<const Gradient>(mode.data());
   }
 };
 

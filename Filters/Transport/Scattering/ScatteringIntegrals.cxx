@@ -245,11 +245,9 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
   const Bands three =
     this->IntegrateProduct(a.Points, WeightsOfThree, 3, b.Points, WeightsOfThree, 3);
   const Bands spread = spread2.sqrt();
-  if (!last &&
-    accept(three,
-      wide.select(peak,
-        ErrorOfThree[0] * spread * (three - one).abs() +
-          ErrorOfThree[1] * spread2.square() * three)))
+  const Bands errorOfThree =
+    ErrorOfThree[0] * spread * (three - one).abs() + ErrorOfThree[1] * spread2.square() * three;
+  if (!last && accept(three, wide.select(peak, errorOfThree)))
   {
     return true;
   }
