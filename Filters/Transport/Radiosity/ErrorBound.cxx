@@ -20,6 +20,7 @@ namespace
 constexpr double SmallDominance = 1e-2;
 // How well w must solve its system: d = 1 - residual is then at least 0.9.
 constexpr double GoodResidual = 0.1;
+// Steps of conjugate gradients for w; as many as a solver may take by default.
 constexpr int MaximumIterations = 1000;
 
 // Reflectances closer to 1 than single precision view factors can tell.
@@ -29,6 +30,9 @@ constexpr double WorthAWarning = 0.1;
 constexpr double Meaningless = 1.0;
 // Row sums that no error of an integral explains, but patches that overlap.
 constexpr double OverfullRow = 1.01;
+// Where w is above this fraction of its largest value is the part of the scene that light leaves
+// last: w hardly varies in a part, and differs from part to part.
+constexpr double SamePart = 0.5;
 // What rounding and closing leave of a row sum.
 constexpr double MostRounding = 1e-6;
 // Errors of row sums from which on a mirror may be open as well as closed.
@@ -65,7 +69,7 @@ Place FindWorst(const RadiosityEquation& equation, const std::vector<double>& w)
   {
     const Place place = GetPlace(equation, k);
     const double kept = place.Reflectance * place.RowSum;
-    if (std::abs(w[k]) >= 0.5 * largest && kept > most)
+    if (std::abs(w[k]) >= SamePart * largest && kept > most)
     {
       most = kept;
       worst = place;
@@ -96,7 +100,7 @@ std::string ExplainNoSolution(const RadiosityEquation& equation, const Place& pl
   const std::string beginning =
     "The radiosity equation has no unique solution: " + Describe(equation, place);
   const double excess = place.Reflectance * place.RowSum - 1.0;
-  if (excess > std::max(equation.RowSumError, 1e-6))
+  if (excess > std::max(equation.RowSumError, MostRounding))
   {
     return beginning +
       " returns more than it receives. Remove patches that overlap or lie on each other "

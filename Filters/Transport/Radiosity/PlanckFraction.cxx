@@ -12,6 +12,7 @@ namespace
 {
 // h c / k in micrometre kelvin, exact in the SI of 2019 (rounded here).
 constexpr double SecondRadiationConstant = 14387.768775039338;
+// Terms below this fraction of the sum are lost in its rounding (1.1e-16).
 constexpr double Rounding = 1e-17;
 // Beyond this z the share is below the smallest number.
 constexpr double LargeArgument = 800.0;

@@ -18,6 +18,8 @@ namespace
 constexpr int Patience = 50;
 constexpr int PatienceNearRounding = 5;
 constexpr double NearlyRounding = 100.0;
+// There a residual falls only where it falls to this fraction: rounding alone moves it by less.
+constexpr double WorthCounting = 0.9;
 // Residuals so many times larger than the first error bound never come back: even a method that
 // sends more than there is (Southwell with overshooting) has no reason to go beyond that bound.
 constexpr double Growth = 100.0;
@@ -89,7 +91,7 @@ bool RadiosityIteration::Measure(bool isRecurrence, Look& look)
     look.IsNearRounding = look.IsNearRounding && isNear;
     look.IsAtRounding = look.IsAtRounding && residual <= rounding;
     look.IsAboveFirst = look.IsAboveFirst || residual > this->First[band];
-    const double goal = (isNear ? 0.9 : 1.0) * this->Smallest[band];
+    const double goal = (isNear ? WorthCounting : 1.0) * this->Smallest[band];
     look.IsFalling = look.IsFalling || residual < goal;
     this->Smallest[band] = std::min(this->Smallest[band], residual);
   }

@@ -23,6 +23,8 @@ using Bands = RadiosityIteration::Bands;
 
 // Corrections of a single precision result; each gains the digits that single precision has.
 constexpr int MaximumCorrections = 6;
+// One that leaves more than this fraction of the error has come as far as it goes.
+constexpr double WorthARound = 0.5;
 
 //------------------------------------------------------------------------------
 // The one that needs the fewest products with the links, and why it is that one.
@@ -101,9 +103,8 @@ public:
       {
         return false;
       }
-      // A round that gains less than a factor of two has come as far as it goes.
-      const bool isUseless =
-        this->Ending == SolverStatus::Diverged || !(this->Solution.ErrorBound < 0.5 * previous);
+      const bool isUseless = this->Ending == SolverStatus::Diverged ||
+        !(this->Solution.ErrorBound < WorthARound * previous);
       previous = this->Solution.ErrorBound;
       isOver = this->Solution.HasConverged() || this->Ending == SolverStatus::Aborted ||
         this->Ending == SolverStatus::IterationsUsedUp ||

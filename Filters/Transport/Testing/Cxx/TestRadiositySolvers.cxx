@@ -550,7 +550,7 @@ void ExpectError(const Task& task, const std::vector<std::string>& parts)
 
 //------------------------------------------------------------------------------
 // What cannot be solved is named with its place.
-void TestDiagnoses()
+void TestNoSolution()
 {
   Case cube(MakeRoom(3), true);
   cube.LetEmit(5);
@@ -565,7 +565,11 @@ void TestDiagnoses()
     bands.Equation.Reflectance[k] = 0.7;
   }
   ExpectError(bands, { ", band 1 (reflectance 1" });
-  // Two rooms: the one whose rows sum to too much is named.
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeTwoRooms()
+{
   Surface rooms;
   for (const double x : { 0.0, 3.0 })
   {
@@ -576,7 +580,14 @@ void TestDiagnoses()
     rooms.AddGrid({ x, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 1, 1);
     rooms.AddGrid({ x + 1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 }, 1, 1);
   }
-  Case two(rooms.Get(), true);
+  return rooms.Get();
+}
+
+//------------------------------------------------------------------------------
+// Of two rooms the one whose rows sum to too much is named.
+void TestOverfullRoom()
+{
+  Case two(MakeTwoRooms(), true);
   two.LetEmit(1);
   two.SetReflectance([](vtkIdType polygon) { return polygon < 6 ? 0.9 : 0.8; });
   for (vtkIdType i = 6; i < 12; ++i)
@@ -611,7 +622,14 @@ void TestDiagnoses()
   Check(doubtful.HasConverged() &&
       doubtful.Warning.find("arrives more than once") != std::string::npos,
     "a row above 1 is named: " + doubtful.Warning);
-  // View factors that are not good enough.
+}
+
+//------------------------------------------------------------------------------
+// View factors that are not good enough.
+void TestVagueViewFactors()
+{
+  Case cube(MakeRoom(3), true);
+  cube.LetEmit(5);
   cube.SetReflectance([](vtkIdType) { return 0.9999; });
   Task vague = cube.MakeTask(0);
   vague.Equation.RowSumError = 1e-3;
@@ -644,6 +662,8 @@ int TestRadiositySolvers(int, char*[])
   TestEntries();
   TestUnknown();
   TestEndings();
-  TestDiagnoses();
+  TestNoSolution();
+  TestOverfullRoom();
+  TestVagueViewFactors();
   return Result();
 }
