@@ -396,6 +396,18 @@ vtkSmartPointer<vtkRadiosity> MakeTightRadiosity(vtkPolyData* data, vtkViewFacto
 }
 
 //------------------------------------------------------------------------------
+void CheckBlack(vtkRadiosity* radiosity, vtkIdType patches)
+{
+  for (vtkIdType cell = 0; cell < patches; ++cell)
+  {
+    const double irradiance = Get(radiosity, "Irradiance", cell);
+    Check(irradiance > 0.3, "black patches receive");
+    CheckClose(Get(radiosity, "Radiosity", cell), 0.0, 0.0, "black patches send nothing");
+    CheckClose(Get(radiosity, "NetFlux", cell), -irradiance, 1e-15, "black patches absorb all");
+  }
+}
+
+//------------------------------------------------------------------------------
 // Half of a room is black and cold: nothing is computed between those patches (but where leaves of
 // the tree hold both sorts), all else is as with the whole matrix, what they receive included.
 // Patches that send in one band only are senders.
@@ -429,13 +441,7 @@ void TestSenders()
   vtkPolyData* wholeOutput = whole->GetPolyDataOutput();
   CheckClose(GetSummary(wholeOutput, "PairsNotSending"), 0.0, 0.0, "shared view factors: all");
   CheckClose(GetSummary(wholeOutput, "PairsExamined"), pairs, 0.0, "shared view factors: pairs");
-  for (vtkIdType cell = 0; cell < receivers; ++cell)
-  {
-    const double irradiance = Get(part, "Irradiance", cell);
-    Check(irradiance > 0.3, "black patches receive");
-    CheckClose(Get(part, "Radiosity", cell), 0.0, 0.0, "black patches send nothing");
-    CheckClose(Get(part, "NetFlux", cell), -irradiance, 1e-15, "black patches absorb all");
-  }
+  CheckBlack(part, receivers);
 
   // Fewer senders need nothing new, more of them do, and closing needs whole rows.
   emission->SetComponent(patches - 1, 0, 0.0);
