@@ -4,18 +4,18 @@ set(LIGHTTRANSPORT_SLOW_TESTS
   "Build(Benchmarks|OnlyIO|OuterProjectWithTransportOnly)"
   PublicHeadersAreSelfContained
   RunOnlyIO
-  TestAtlasTree
-  TestHierarchicalRadiosity
   TestLinkRefinement
-  TestOpenGLShooter
-  TestOpenGLShooter-OSMesa
-  "TestPatchMesherMeshes-(cheese|dragon_vrip_res3|mannequin-devil)"
-  "TestSurfaceAtlas-(dragon_vrip_res3|mannequin-devil|turbine)"
-  "TestSurfaceAtlasShapes-(Handles|Open|Thin)"
+  "TestOpenGLShooter(-OSMesa)?"
   "TestParallel-.*"
+  TestPatchMesherSizing
   TestPipeline
-  TestReport)
-string(REPLACE ";" "|" LIGHTTRANSPORT_SLOW_TESTS "(^|-)(${LIGHTTRANSPORT_SLOW_TESTS})$")
+  TestReport
+  TestViewFactorCatalogue)
+# Tests that need OpenGL in folders where the others do not.
+set(LIGHTTRANSPORT_GL_TESTS TestPluginAlone TestReport)
+foreach (list IN ITEMS LIGHTTRANSPORT_SLOW_TESTS LIGHTTRANSPORT_GL_TESTS)
+  string(REPLACE ";" "|" ${list} "(^|-)(${${list}})$")
+endforeach ()
 
 # Labels all tests of the folder that calls; the arguments are what they need.
 function (lighttransport_label_tests)
@@ -25,6 +25,10 @@ function (lighttransport_label_tests)
     if (test MATCHES "${LIGHTTRANSPORT_SLOW_TESTS}")
       set(speed slow)
     endif ()
-    set_property(TEST "${test}" APPEND PROPERTY LABELS "${speed}" ${ARGN})
+    set(needs ${ARGN})
+    if (test MATCHES "${LIGHTTRANSPORT_GL_TESTS}")
+      list(APPEND needs gl)
+    endif ()
+    set_property(TEST "${test}" APPEND PROPERTY LABELS "${speed}" ${needs})
   endforeach ()
 endfunction ()
