@@ -9,12 +9,6 @@
 
 namespace LightTransport
 {
-namespace
-{
-// Corners closer to a clipping plane than this part of the polygon's extent are on it.
-constexpr double ClipTolerance = 1e-12;
-} // namespace
-
 //------------------------------------------------------------------------------
 void Polygon::Set(const PatchGeometry& patches, vtkIdType patch)
 {
@@ -36,7 +30,7 @@ bool Polygon::Clip(const Vector& origin, const Vector& normal)
     heights[corner] = (this->Corners[corner] - origin).dot(normal);
     extent = std::max(extent, (this->Corners[corner] - origin).squaredNorm());
   }
-  const double on = ClipTolerance * std::sqrt(extent);
+  const double on = PlaneTolerance * std::sqrt(extent);
   bool front = false;
   bool behind = false;
   for (int corner = 0; corner < this->Count; ++corner)

@@ -19,6 +19,8 @@ struct Polygon
 
   /// Corners that a patch may have; clipping with one plane adds one.
   static constexpr int MaximumCorners = PatchGeometry::MaximumCorners;
+  /// Points closer to a plane than this part of the extent of what is looked at are on it.
+  static constexpr double PlaneTolerance = 1e-12;
 
   std::array<Vector, MaximumCorners + 2> Corners;
   int Count = 0;
@@ -29,7 +31,7 @@ struct Polygon
 
   /**
    * Cut away what lies behind the plane through `origin` with `normal`. Corners closer to it than
-   * rounding count as on it. Returns false when nothing with an area is left.
+   * PlaneTolerance count as on it. Returns false when nothing with an area is left.
    */
   bool Clip(const Vector& origin, const Vector& normal);
 

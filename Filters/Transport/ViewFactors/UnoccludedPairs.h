@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The exchange between the patches of two nodes of a scene's tree with nothing between them, a
- * block at a time: what cannot face each other (boxes and cones of normals) costs nothing, far
- * blocks take one product of Gauss rules for all their pairs in vector instructions, near pairs go
- * one by one (PairIntegrals). The rule of each block is the cheapest whose error bound keeps
- * the tolerance.
+ * block at a time (BlockFiller): what cannot face each other (NodeViews) costs nothing, far blocks
+ * take one product of Gauss rules for all their pairs in vector instructions (PatchRules), near
+ * pairs go one by one (PairPlanner). The rules of each block are the cheapest whose error bounds
+ * keep the tolerance (RuleChoice).
  */
 #ifndef UnoccludedPairs_h
 #define UnoccludedPairs_h
 
 #include "Scene/PatchScene.h"
+#include "ViewFactors/NodeViews.h"
 #include "ViewFactors/PairIntegrals.h"
-
-#include <memory>
+#include "ViewFactors/PairPlanner.h"
+#include "ViewFactors/PatchRules.h"
 
 namespace LightTransport
 {
@@ -30,9 +31,11 @@ public:
     double Contours = 0.0; ///< facing pairs by contour integrals
   };
 
-  /// `tolerance`: of the sum of the absolute errors of the view factors of a row.
+  /// `tolerance`: of the sum of the absolute errors of the view factors of a row. The scene must
+  /// outlive this.
   UnoccludedPairs(const PatchScene& scene, double tolerance);
-  ~UnoccludedPairs();
+  UnoccludedPairs(const UnoccludedPairs&) = delete;
+  void operator=(const UnoccludedPairs&) = delete;
 
   /// Whether any patch of one node may face any of the other; false is certain.
   bool MayFace(int nodeI, int nodeJ) const;
@@ -55,8 +58,10 @@ public:
   PairIntegrals::Estimate Compute(vtkIdType i, vtkIdType j) const;
 
 private:
-  struct Internals;
-  std::unique_ptr<Internals> Internal;
+  const PatchScene& Scene;
+  const NodeViews Views;
+  const PatchRules Rules;
+  const PairPlanner Pairs; ///< by these rules
 };
 } // namespace LightTransport
 
