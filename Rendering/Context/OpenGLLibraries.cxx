@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <initializer_list>
 #include <mutex>
 
 namespace LightTransport
