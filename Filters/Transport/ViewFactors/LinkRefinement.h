@@ -5,13 +5,8 @@
  * clusters down, a pair becomes one link where what that does to the irradiance is small enough,
  * and is divided where it is not.
  *
- * A link stands for the mean of the kernel cos cos visible / (pi r^2) over both clusters. The mean
- * and what the link leaves out come from the same samples: a few points on either cluster, all
- * pairs of them, with a ray for each where anything may stand between the clusters. How the means
- * of rows and of columns differ is how the irradiance varies over the receiver, in both directions;
- * with geometry and visibility in one number a shadow's edge is refined as far as its light is
- * worth. Two patches get the exchange of UnoccludedPairs and the visible part of
- * PairVisibility.
+ * A link stands for the mean of the kernel over both clusters (LinkEstimator), which also tells
+ * what the link leaves out. Two patches get their exchange.
  *
  * The measure is the square of the error of the irradiance, integrated over the scene, for a
  * radiosity of 1 everywhere, or for a given one (refinement by brightness). What the links of one
@@ -30,16 +25,16 @@
 #include "Geometry/ShaftCuller.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "ViewFactors/LinkEstimator.h"
+#include "ViewFactors/LinkSlots.h"
+#include "ViewFactors/SlotErrors.h"
 #include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeHierarchy.h"
 
-#include <atomic>
-#include <memory>
 #include <vector>
 
 namespace LightTransport
 {
-class PairVisibility;
 class PatchScene;
 class Ranks;
 class SceneRayCaster;
@@ -91,56 +86,33 @@ public:
   double GetErrorEstimate() const { return this->ErrorEstimate; }
 
 private:
-  /// Points on each of two clusters.
-  static constexpr int Points = 4;
-
-  struct Pair
-  {
-    int I, J;    ///< slots
-    bool IsFree; ///< nothing can be between them
-  };
-  struct Estimate
-  {
-    double Value = 0.0;  ///< mean of the kernel
-    double ErrorI = 0.0; ///< squared error of the irradiance of I, integrated over I
-    double ErrorJ = 0.0;
-    double Mean = 0.0;               ///< of which what the mean itself may be off
-    double DeviationsI[Points] = {}; ///< of the irradiance of the quarters of I
-    double DeviationsJ[Points] = {};
-  };
+  using Pair = LinkEstimator::Pair;
+  using Estimate = LinkEstimator::Estimate;
   struct Result
   {
     std::vector<vtkExchangeHierarchy::Link> Links;
     Counters Count;
   };
   struct Refiner;
-  /// Sums that do not depend on the order of the threads: in whole numbers of small parts.
-  using Sums = std::unique_ptr<std::atomic<std::int64_t>[]>;
 
-  int GetNumberOfSlots() const { return static_cast<int>(this->Brightness.size()); }
   void MakeUnits();
-  void ClearSums();
   Outcome RunPass(double threshold, double availableBytes, const Ranks& ranks,
     const Monitor& monitor);
+  Outcome CheckMemory(double availableBytes) const;
   void AddUpRanks(const Ranks& ranks);
   void Assess();
 
   const PatchScene& Scene;
-  const SceneRayCaster& Caster;
-  UnoccludedPairs Open;
-  ShaftCuller Culler;
-  int NumberOfNodes;
-  std::vector<double> AreaBefore; ///< of the patches before each; the whole area last
-  std::vector<int> Leaves;        ///< of each patch
-  std::vector<double> Brightness; ///< of each slot, at most 1
-  double SquaredBrightness = 0.0; ///< integrated
+  const LinkSlots Slots;
+  const UnoccludedPairs Open;
+  const ShaftCuller Culler;
+  LinkEstimator Estimator;
   bool ClosesRows = false;
   std::vector<Pair> Units;
   std::vector<vtkExchangeHierarchy::Link> Links;
   Counters Total;
+  SlotErrors Errors; ///< of the links of all ranks
   double ErrorEstimate = 0.0;
-  Sums Deviations;            ///< Points for each slot
-  Sums Squares;               ///< of the links of each slot, apart
   std::vector<double> Shares; ///< of the threshold that a slot's links may use
 };
 } // namespace LightTransport
