@@ -61,6 +61,22 @@ vtkSmartPointer<vtkPolyData> MakeCube()
 }
 
 //------------------------------------------------------------------------------
+void TestTwice(vtkPatchMesher* mesher, meshTest::Checker& check)
+{
+  vtkPolyData* patches = mesher->GetOutput();
+  vtkNew<vtkPolyData> first;
+  first->DeepCopy(patches);
+  mesher->Modified();
+  mesher->Update();
+  bool same = patches->GetNumberOfPoints() == first->GetNumberOfPoints();
+  for (vtkIdType i = 0; same && i < first->GetNumberOfPoints(); ++i)
+  {
+    same = meshTest::GetPoint(patches, i) == meshTest::GetPoint(first, i);
+  }
+  check.True(same, "the same input gives the same output");
+}
+
+//------------------------------------------------------------------------------
 void TestCube(meshTest::Checker& check)
 {
   vtkSmartPointer<vtkPolyData> cube = MakeCube();
@@ -133,17 +149,7 @@ void TestCube(meshTest::Checker& check)
   {
     check.Equal(meshTest::GetSummary(patches, name), 0, 0, name);
   }
-
-  vtkNew<vtkPolyData> first;
-  first->DeepCopy(patches);
-  mesher->Modified();
-  mesher->Update();
-  bool same = patches->GetNumberOfPoints() == first->GetNumberOfPoints();
-  for (vtkIdType i = 0; same && i < first->GetNumberOfPoints(); ++i)
-  {
-    same = meshTest::GetPoint(patches, i) == meshTest::GetPoint(first, i);
-  }
-  check.True(same, "the same input gives the same output");
+  TestTwice(mesher, check);
 }
 
 //------------------------------------------------------------------------------

@@ -12,6 +12,9 @@
 
 namespace
 {
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MakeSquare()
 {
@@ -47,12 +50,10 @@ void ExpectError(vtkPatchMesher* mesher, vtkPolyData* input, const std::string& 
     "the error \"" + observer->GetErrorMessage() + "\" says \"" + expected + "\"");
   check.Equal(mesher->GetOutput()->GetNumberOfCells(), 0, 0, "cells after \"" + expected + "\"");
 }
-} // namespace
 
 //------------------------------------------------------------------------------
-int TestPatchMesherErrors(int, char*[])
+void TestInputs(meshTest::Checker& check)
 {
-  meshTest::Checker check;
   {
     vtkNew<vtkPatchMesher> mesher;
     vtkNew<vtkPolyData> empty;
@@ -76,16 +77,19 @@ int TestPatchMesherErrors(int, char*[])
     lines->SetLines(cells);
     ExpectError(mesher, lines, "no polygons", check);
   }
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const double value : { nan, infinity })
+  for (const double value : { NOT_A_NUMBER, INFINITE })
   {
     vtkNew<vtkPatchMesher> mesher;
     vtkSmartPointer<vtkPolyData> square = MakeSquare();
     square->GetPoints()->SetPoint(2, 1.0, value, 0.0);
     ExpectError(mesher, square, "coordinates of point 2 are not finite", check);
   }
-  for (const double length : { -1.0, nan, infinity })
+}
+
+//------------------------------------------------------------------------------
+void TestLimits(meshTest::Checker& check)
+{
+  for (const double length : { -1.0, NOT_A_NUMBER, INFINITE })
   {
     vtkNew<vtkPatchMesher> mesher;
     mesher->SetTargetEdgeLength(length);
@@ -103,7 +107,7 @@ int TestPatchMesherErrors(int, char*[])
     mesher->SetTargetNumberOfPatches(30000000);
     ExpectError(mesher, MakeSquare(), "TargetNumberOfPatches is 30000000", check);
   }
-  for (const double value : { -1.0, nan, infinity })
+  for (const double value : { -1.0, NOT_A_NUMBER, INFINITE })
   {
     vtkNew<vtkPatchMesher> mesher;
     mesher->SetApproximationError(value);
@@ -124,6 +128,11 @@ int TestPatchMesherErrors(int, char*[])
     limits->SetMinimumEdgeLength(0.2);
     ExpectError(limits, MakeSquare(), "larger than TargetEdgeLength", check);
   }
+}
+
+//------------------------------------------------------------------------------
+void TestArrays(meshTest::Checker& check)
+{
   for (const char* name : { "", "Size" })
   {
     vtkNew<vtkPatchMesher> mesher;
@@ -133,7 +142,7 @@ int TestPatchMesherErrors(int, char*[])
       std::string("no numeric point array \"") + (*name ? name : "EdgeLength") + "\"", check);
   }
   {
-    for (const double value : { 0.0, -1.0, nan, infinity })
+    for (const double value : { 0.0, -1.0, NOT_A_NUMBER, INFINITE })
     {
       vtkNew<vtkPatchMesher> other;
       other->SetSizeFieldToArray();
@@ -153,6 +162,11 @@ int TestPatchMesherErrors(int, char*[])
     mesher->SetInputArrayToProcess(0, 0, 0, association, "Material");
     ExpectError(mesher, MakeSquare(), "no cell array \"Material\"", check);
   }
+}
+
+//------------------------------------------------------------------------------
+void TestBrokenTriangles(meshTest::Checker& check)
+{
   {
     vtkNew<vtkPatchMesher> mesher;
     vtkSmartPointer<vtkPolyData> flat =
@@ -192,5 +206,16 @@ int TestPatchMesherErrors(int, char*[])
         { { 0, 1, 2 }, { 0, 3, 4 } });
     ExpectError(mesher, bowTie, "only touch", check);
   }
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestPatchMesherErrors(int, char*[])
+{
+  meshTest::Checker check;
+  TestInputs(check);
+  TestLimits(check);
+  TestArrays(check);
+  TestBrokenTriangles(check);
   return check.GetExitCode();
 }
