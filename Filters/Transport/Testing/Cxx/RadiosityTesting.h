@@ -13,6 +13,9 @@
 
 #include <Eigen/Dense>
 
+#include <numeric>
+#include <vector>
+
 namespace LightTransportTesting
 {
 using Vector = Eigen::VectorXd;
@@ -21,6 +24,16 @@ using Vector = Eigen::VectorXd;
 inline Vector ToVector(const std::vector<double>& values)
 {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+//------------------------------------------------------------------------------
+/// All solvers that the filter takes, Auto first.
+inline std::vector<int> GetSolvers()
+{
+  vtkNew<vtkRadiosity> filter;
+  std::vector<int> solvers(filter->GetSolverMaxValue() + 1);
+  std::iota(solvers.begin(), solvers.end(), static_cast<int>(vtkRadiosity::SOLVER_AUTO));
+  return solvers;
 }
 
 //------------------------------------------------------------------------------

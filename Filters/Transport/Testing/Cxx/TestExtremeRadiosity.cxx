@@ -48,8 +48,7 @@ void TestEmissions()
   SetMaterial(room, 7, 0.7, 1e12);
   SetMaterial(room, 20, 0.7, 1.0);
   auto factors = MakeFactors(room, 1e-8);
-  for (int solver = vtkRadiosity::SOLVER_AUTO; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-       ++solver)
+  for (const int solver : GetSolvers())
   {
     const Run run(room, factors, solver, 1e-8);
     const double error = CompareExactly(run, room, factors);
@@ -87,8 +86,7 @@ void TestBlack()
   {
     SetMaterial(room, cell, 0.0, 1.0 / (1.0 + static_cast<double>(cell)));
   }
-  for (int solver = vtkRadiosity::SOLVER_AUTO; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-       ++solver)
+  for (const int solver : GetSolvers())
   {
     const Run run(room, nullptr, solver, 1e-12);
     const std::string what = "a black room, solver " + std::to_string(solver);
@@ -113,8 +111,7 @@ void TestMirrors()
   AddMaterial(data, 1.0, 0.0);
   SetMaterial(data, 5, 1.0, 1.0);
   auto factors = MakeFactors(data, 1e-8);
-  for (int solver = vtkRadiosity::SOLVER_AUTO; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-       ++solver)
+  for (const int solver : GetSolvers())
   {
     const Run run(data, factors, solver, 1e-9);
     const std::string what = "plates that reflect everything, solver " + std::to_string(solver);
@@ -166,8 +163,7 @@ void TestAreas()
   auto room = surface.Get();
   AddMaterial(room, 0.9, 0.1);
   auto factors = MakeFactors(room, 1e-6);
-  for (int solver = vtkRadiosity::SOLVER_AUTO; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-       ++solver)
+  for (const int solver : GetSolvers())
   {
     AddArray(room, "Emission", { 0.1 });
     const std::string what = "areas over 8 decades, solver " + std::to_string(solver);
@@ -290,8 +286,7 @@ void TestFewPatches()
   AddMaterial(pair, 0.7, 0.0);
   SetMaterial(pair, 0, 0.7, 2.0);
   const double f = 0.7 * 0.19982489569838746;
-  for (int solver = vtkRadiosity::SOLVER_AUTO; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-       ++solver)
+  for (const int solver : GetSolvers())
   {
     const Run alone(patch, nullptr, solver, 1e-10);
     Check(alone.Status == "Converged" && alone.Messages.empty(), "one patch converges");

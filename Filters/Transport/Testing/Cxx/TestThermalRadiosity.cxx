@@ -205,8 +205,8 @@ void TestMixedCube()
   Eigen::VectorXd irradiances;
   const Eigen::VectorXd radiosities = mixed.Solve(irradiances);
   auto cube = mixed.MakeScene();
-  for (int solver = vtkRadiosity::SOLVER_AUTO; solver <= vtkRadiosity::SOLVER_CONJUGATE_GRADIENT;
-       ++solver)
+  vtkNew<vtkRadiosity> any;
+  for (int solver = 0; solver <= any->GetSolverMaxValue(); ++solver)
   {
     auto radiosity = MakeFilter(cube);
     radiosity->SetSolver(solver);
