@@ -10,7 +10,10 @@
 
 namespace LightTransport
 {
+namespace
+{
 using Vector = PatchScene::Vector;
+}
 
 //------------------------------------------------------------------------------
 ClusterSampler::ClusterSampler(const PatchScene& scene, const LinkSlots& slots)

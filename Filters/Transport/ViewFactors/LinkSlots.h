@@ -61,9 +61,12 @@ public:
   Node GetChildren(int slot) const
   {
     const PatchTree::Node& node = this->Scene.GetTree().GetNode(slot);
-    return node.IsLeaf() ? Node{ this->NumberOfNodes + static_cast<int>(node.First),
-      this->NumberOfNodes + static_cast<int>(node.Last) }
-                         : Node{ node.Left, node.Left + 2 };
+    if (node.IsLeaf())
+    {
+      return { this->NumberOfNodes + static_cast<int>(node.First),
+        this->NumberOfNodes + static_cast<int>(node.Last) };
+    }
+    return { node.Left, node.Left + 2 };
   }
 
 private:

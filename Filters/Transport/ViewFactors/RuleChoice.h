@@ -29,7 +29,7 @@ namespace LightTransport
 {
 namespace RuleChoice
 {
-/// As far as the experiments below went.
+/// Of q: as far as the experiments below went.
 inline constexpr double LargestRatio = 0.7;
 
 /// C of each rule: one and a half times the largest seen in experiments with q from 0.05 to
