@@ -38,8 +38,9 @@ public:
   ///@{
   /**
    * How fast the profile changes: within the scale (above 0) hardly at all, and at a distance r its
-   * logarithm by no more than about 3 / sqrt(r^2 + scale^2) + decay per mm. Tables and the choice
-   * of integration rules go by them.
+   * logarithm by no more than about 3 / sqrt(r^2 + scale^2) + decay per mm, as far out as the tail
+   * matters. Tables and the choice of integration rules go by them: too small a decay makes the
+   * estimates of errors too good, too large a one only costs time.
    */
   virtual double GetSmallestScale() const = 0;
   virtual double GetDecay() const = 0;

@@ -15,6 +15,11 @@ using namespace LightTransportTesting;
 
 namespace
 {
+// What ScatteringProfile::GetDecay promises of the logarithm's slope, and by how much it may be
+// off.
+constexpr double SlopeNearby = 3.0;
+constexpr double MostSlope = 1.1;
+
 //------------------------------------------------------------------------------
 void TestTable()
 {
@@ -113,6 +118,58 @@ void CheckProfile(const ScatteringProfile& profile, const std::string& what)
 }
 
 //------------------------------------------------------------------------------
+// Moments and slopes are those of the values. Midpoint rule over r = scale sinh(t): doubly fine for
+// functions that fall like powers.
+void CheckValues(const ScatteringProfile& profile, const std::string& what)
+{
+  const double scale = profile.GetSmallestScale();
+  constexpr int steps = 4000;
+  constexpr double furthest = 100.0; // scales
+  const double step = std::asinh(furthest) / steps;
+  double expected[3] = {};
+  double before = profile.Evaluate(0.0);
+  for (int k = 0; k < steps; ++k)
+  {
+    const double r = scale * std::sinh((k + 0.5) * step);
+    const double width = step * scale * std::cosh((k + 0.5) * step);
+    const double value = profile.Evaluate(r);
+    expected[0] += value * r * width;
+    expected[1] += value * r * r * width;
+    expected[2] += value * r * r * r * width;
+    // Where what is left no longer matters nobody asks how fast it falls.
+    const double steepest = SlopeNearby / std::hypot(r, scale) + profile.GetDecay();
+    Check(profile.GetTail(r) < 1e-6 * profile.GetTotal() ||
+        std::log(before / value) <= MostSlope * steepest * width,
+      what + "falls no faster than it says at " + std::to_string(r / scale) + " scales");
+    before = value;
+  }
+  double moments[3];
+  profile.GetMoments(furthest * scale, moments);
+  for (int k = 0; k < 3; ++k)
+  {
+    CheckClose(moments[k], expected[k], 1e-5, what + "moment " + std::to_string(k));
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestValues()
+{
+  for (const ScatteringModel& model : ScatteringModels::GetAll())
+  {
+    for (const double albedo : { 0.1, 0.5, 0.9, 0.999 })
+    {
+      for (const double index : { 1.0, 1.3, 1.5 })
+      {
+        const auto profile = model.MakeProfile({ albedo, 1.0 - albedo, index });
+        CheckValues(*profile,
+          std::string(model.Name) + ", albedo " + std::to_string(albedo) + ", index " +
+            std::to_string(index) + ": ");
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestContract()
 {
   for (const ScatteringModel& model : ScatteringModels::GetAll())
@@ -142,5 +199,6 @@ int TestScatteringModels(int, char*[])
   TestUnknown();
   TestMaterials();
   TestContract();
+  TestValues();
   return Result();
 }
