@@ -6,6 +6,8 @@
 #ifndef GaussLegendre_h
 #define GaussLegendre_h
 
+#include "vtkMath.h"
+
 #include <cmath>
 #include <vector>
 
@@ -18,10 +20,9 @@ struct GaussLegendre
 
   explicit GaussLegendre(int points) : Nodes(points), Weights(points)
   {
-    const double pi = 3.14159265358979323846;
     for (int i = 0; i < points; ++i)
     {
-      double x = std::cos(pi * (i + 0.75) / (points + 0.5));
+      double x = std::cos(vtkMath::Pi() * (i + 0.75) / (points + 0.5));
       double slope = 1.0;
       for (int iteration = 0; iteration < 100; ++iteration)
       {

@@ -62,7 +62,7 @@ HierarchyLayout::Range HierarchyLayout::PlaceRange(int first, int last)
   {
     this->SlotTexels.push_back(line * this->Width + slot - first);
   }
-  return { first, last - first, line, FloatTextures::DivideUp(last - first, this->Width) };
+  return { last - first, line, FloatTextures::DivideUp(last - first, this->Width) };
 }
 
 //------------------------------------------------------------------------------

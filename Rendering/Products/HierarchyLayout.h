@@ -31,7 +31,6 @@ public:
   /// Slots from the start of a line on.
   struct Range
   {
-    int FirstSlot;
     int Slots;
     int FirstLine;
     int Lines;

@@ -3,6 +3,7 @@
 #include "Atlas/SquareMap.h"
 
 #include "Atlas/SquareLayout.h"
+#include "vtkMath.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -32,8 +33,6 @@ constexpr std::size_t Finalists = 3;
 
 // Newton's method ends by itself, mostly after ten iterations; long branches take up to this many.
 constexpr int LastIterations = 200;
-
-constexpr double Pi = 3.14159265358979323846;
 
 //------------------------------------------------------------------------------
 Point Subtract(const Point& a, const Point& b)
@@ -103,7 +102,7 @@ Border::Border(const Disc& disc)
   for (std::size_t i = 0; i < next.size(); ++i)
   {
     this->Points.push_back(point);
-    this->Turns.push_back(Pi - angles[point]);
+    this->Turns.push_back(vtkMath::Pi() - angles[point]);
     const Point step = Subtract(disc.Points[next[point]], disc.Points[point]);
     this->Lengths.push_back(this->Lengths.back() + std::sqrt(Dot(step, step)));
     point = next[point];

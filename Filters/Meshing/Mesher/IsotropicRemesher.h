@@ -64,9 +64,8 @@ public:
   /// After Remesh(): split the longest edges, or collapse the shortest, up or down to this number.
   Outcome AdjustNumberOfTriangles(std::size_t number, const Monitor& monitor);
 
-  /// The prepared surface, and the length that edges should have at each of its points.
+  /// The prepared surface.
   const SourceSurface& GetSources() const { return this->Sources; }
-  const std::vector<double>& GetLengths() const { return this->Lengths; }
 
   struct Result
   {
@@ -83,7 +82,7 @@ private:
   std::unique_ptr<Internals> Meshes;
   std::vector<std::size_t> PointsOfSoup;
   SourceSurface Sources;
-  std::vector<double> Lengths;
+  std::vector<double> Lengths; ///< that edges should have, at each point of Sources
 };
 } // namespace LightTransport
 

@@ -10,6 +10,7 @@
 #define PatchSampler_h
 
 #include "Geometry/Polygon.h"
+#include "vtkMath.h"
 
 #include <Eigen/Geometry>
 
@@ -71,7 +72,7 @@ public:
   Polygon::Vector GetDirection(const Polygon::Vector& normal, int index, int first) const
   {
     const double squared = this->Get(index, first);
-    const double angle = 6.283185307179586 * this->Get(index, first + 1);
+    const double angle = 2.0 * vtkMath::Pi() * this->Get(index, first + 1);
     const Polygon::Vector tangent = normal.unitOrthogonal();
     return std::sqrt(squared) *
       (std::cos(angle) * tangent + std::sin(angle) * normal.cross(tangent)) +

@@ -3,6 +3,7 @@
 #include "ViewFactors/PairIntegrals.h"
 
 #include "ViewFactors/QuadratureKernels.h"
+#include "vtkMath.h"
 
 #include <Eigen/Geometry>
 
@@ -17,7 +18,6 @@ namespace
 using PairIntegrals::Estimate;
 using Vector = Polygon::Vector;
 
-constexpr double Pi = 3.14159265358979323846;
 // Bisections of an edge: enough to resolve the logarithm at a shared corner to rounding.
 constexpr int MaximumDepth = 24;
 // The halves of a part may each have this much of its tolerance: not half, since as a rule only one
@@ -286,7 +286,7 @@ private:
       }
       from = to;
     }
-    return std::max(0.0, sum / (2.0 * Pi));
+    return std::max(0.0, sum / (2.0 * vtkMath::Pi()));
   }
 
   double IntegrateTriangle(const Polygon& triangle) const
@@ -378,7 +378,7 @@ double IntegrateRules(const QuadratureRules::Points& a, const Vector& normalA,
     }
     total += a.Weights[i] * sum;
   }
-  return total / Pi;
+  return total / vtkMath::Pi();
 }
 
 //------------------------------------------------------------------------------
@@ -395,7 +395,7 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
   std::array<Edge, Polygon::MaximumCorners + 2> edgesB;
   const int countA = MakeEdges(a, middleA, scale, edgesA.data());
   const int countB = MakeEdges(b, middleA, scale, edgesB.data());
-  const double share = 2.0 * Pi * tolerance / (scale * scale * countA * countB);
+  const double share = 2.0 * vtkMath::Pi() * tolerance / (scale * scale * countA * countB);
   CornerPairs corners;
   Estimate total;
   for (int i = 0; i < countA; ++i)
@@ -426,7 +426,7 @@ Estimate IntegrateContours(const Polygon& a, const Polygon& b, double tolerance)
     }
   }
   total.Value += corners.GetSum();
-  const double unit = scale * scale / (2.0 * Pi);
+  const double unit = scale * scale / (2.0 * vtkMath::Pi());
   return { std::max(0.0, unit * total.Value), unit * total.Error };
 }
 

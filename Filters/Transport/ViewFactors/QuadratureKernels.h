@@ -30,13 +30,6 @@ struct Patches
   long Stride;
 };
 
-/// Numbers of points that a rule of a column may have.
-constexpr bool IsRuleSize(int points)
-{
-  return points == 1 || points == 3 || points == 4 || points == 6 || points == 7 || points == 9 ||
-    points == 16 || points == 25;
-}
-
 /**
  * pi times the exchange of patch `row`, by its first `rowCount` points in `rows`, with patches
  * [first, first + count), by their first `columnCount` points in `columns`, in sums[0 ... count).
