@@ -101,12 +101,8 @@ struct ExactRows::Worker
     {
       return {};
     }
-    Polygon a, b;
-    Polygon::SetToClippedPair(scene, row.Patch, j, a, b);
-    const std::uint64_t key =
-      static_cast<std::uint64_t>(row.Patch) << 32 ^ static_cast<std::uint64_t>(j);
-    if (!row.Visibility.SetPair(a, b, scene, row.Between, key,
-          scene.AreTouching(row.Patch, j) ? open : 0.0))
+    if (!row.Visibility.SetPair(scene, row.Patch, j, row.Between,
+          PairVisibility::GetKey(row.Patch, j), scene.AreTouching(row.Patch, j) ? open : 0.0))
     {
       return {};
     }

@@ -21,21 +21,14 @@ void Polygon::Set(const PatchGeometry& patches, vtkIdType patch)
 }
 
 //------------------------------------------------------------------------------
-bool Polygon::Clip(const Vector& origin, const Vector& normal)
+bool Polygon::Clip(const PatchPlane& plane)
 {
   std::array<double, MaximumCorners + 2> heights;
-  double extent = 0.0;
-  for (int corner = 0; corner < this->Count; ++corner)
-  {
-    heights[corner] = (this->Corners[corner] - origin).dot(normal);
-    extent = std::max(extent, (this->Corners[corner] - origin).squaredNorm());
-  }
-  const double on = PlaneTolerance * std::sqrt(extent);
   bool front = false;
   bool behind = false;
   for (int corner = 0; corner < this->Count; ++corner)
   {
-    heights[corner] = std::abs(heights[corner]) <= on ? 0.0 : heights[corner];
+    heights[corner] = plane.GetCertainHeight(this->Corners[corner]);
     front = front || heights[corner] > 0.0;
     behind = behind || heights[corner] < 0.0;
   }
@@ -64,13 +57,12 @@ bool Polygon::Clip(const Vector& origin, const Vector& normal)
 }
 
 //------------------------------------------------------------------------------
-void Polygon::SetToClippedPair(const PatchGeometry& patches, vtkIdType i, vtkIdType j, Polygon& a,
+bool Polygon::SetToClippedPair(const PatchGeometry& patches, vtkIdType i, vtkIdType j, Polygon& a,
   Polygon& b)
 {
   a.Set(patches, i);
   b.Set(patches, j);
-  b.Clip(patches.GetCorner(i, 0), a.Normal);
-  a.Clip(patches.GetCorner(j, 0), b.Normal);
+  return b.Clip(patches.GetPlane(i)) && a.Clip(patches.GetPlane(j));
 }
 
 //------------------------------------------------------------------------------

@@ -19,8 +19,6 @@ struct Polygon
 
   /// Corners that a patch may have; clipping with one plane adds one.
   static constexpr int MaximumCorners = PatchGeometry::MaximumCorners;
-  /// Points closer to a plane than this part of the extent of what is looked at are on it.
-  static constexpr double PlaneTolerance = 1e-12;
 
   std::array<Vector, MaximumCorners + 2> Corners;
   int Count = 0;
@@ -29,14 +27,13 @@ struct Polygon
   /// Make this a patch.
   void Set(const PatchGeometry& patches, vtkIdType patch);
 
-  /**
-   * Cut away what lies behind the plane through `origin` with `normal`. Corners closer to it than
-   * PlaneTolerance count as on it. Returns false when nothing with an area is left.
-   */
-  bool Clip(const Vector& origin, const Vector& normal);
+  /// Cut away what lies behind a plane. Corners within its tolerance count as on it. Returns false
+  /// when nothing with an area is left.
+  bool Clip(const PatchPlane& plane);
 
-  /// Two patches, each cut at the plane of the other.
-  static void SetToClippedPair(const PatchGeometry& patches, vtkIdType i, vtkIdType j, Polygon& a,
+  /// Two patches, each cut at the plane of the other. Returns false when one of them has nothing in
+  /// front of it.
+  static bool SetToClippedPair(const PatchGeometry& patches, vtkIdType i, vtkIdType j, Polygon& a,
     Polygon& b);
 
   double GetArea() const;

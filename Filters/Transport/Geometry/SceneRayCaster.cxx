@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <vector>
 
 namespace LightTransport
@@ -30,9 +29,8 @@ using QueryContext = RTCIntersectContext;
 // Several times what the coordinates of boxes and rays lose in single precision, and what Embree's
 // arithmetic adds, in a scene whose diagonal is 1: a ray that meets a patch meets its box.
 constexpr float BoxMargin = 1e-6f;
-// Rounding in double precision in such a scene: of heights over a plane, whose normal comes from
-// rounded corners, and of the side on which an edge passes (a bound of its arithmetic).
-constexpr double HeightRounding = 32.0 * std::numeric_limits<double>::epsilon();
+// Rounding in double precision in such a scene of the side on which an edge passes (a bound of its
+// arithmetic).
 constexpr double SideRounding = 4.0 * std::numeric_limits<double>::epsilon();
 // Longer than the scene.
 constexpr double OutOfScene = 2.0;
@@ -42,11 +40,33 @@ constexpr double OutOfScene = 2.0;
 struct Candidate
 {
   Vector Normal;
-  double Offset; // Normal . p in the plane of the patch
+  double Offset;   // Normal . p in the plane of the patch
+  double Rounding; // of heights over it, and how that grows with the distance
+  double Slope;
+  double EdgeRounding;
   vtkIdType Patch;
-  vtkIdType Place;
 
   double GetHeight(const Vector& point) const { return this->Normal.dot(point) - this->Offset; }
+};
+
+//------------------------------------------------------------------------------
+// The nearest patch of those that a ray meets with the same side.
+struct Hit
+{
+  double Fraction = std::numeric_limits<double>::infinity();
+  double Rounding = 0.0; // of the fraction
+  vtkIdType Patch = -1;
+
+  // Of two in one place the first one counts.
+  void Add(const Hit& other)
+  {
+    const double rounding = std::max(this->Rounding, other.Rounding);
+    const bool isSame = std::abs(other.Fraction - this->Fraction) <= rounding;
+    if (isSame ? other.Patch < this->Patch : other.Fraction < this->Fraction)
+    {
+      *this = other;
+    }
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -57,50 +77,50 @@ struct Segment
   QueryContext Context;
   const PatchScene* Scene;
   const Candidate* Candidates;
-  vtkIdType From; // places that do not stop it
+  vtkIdType From; // patches that do not stop it
   vtkIdType To;
   Vector Origin;
   Vector Target;
   Vector Direction;
-  double LargestSideRounding; // over the length of the edge
+  double Length;
 
-  double HitFraction = std::numeric_limits<double>::infinity();
-  vtkIdType HitPatch = -1;
-  bool HitFront = false;
+  Hit Front;
+  Hit Back;
 
   Segment(const Vector& origin, const Vector& target)
-    : Origin(origin), Target(target), Direction(target - origin),
-      LargestSideRounding(SideRounding * this->Direction.lpNorm<1>())
+    : Origin(origin), Target(target), Direction(target - origin), Length(this->Direction.norm())
   {
   }
 
   // On which side of the segment's line an edge passes: 0 where rounding decides. The edge comes
   // from its ends: a difference of vectors from the origin would lose the digits of a short one.
-  double GetSide(const Vector& a, const Vector& b) const
+  double GetSide(const Vector& a, const Vector& b, double rounding) const
   {
     const Vector edge = b - a;
     const double side = this->Direction.dot((a - this->Origin).cross(edge));
-    return std::abs(side) <= this->LargestSideRounding * edge.lpNorm<1>() ? 0.0 : side;
+    return std::abs(side) <= rounding * edge.lpNorm<1>() ? 0.0 : side;
   }
 
   // Whether the segment's line meets a patch or its border. Triangles of a fan, because corners
   // within the tolerance of PatchScene may be a little concave.
-  bool Meets(vtkIdType patch) const
+  bool Meets(const Candidate& candidate) const
   {
-    const vtkIdType* corners = this->Scene->GetCorners(patch);
-    const int count = this->Scene->GetNumberOfCorners(patch);
+    const vtkIdType* corners = this->Scene->GetCorners(candidate.Patch);
+    const int count = this->Scene->GetNumberOfCorners(candidate.Patch);
+    const double rounding =
+      SideRounding * this->Direction.lpNorm<1>() + candidate.EdgeRounding * this->Length;
     const Vector* points = this->Scene->GetPoints().data();
     const Vector& first = points[corners[0]];
-    double begin = this->GetSide(first, points[corners[1]]);
+    double begin = this->GetSide(first, points[corners[1]], rounding);
     for (int corner = 2; corner < count; ++corner)
     {
       const Vector& last = points[corners[corner]];
-      const double outer = this->GetSide(points[corners[corner - 1]], last);
+      const double outer = this->GetSide(points[corners[corner - 1]], last, rounding);
       if (corner + 1 == count && begin * outer < 0.0)
       {
         return false; // as most candidates: the last side need not be known
       }
-      const double end = this->GetSide(last, first);
+      const double end = this->GetSide(last, first, rounding);
       if ((begin >= 0.0 && outer >= 0.0 && end >= 0.0) ||
         (begin <= 0.0 && outer <= 0.0 && end <= 0.0))
       {
@@ -116,25 +136,40 @@ struct Segment
   {
     from = candidate.GetHeight(this->Origin);
     to = candidate.GetHeight(this->Target);
-    // What an end lies on, or continues in the same plane, is not between the ends.
-    const bool through = (from > HeightRounding && to < -HeightRounding) ||
-      (from < -HeightRounding && to > HeightRounding);
-    return through && candidate.Place != this->From && candidate.Place != this->To &&
-      this->Meets(candidate.Patch);
+    return (from > 0.0) != (to > 0.0) && this->IsThrough(candidate, from, to) &&
+      candidate.Patch != this->From && candidate.Patch != this->To && this->Meets(candidate);
   }
 
-  void AddHit(vtkIdType patch, double from, double to)
+  // What an end lies on, or continues in the same plane, is not between the ends.
+  bool IsThrough(const Candidate& candidate, double from, double to) const
   {
-    const double fraction = from / (from - to);
-    const double rounding = HeightRounding / std::abs(from - to);
-    const bool front = from > 0.0;
-    const bool same = std::abs(fraction - this->HitFraction) <= rounding;
-    if (same ? front && !this->HitFront : fraction < this->HitFraction)
-    {
-      this->HitFraction = fraction;
-      this->HitPatch = patch;
-      this->HitFront = front;
-    }
+    const double left = std::abs(from) - candidate.Rounding;
+    const double right = std::abs(to) - candidate.Rounding;
+    // Heights over the whole length: what one end gets of it is the distance to the plane.
+    const double slope = candidate.Slope * this->Length / std::abs(from - to);
+    return left > slope * std::abs(from) && right > slope * std::abs(to);
+  }
+
+  void AddHit(const Candidate& candidate, double from, double to)
+  {
+    const double height = std::abs(from - to);
+    (from > 0.0 ? this->Front : this->Back)
+      .Add({ from / (from - to), candidate.Rounding / height, candidate.Patch });
+  }
+
+  // Of two sides in one place the one that faces the ray is first.
+  bool IsFrontFirst() const
+  {
+    return this->Front.Patch >= 0 &&
+      this->Front.Fraction <=
+      this->Back.Fraction + std::max(this->Front.Rounding, this->Back.Rounding);
+  }
+
+  // Patches further away than this are not met first.
+  double GetReach() const
+  {
+    const Hit& nearest = this->Front.Fraction < this->Back.Fraction ? this->Front : this->Back;
+    return nearest.Fraction + nearest.Rounding;
   }
 
   void SetRay(RTCRay& ray) const
@@ -155,23 +190,6 @@ struct Segment
 };
 
 //------------------------------------------------------------------------------
-// For each patch the first one with the same corners: the two sides of a thin wall are one place,
-// and neither may stop the rays of the other.
-std::vector<vtkIdType> FindPlaces(const PatchScene& scene)
-{
-  std::map<std::vector<vtkIdType>, vtkIdType> first;
-  std::vector<vtkIdType> places;
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
-  {
-    const vtkIdType* corners = scene.GetCorners(patch);
-    std::vector<vtkIdType> key(corners, corners + scene.GetNumberOfCorners(patch));
-    std::sort(key.begin(), key.end());
-    places.push_back(first.emplace(std::move(key), patch).first->second);
-  }
-  return places;
-}
-
-//------------------------------------------------------------------------------
 void TestOccluded(const RTCOccludedFunctionNArguments* arguments)
 {
   const auto* segment = reinterpret_cast<const Segment*>(arguments->context);
@@ -190,10 +208,10 @@ void TestIntersected(const RTCIntersectFunctionNArguments* arguments)
   double from, to;
   if (segment->Crosses(candidate, from, to))
   {
-    segment->AddHit(candidate.Patch, from, to);
+    segment->AddHit(candidate, from, to);
     // Embree may leave out what is certainly further away.
     RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, 1), 1, 0) =
-      static_cast<float>(segment->HitFraction) + BoxMargin;
+      std::min(1.0f, static_cast<float>(segment->GetReach()) + BoxMargin);
   }
 }
 } // namespace
@@ -203,7 +221,6 @@ struct SceneRayCaster::Internals
   RTCDevice Device = nullptr;
   RTCScene Tree = nullptr;
   const PatchScene* Scene = nullptr;
-  std::vector<vtkIdType> Places;
   std::vector<Candidate> Candidates;
 
   ~Internals() { this->Close(); }
@@ -234,8 +251,8 @@ struct SceneRayCaster::Internals
 #endif
     segment.Scene = this->Scene;
     segment.Candidates = this->Candidates.data();
-    segment.From = this->Places[from];
-    segment.To = to < 0 ? to : this->Places[to];
+    segment.From = from;
+    segment.To = to;
     return segment;
   }
 
@@ -247,14 +264,13 @@ struct SceneRayCaster::Internals
 void SceneRayCaster::Internals::AddPatches(const PatchScene& scene, const std::vector<bool>* subset)
 {
   this->Scene = &scene;
-  this->Places = FindPlaces(scene);
   for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
   {
     if (!subset || (*subset)[patch])
     {
-      const Vector& normal = scene.GetNormal(patch);
-      const double offset = normal.dot(scene.GetCentroid(patch));
-      this->Candidates.push_back({ normal, offset, patch, this->Places[patch] });
+      const PatchPlane plane = scene.GetPlane(patch);
+      this->Candidates.push_back({ plane.Normal, plane.Normal.dot(plane.Origin), plane.Rounding,
+        plane.Slope, scene.GetEdgeRounding(patch), patch });
     }
   }
   RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
@@ -272,7 +288,9 @@ void SceneRayCaster::Internals::AddPatches(const PatchScene& scene, const std::v
 void SceneRayCaster::Internals::FindBox(const RTCBoundsFunctionArguments* arguments)
 {
   const auto* self = static_cast<const Internals*>(arguments->geometryUserPtr);
-  const vtkIdType patch = self->Candidates[arguments->primID].Patch;
+  const Candidate& candidate = self->Candidates[arguments->primID];
+  const vtkIdType patch = candidate.Patch;
+  const float margin = BoxMargin + static_cast<float>(candidate.EdgeRounding);
   Vector low = self->Scene->GetCorner(patch, 0);
   Vector high = low;
   for (int corner = 1; corner < self->Scene->GetNumberOfCorners(patch); ++corner)
@@ -281,12 +299,12 @@ void SceneRayCaster::Internals::FindBox(const RTCBoundsFunctionArguments* argume
     high = high.cwiseMax(self->Scene->GetCorner(patch, corner));
   }
   RTCBounds* box = arguments->bounds_o;
-  box->lower_x = static_cast<float>(low.x()) - BoxMargin;
-  box->lower_y = static_cast<float>(low.y()) - BoxMargin;
-  box->lower_z = static_cast<float>(low.z()) - BoxMargin;
-  box->upper_x = static_cast<float>(high.x()) + BoxMargin;
-  box->upper_y = static_cast<float>(high.y()) + BoxMargin;
-  box->upper_z = static_cast<float>(high.z()) + BoxMargin;
+  box->lower_x = static_cast<float>(low.x()) - margin;
+  box->lower_y = static_cast<float>(low.y()) - margin;
+  box->lower_z = static_cast<float>(low.z()) - margin;
+  box->upper_x = static_cast<float>(high.x()) + margin;
+  box->upper_y = static_cast<float>(high.y()) + margin;
+  box->upper_z = static_cast<float>(high.z()) + margin;
 }
 
 //------------------------------------------------------------------------------
@@ -355,7 +373,7 @@ vtkIdType SceneRayCaster::FindHit(const Vector& origin, const Vector& direction,
 #else
   rtcIntersect1(this->Internal->Tree, &segment.Context, &hit);
 #endif
-  front = segment.HitFront;
-  return segment.HitPatch;
+  front = segment.IsFrontFirst();
+  return front ? segment.Front.Patch : segment.Back.Patch;
 }
 } // namespace LightTransport

@@ -3,14 +3,14 @@
 /**
  * Rays through a PatchScene. Embree's single precision finds candidates (patches whose box,
  * enlarged by what single precision loses, is met), double precision decides: a patch is hit where
- * the ray crosses its plane between its ends, neither of them in the plane, and passes all edges on
- * the same side or touches them. What counts as touching is rounding in double precision, so
- * neighbors leave no gap between them and a patch a millionth as large as the scene keeps its
- * shape.
+ * the ray crosses its plane between its ends, neither of them on the plane, and passes all edges on
+ * the same side or touches them. What is on a plane, and what touches, is decided by what the
+ * coordinates are worth (PatchPlane): neighbors leave no gap between them, and a patch a millionth
+ * as large as the scene keeps its shape.
  *
- * Patches named as a ray's own never stop it, nor do others with the same corners (the other side
- * of a thin wall), so no ray needs an offset to leave the patch where it starts or to arrive where
- * it ends. Origins must be in the bounding box of the scene. Thread-safe after Build.
+ * So no ray needs an offset to leave the patch where it starts or to arrive where it ends, nor do
+ * others in the same place (the other side of a thin wall, however it is meshed) stop it. Origins
+ * must be in the bounding box of the scene. Thread-safe after Build.
  */
 #ifndef SceneRayCaster_h
 #define SceneRayCaster_h
@@ -44,8 +44,8 @@ public:
 
   /**
    * The first patch other than `from` along a ray, or -1; `front` tells whether its front was hit.
-   * Of two patches in one place the one that faces the ray is first. `direction` need not be
-   * normalised.
+   * Of two sides in one place the one that faces the ray is first, of two that both do the one with
+   * the lower number. `direction` need not be normalised.
    */
   vtkIdType FindHit(const PatchScene::Vector& origin, const PatchScene::Vector& direction,
     vtkIdType from, bool& front) const;

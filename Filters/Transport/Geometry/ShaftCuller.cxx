@@ -13,9 +13,6 @@ namespace LightTransport
 {
 namespace
 {
-// A plane has the scene in front of it when nothing is further behind than this (the scene's
-// diagonal is 1): coordinates in single precision are not better than that.
-constexpr double PlaneTolerance = 1e-7;
 // Bounds are in single precision: they are compared with this much to spare for rounding.
 constexpr float Spare = 1e-6f;
 // A bound that changes less than this along a shaft does not change: then it is met from one end to
@@ -131,18 +128,20 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
 }
 
 //------------------------------------------------------------------------------
+// A plane has the scene in front of it when nothing is certainly behind it.
 bool ShaftCuller::IsOccluder(vtkIdType patch) const
 {
-  const Vector& normal = this->Scene.GetNormal(patch);
-  const double least = normal.dot(this->Scene.GetCorner(patch, 0)) - PlaneTolerance;
+  const PatchPlane plane = this->Scene.GetPlane(patch);
   std::vector<int> open(1, 0);
   while (!open.empty())
   {
     const PatchTree::Node& node = this->Scene.GetTree().GetNode(open.back());
     open.pop_back();
     const Vector lowest =
-      (normal.array() > 0.0).select(node.Lower.array(), node.Upper.array()).matrix();
-    if (normal.dot(lowest) >= least)
+      (plane.Normal.array() > 0.0).select(node.Lower.array(), node.Upper.array()).matrix();
+    const double nearest =
+      (node.Lower - plane.Origin).cwiseMax(plane.Origin - node.Upper).cwiseMax(0.0).norm();
+    if (plane.GetHeight(lowest) >= -plane.GetTolerance(nearest))
     {
       continue;
     }
@@ -156,7 +155,7 @@ bool ShaftCuller::IsOccluder(vtkIdType patch) const
     {
       for (int corner = 0; corner < this->Scene.GetNumberOfCorners(other); ++corner)
       {
-        if (normal.dot(this->Scene.GetCorner(other, corner)) < least)
+        if (plane.GetCertainHeight(this->Scene.GetCorner(other, corner)) < 0.0)
         {
           return true;
         }

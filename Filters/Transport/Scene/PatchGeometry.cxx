@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace LightTransport
 {
@@ -18,6 +19,12 @@ constexpr double PlanarityTolerance = 1e-4;
 constexpr double CoordinateTolerance = 1e-6;
 // Below this part of the longest edge squared an area is rounding noise.
 constexpr double AreaTolerance = 1e-13;
+// Rounding in double precision of heights over a plane, whose normal comes from rounded corners,
+// where the scene's diagonal is 1.
+constexpr double HeightRounding = 24.0 * std::numeric_limits<double>::epsilon();
+// The rounding of coordinates counts up to this part of the width of a patch: where they are worth
+// less than that they are taken as they are, since nothing would be left in front of anything.
+constexpr double LargestPart = 1.0 / 32.0;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -28,6 +35,9 @@ void PatchGeometry::AllocatePatches()
   this->Normals.resize(patches);
   this->Centroids.resize(patches);
   this->Radii.resize(patches);
+  this->Roundings.resize(patches);
+  this->Slopes.resize(patches);
+  this->EdgeRoundings.resize(patches);
 }
 
 //------------------------------------------------------------------------------
@@ -77,7 +87,28 @@ const char* PatchGeometry::ComputePatch(vtkIdType patch)
   this->Normals[patch] = normal;
   this->Centroids[patch] = centroid;
   this->Radii[patch] = radius;
+  this->ComputeWorth(patch);
   return this->CheckShape(patch);
+}
+
+//------------------------------------------------------------------------------
+// A plane and a point over it are each off by what coordinates lose along its normal; corners that
+// are not in one plane tell the more of it, once for each of two sides whose planes differ by that.
+void PatchGeometry::ComputeWorth(vtkIdType patch)
+{
+  const Vector& normal = this->Normals[patch];
+  double unevenness = 0.0;
+  for (int corner = 0; corner < this->GetNumberOfCorners(patch); ++corner)
+  {
+    const double height = (this->GetCorner(patch, corner) - this->Centroids[patch]).dot(normal);
+    unevenness = std::max(unevenness, std::abs(height));
+  }
+  const double width = this->Areas[patch] / (2.0 * this->Radii[patch]);
+  const double most = LargestPart * width;
+  const double lost = std::min(2.0 * normal.cwiseAbs().dot(this->CoordinateRounding), most);
+  this->Roundings[patch] = lost + 2.0 * unevenness + HeightRounding;
+  this->Slopes[patch] = std::min(this->Roundings[patch] / width, LargestPart);
+  this->EdgeRoundings[patch] = std::min(this->CoordinateRounding.norm(), most);
 }
 
 //------------------------------------------------------------------------------

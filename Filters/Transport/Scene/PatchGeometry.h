@@ -4,6 +4,7 @@
 #ifndef PatchGeometry_h
 #define PatchGeometry_h
 
+#include "Scene/PatchPlane.h"
 #include "vtkType.h"
 
 #include <Eigen/Core>
@@ -47,8 +48,19 @@ public:
   const Vector& GetCentroid(vtkIdType patch) const { return this->Centroids[patch]; }
   /// Radius around the centroid of a sphere that holds the patch.
   double GetRadius(vtkIdType patch) const { return this->Radii[patch]; }
+  PatchPlane GetPlane(vtkIdType patch) const
+  {
+    return { this->Centroids[patch], this->Normals[patch], this->Roundings[patch],
+      this->Slopes[patch] };
+  }
+  /// How far edges of a patch may be from where they should be.
+  double GetEdgeRounding(vtkIdType patch) const { return this->EdgeRoundings[patch]; }
 
 protected:
+  /// How far a coordinate may be from the right one, along each axis: to be set before patches are
+  /// computed.
+  Vector CoordinateRounding = Vector::Zero();
+
   /// Make room for areas, normals, centroids and radii of the patches that Offsets has.
   void AllocatePatches();
   /// Find them for one patch. Returns nullptr, or why the polygon is no patch and the remedy.
@@ -60,11 +72,17 @@ protected:
 
 private:
   const char* CheckShape(vtkIdType patch) const;
+  void ComputeWorth(vtkIdType patch);
 
   std::vector<double> Areas;
   std::vector<Vector> Normals;
   std::vector<Vector> Centroids;
   std::vector<double> Radii;
+  ///@{ What the coordinates are worth, see PatchPlane.
+  std::vector<double> Roundings;
+  std::vector<double> Slopes;
+  std::vector<double> EdgeRoundings;
+  ///@}
 };
 } // namespace LightTransport
 

@@ -130,6 +130,8 @@ Outcome PatchScene::Normalize(const GatheredPolygons& polygons)
          << ": scale it to a size that double precision can hold.";
     return Outcome::Failed(text.str());
   }
+  this->CoordinateRounding =
+    polygons.Precision * low.cwiseAbs().cwiseMax(high.cwiseAbs()) / this->Scale;
   return Outcome::Done();
 }
 

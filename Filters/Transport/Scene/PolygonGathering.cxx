@@ -11,6 +11,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -23,6 +24,18 @@ namespace LightTransport
 {
 namespace
 {
+// Coordinates in single precision come, as a rule, from better ones, rounded once or twice; those
+// in double precision from arithmetic of their own.
+constexpr double SinglePrecision = 1.5 * 0x1.0p-24;
+constexpr double DoublePrecision = 4.0 * 0x1.0p-53;
+
+//------------------------------------------------------------------------------
+double GetPrecision(vtkPolyData* data)
+{
+  const bool isDouble = data->GetPoints() && data->GetPoints()->GetDataType() == VTK_DOUBLE;
+  return isDouble ? DoublePrecision : SinglePrecision;
+}
+
 //------------------------------------------------------------------------------
 Outcome FindAtlas(vtkPolyData* data, vtkDataArray*& atlas)
 {
@@ -54,6 +67,10 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
   const vtkIdType first = Leaves::GetFirstPolygonCell(data);
   vtkCellArray* cells = data->GetPolys();
   vtkNew<vtkIdList> corners;
+  if (cells->GetNumberOfCells() > 0)
+  {
+    polygons.Precision = std::max(polygons.Precision, GetPrecision(data));
+  }
   for (vtkIdType polygon = 0; polygon < cells->GetNumberOfCells(); ++polygon)
   {
     if (IsGhost(ghosts, first + polygon))
@@ -165,6 +182,8 @@ void GatherRanks(const Ranks& ranks, GatheredPolygons& polygons)
   const std::vector<vtkIdType> counts = ranks.Gather(mine);
   polygons.FirstLocal =
     std::accumulate(counts.begin(), counts.begin() + ranks.GetMine(), static_cast<vtkIdType>(0));
+  const std::vector<double> precisions = ranks.Gather(std::vector<double>{ polygons.Precision });
+  polygons.Precision = *std::max_element(precisions.begin(), precisions.end());
   polygons.Counts = ranks.Gather(polygons.Counts);
   polygons.Coordinates = ranks.Gather(polygons.Coordinates);
   polygons.Codes = ranks.Gather(polygons.Codes);

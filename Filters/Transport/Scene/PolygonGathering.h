@@ -33,6 +33,8 @@ struct GatheredPolygons
   std::vector<vtkIdType> Counts;
   std::vector<double> Coordinates;
   ///@}
+  /// What the coordinates of all ranks are worth, relative to the largest of them.
+  double Precision = 0.0;
   ///@{ For the order of an atlas: the place of each polygon (PatchTree::GetCode), and the number of
   /// its surface.
   std::vector<std::uint64_t> Codes;

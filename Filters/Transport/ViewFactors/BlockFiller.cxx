@@ -168,9 +168,15 @@ void BlockFiller::CorrectRow(vtkIdType i, int ruleI, vtkIdType first, int ruleJ,
 {
   for (int column = 0; column < size; ++column)
   {
-    if (std::abs(margins[column]) < 1.0 && this->Pairs.NeedsClip(i, first + column))
+    const vtkIdType j = first + column;
+    const auto sight =
+      std::abs(margins[column]) < 1.0 ? this->Pairs.Look(i, j) : PairPlanner::Sight::Whole;
+    if (sight == PairPlanner::Sight::None)
     {
-      const vtkIdType j = first + column;
+      sums[column] = 0.0;
+    }
+    else if (sight == PairPlanner::Sight::Part)
+    {
       sums[column] = this->Pairs.IntegrateClipped(i, ruleI, j, ruleJ);
       const std::vector<double>& areas = this->Scene.GetAreas();
       const double more = (RuleChoice::ClippedFactor - 1.0) * error * areas[i] * areas[j];

@@ -171,10 +171,7 @@ LinkEstimator::Estimate LinkEstimator::Integrate(const Pair& pair, double thresh
   {
     return estimate;
   }
-  Polygon a, b;
-  Polygon::SetToClippedPair(this->Scene, i, j, a, b);
-  const std::uint64_t key = static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
-  if (!visibility.SetPair(a, b, this->Scene, between, key,
+  if (!visibility.SetPair(this->Scene, i, j, between, PairVisibility::GetKey(i, j),
         this->Scene.AreTouching(i, j) ? open : 0.0))
   {
     return estimate;

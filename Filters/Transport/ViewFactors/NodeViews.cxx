@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactors/NodeViews.h"
 
-#include "Geometry/Polygon.h"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -16,8 +14,6 @@ namespace
 using Node = PatchTree::Node;
 using Vector = PatchScene::Vector;
 
-// Heights below this are the rounding of coordinates: the scene's diagonal is 1.
-constexpr double CoordinateRounding = 1e-15;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -35,8 +31,13 @@ NodeViews::Slab NodeViews::MakeSlab(const Node& node) const
   Slab slab;
   slab.Low = node.ConeAxis.dot(this->Scene.GetCorner(node.First, 0));
   slab.High = slab.Low;
+  slab.Rounding = this->Scene.GetPlane(node.First).Rounding;
+  slab.Slope = this->Scene.GetPlane(node.First).Slope;
   for (vtkIdType patch = node.First; patch < node.Last; ++patch)
   {
+    const PatchPlane plane = this->Scene.GetPlane(patch);
+    slab.Rounding = std::min(slab.Rounding, plane.Rounding);
+    slab.Slope = std::min(slab.Slope, plane.Slope);
     slab.Chord = std::max(slab.Chord, (this->Scene.GetNormal(patch) - node.ConeAxis).norm());
     for (int corner = 0; corner < this->Scene.GetNumberOfCorners(patch); ++corner)
     {
@@ -92,7 +93,8 @@ NodeViews::View NodeViews::Get(int nodeI, int nodeJ) const
   view.LowestOfI = ofI.Lowest;
   view.HighestOfJ = ofJ.Highest;
   view.LowestOfJ = ofJ.Lowest;
-  view.Rounding = Polygon::PlaneTolerance * extent + CoordinateRounding;
+  view.RoundingOfI = this->Slabs[nodeJ].Rounding + this->Slabs[nodeJ].Slope * view.Nearest;
+  view.RoundingOfJ = this->Slabs[nodeI].Rounding + this->Slabs[nodeI].Slope * view.Nearest;
   view.Sine = std::min(1.0,
     a.ConeAxis.cross(b.ConeAxis).norm() + this->Slabs[nodeI].Chord + this->Slabs[nodeJ].Chord);
   return view;

@@ -24,16 +24,19 @@ public:
     double HighestOfJ = 0.0;
     double LowestOfJ = 0.0;
     ///@}
-    double Rounding = 0.0; ///< heights below this are none
-    double Sine = 1.0;     ///< of the angle between planes, at most
+    ///@{ Heights below these are none to any patch.
+    double RoundingOfI = 0.0;
+    double RoundingOfJ = 0.0;
+    ///@}
+    double Sine = 1.0; ///< of the angle between planes, at most
 
     bool MayFace() const
     {
-      return this->HighestOfI > this->Rounding && this->HighestOfJ > this->Rounding;
+      return this->HighestOfI > this->RoundingOfI && this->HighestOfJ > this->RoundingOfJ;
     }
     bool NoHorizonCrosses() const
     {
-      return this->LowestOfI >= -this->Rounding && this->LowestOfJ >= -this->Rounding;
+      return this->LowestOfI >= -this->RoundingOfI && this->LowestOfJ >= -this->RoundingOfJ;
     }
   };
 
@@ -50,6 +53,10 @@ private:
     double Sine = 0.0;
     double Low = 0.0;
     double High = 0.0;
+    ///@{ The least tolerance of a plane (PatchPlane).
+    double Rounding = 0.0;
+    double Slope = 0.0;
+    ///@}
   };
   struct Heights
   {

@@ -37,6 +37,11 @@ PairPlanner::Plan PairPlanner::MakePlan(vtkIdType i, vtkIdType j) const
   {
     return plan;
   }
+  const Sight sight = pair.Margin > this->GetDoubt(pair, i, j) ? Sight::Whole : this->Look(i, j);
+  if (sight == Sight::None)
+  {
+    return plan;
+  }
   const RuleChoice::Rules rules = RuleChoice::Choose(pair.SideI, pair.SideJ, this->RuleTolerance);
   if (!rules.AreFound())
   {
@@ -45,7 +50,7 @@ PairPlanner::Plan PairPlanner::MakePlan(vtkIdType i, vtkIdType j) const
   }
   const bool large =
     this->Rules.HasLargePolygons(i, i + 1) || this->Rules.HasLargePolygons(j, j + 1);
-  const bool crossing = pair.Margin < 0.0 && this->NeedsClip(i, j);
+  const bool crossing = sight == Sight::Part;
   const double factor = crossing ? RuleChoice::ClippedFactor : 1.0;
   const std::vector<double>& areas = this->Scene.GetAreas();
   plan.Method = large || crossing ? Plan::Clipped : Plan::Rules;
@@ -53,6 +58,16 @@ PairPlanner::Plan PairPlanner::MakePlan(vtkIdType i, vtkIdType j) const
   plan.RuleJ = rules.J;
   plan.Error = factor * (areas[i] * areas[j] / vtkMath::Pi()) * rules.Error;
   return plan;
+}
+
+//------------------------------------------------------------------------------
+// Lowest points higher than this are certainly in front.
+double PairPlanner::GetDoubt(const RuleChoice::Pair& pair, vtkIdType i, vtkIdType j) const
+{
+  const double furthest =
+    pair.SideI.Distance + pair.SideJ.Radius + std::max(pair.SideI.Radius, pair.SideJ.Radius);
+  return std::max(this->Scene.GetPlane(i).GetTolerance(furthest),
+    this->Scene.GetPlane(j).GetTolerance(furthest));
 }
 
 //------------------------------------------------------------------------------
@@ -78,42 +93,30 @@ PairPlanner::Estimate PairPlanner::Follow(vtkIdType i, vtkIdType j, const Plan& 
 }
 
 //------------------------------------------------------------------------------
-bool PairPlanner::NeedsClip(vtkIdType i, vtkIdType j) const
+PairPlanner::Sight PairPlanner::Look(vtkIdType i, vtkIdType j) const
 {
-  constexpr double Squared = Polygon::PlaneTolerance * Polygon::PlaneTolerance;
-  const auto reaches = [this](vtkIdType over, vtkIdType of)
+  const auto look = [this](vtkIdType over, vtkIdType of)
   {
-    const Vector& normal = this->Scene.GetNormal(over);
-    const Vector& origin = this->Scene.GetCorner(over, 0);
+    const PatchPlane plane = this->Scene.GetPlane(over);
+    bool front = false;
+    bool behind = false;
     for (int corner = 0; corner < this->Scene.GetNumberOfCorners(of); ++corner)
     {
-      const Vector ray = this->Scene.GetCorner(of, corner) - origin;
-      const double height = ray.dot(normal);
-      if (height < 0.0 && height * height > Squared * ray.squaredNorm())
-      {
-        return true;
-      }
+      const double height = plane.GetCertainHeight(this->Scene.GetCorner(of, corner));
+      front = front || height > 0.0;
+      behind = behind || height < 0.0;
     }
-    return false;
+    return front ? (behind ? Sight::Part : Sight::Whole) : Sight::None;
   };
-  return reaches(i, j) || reaches(j, i);
-}
-
-//------------------------------------------------------------------------------
-// False where one of them has nothing in front of the plane of the other.
-bool PairPlanner::Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const
-{
-  a.Set(this->Scene, i);
-  b.Set(this->Scene, j);
-  return b.Clip(this->Scene.GetCorner(i, 0), a.Normal) &&
-    a.Clip(this->Scene.GetCorner(j, 0), b.Normal);
+  const Sight first = look(i, j);
+  return first == Sight::None ? first : std::min(first, look(j, i));
 }
 
 //------------------------------------------------------------------------------
 double PairPlanner::IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j, int ruleJ) const
 {
   Polygon a, b;
-  if (!this->Clip(i, j, a, b))
+  if (!Polygon::SetToClippedPair(this->Scene, i, j, a, b))
   {
     return 0.0;
   }
@@ -132,7 +135,7 @@ double PairPlanner::IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j, int ru
 PairPlanner::Estimate PairPlanner::IntegrateNear(vtkIdType i, vtkIdType j) const
 {
   Polygon a, b;
-  if (!this->Clip(i, j, a, b))
+  if (!Polygon::SetToClippedPair(this->Scene, i, j, a, b))
   {
     return {};
   }

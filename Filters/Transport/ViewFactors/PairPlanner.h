@@ -13,6 +13,7 @@
 #include "Scene/PatchScene.h"
 #include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/PatchRules.h"
+#include "ViewFactors/RuleChoice.h"
 
 #include <algorithm>
 #include <vector>
@@ -47,8 +48,14 @@ public:
 
   /// What the rules of a pair, or of a block of them, may be off: see RuleChoice::Choose.
   double GetRuleTolerance() const { return this->RuleTolerance; }
-  /// Whether the plane of one patch passes through the other.
-  bool NeedsClip(vtkIdType i, vtkIdType j) const;
+  /// How much the two have in front of each other's plane.
+  enum class Sight
+  {
+    None, ///< one of them nothing
+    Part, ///< the plane of one passes through the other
+    Whole
+  };
+  Sight Look(vtkIdType i, vtkIdType j) const;
   /// The exchange of what each patch has in front of the plane of the other.
   double IntegrateClipped(vtkIdType i, int ruleI, vtkIdType j, int ruleJ) const;
   /// No more leaves or arrives than there is.
@@ -59,7 +66,7 @@ public:
   }
 
 private:
-  bool Clip(vtkIdType i, vtkIdType j, Polygon& a, Polygon& b) const;
+  double GetDoubt(const RuleChoice::Pair& pair, vtkIdType i, vtkIdType j) const;
   Estimate IntegrateNear(vtkIdType i, vtkIdType j) const;
 
   const PatchScene& Scene;

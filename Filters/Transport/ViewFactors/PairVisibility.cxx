@@ -35,8 +35,8 @@ constexpr double RimPart = 0.25;
 constexpr double UsualPart = 0.8;
 // A share that is not 0 or 1 stays this far from both.
 constexpr double LeastShare = 1e-9;
-// Heights closer to a plane than this part of the distance are on it.
-constexpr double OnPlane = 1e-12;
+// Edges of the target that leave the raster's lines by less than this part are along them.
+constexpr double AlongLines = 1e-12;
 
 //------------------------------------------------------------------------------
 double GetExtent(const Polygon& polygon)
@@ -57,15 +57,15 @@ enum class Side
   Behind,
   Both
 };
-Side FindSide(const PatchScene& scene, vtkIdType patch, const Polygon& plane)
+Side FindSide(const PatchScene& scene, vtkIdType patch, const PatchPlane& plane)
 {
-  const Vector& origin = plane.Corners[0];
-  const double on = OnPlane * ((scene.GetCentroid(patch) - origin).norm() + scene.GetRadius(patch));
+  const double on =
+    plane.GetTolerance((scene.GetCentroid(patch) - plane.Origin).norm() + scene.GetRadius(patch));
   bool front = false;
   bool behind = false;
   for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
   {
-    const double height = (scene.GetCorner(patch, corner) - origin).dot(plane.Normal);
+    const double height = plane.GetHeight(scene.GetCorner(patch, corner));
     front = front || height > on;
     behind = behind || height < on;
   }
@@ -100,12 +100,13 @@ void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts,
 } // namespace
 
 //------------------------------------------------------------------------------
-bool PairVisibility::SetPair(const Polygon& a, const Polygon& b, const PatchScene& scene,
+bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching)
 {
   this->Touching = touching;
-  this->Outer = a;
-  this->Inner = b;
+  Polygon::SetToClippedPair(scene, i, j, this->Outer, this->Inner);
+  this->OuterPlane = scene.GetPlane(i);
+  this->InnerPlane = scene.GetPlane(j);
   this->Key = key;
   this->NumberOfPoints = 0;
   if (!this->SelectOccluders(scene, occluders))
@@ -126,8 +127,8 @@ bool PairVisibility::SelectOccluders(const PatchScene& scene,
   this->Occluders.clear();
   for (const vtkIdType patch : occluders)
   {
-    const Side outer = FindSide(scene, patch, this->Outer);
-    const Side inner = outer == Side::Behind ? outer : FindSide(scene, patch, this->Inner);
+    const Side outer = FindSide(scene, patch, this->OuterPlane);
+    const Side inner = outer == Side::Behind ? outer : FindSide(scene, patch, this->InnerPlane);
     if (inner != Side::Behind)
     {
       this->Occluders.push_back({ patch, outer == Side::Both || inner == Side::Both, 0.0 });
@@ -154,6 +155,7 @@ void PairVisibility::ChooseOuter(const PatchScene& scene)
   if (GetExtent(this->Outer) * (1.0 - position) > GetExtent(this->Inner) * position)
   {
     std::swap(this->Outer, this->Inner);
+    std::swap(this->OuterPlane, this->InnerPlane);
   }
 }
 
@@ -203,7 +205,7 @@ void PairVisibility::AddTarget()
     this->Target.Begin = std::min(this->Target.Begin, u);
     this->Target.End = std::max(this->Target.End, u);
     // An edge along the lines bounds none of them.
-    if (std::abs(run) > OnPlane * (end - begin).norm())
+    if (std::abs(run) > AlongLines * (end - begin).norm())
     {
       const double w = begin.dot(this->AxisW);
       const double slope = (end.dot(this->AxisW) - w) / run;
@@ -259,8 +261,7 @@ void PairVisibility::AddTriangles(const PatchScene& scene)
       continue;
     }
     cut.Set(scene, occluder.Patch);
-    if (cut.Clip(this->Outer.Corners[0], this->Outer.Normal) &&
-      cut.Clip(this->Inner.Corners[0], this->Inner.Normal))
+    if (cut.Clip(this->OuterPlane) && cut.Clip(this->InnerPlane))
     {
       this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
     }

@@ -40,15 +40,20 @@ public:
   };
 
   /**
-   * Begin with a pair, each polygon in front of the plane of the other (PairIntegrals::Clip),
-   * and the patches that may come between them. Equal keys give equal samples. Returns false where
-   * none of the patches has a part in front of both planes: nothing is between.
+   * Begin with a pair of patches and those that may come between them. Returns false where none of
+   * these has a part in front of both planes: nothing is between. Equal keys give equal samples.
    * `touching` is the exchange with nothing in between of two polygons that share a corner: next to
    * it the grid does not resolve what they exchange, but nothing stands there either, so what is
    * blocked is subtracted from it.
    */
-  bool SetPair(const Polygon& a, const Polygon& b, const PatchScene& scene,
+  bool SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching = 0.0);
+
+  /// A key of a pair's own.
+  static std::uint64_t GetKey(vtkIdType i, vtkIdType j)
+  {
+    return static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
+  }
 
   /// A first look from a few points and, where they agree that the pair is visible or that it is
   /// hidden, from the corners and the middles of the edges. An error of 0 says that all agree.
@@ -70,6 +75,7 @@ private:
   double GetRimDifference(double share);
 
   Polygon Outer, Inner;
+  PatchPlane OuterPlane, InnerPlane;
   std::uint64_t Key = 0;
   double Touching = 0.0;
   int NumberOfPoints = 0;

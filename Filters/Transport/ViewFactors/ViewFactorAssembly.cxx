@@ -16,12 +16,6 @@ namespace
 // Weights and errors are counted in whole numbers of these parts.
 constexpr double WeightUnits = 65536.0;
 constexpr double BudgetUnits = 1099511627776.0;
-
-//------------------------------------------------------------------------------
-std::uint64_t GetKey(vtkIdType i, vtkIdType j)
-{
-  return static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -251,15 +245,9 @@ struct ViewFactorAssembly::Looker
     Counters& count = work.Result.Count;
     std::vector<vtkIdType>& between = work.Between;
     this->Outer.Culler.NarrowBetween(i, j, work.GetList(depth), between);
-    Polygon a, b;
-    if (between.empty())
-    {
-      ++count.Free;
-      return;
-    }
-    Polygon::SetToClippedPair(this->Outer.Scene, i, j, a, b);
-    if (!work.Visibility.SetPair(a, b, this->Outer.Scene, between, GetKey(i, j),
-          this->Outer.Scene.AreTouching(i, j) ? value : 0.0))
+    if (between.empty() ||
+      !work.Visibility.SetPair(this->Outer.Scene, i, j, between, PairVisibility::GetKey(i, j),
+        this->Outer.Scene.AreTouching(i, j) ? value : 0.0))
     {
       ++count.Free;
       return;
@@ -316,9 +304,8 @@ struct ViewFactorAssembly::Refiner
         continue;
       }
       this->Outer.Culler.FindBetween(pair.I, pair.J, between);
-      Polygon a, b;
-      Polygon::SetToClippedPair(this->Outer.Scene, pair.I, pair.J, a, b);
-      if (visibility.SetPair(a, b, this->Outer.Scene, between, GetKey(pair.I, pair.J),
+      if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, between,
+            PairVisibility::GetKey(pair.I, pair.J),
             this->Outer.Scene.AreTouching(pair.I, pair.J) ? pair.Open : 0.0))
       {
         const PairVisibility::Share share = visibility.Integrate(allowed / pair.Open);

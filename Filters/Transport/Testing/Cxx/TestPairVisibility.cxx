@@ -47,23 +47,13 @@ struct Case
 };
 
 //------------------------------------------------------------------------------
-PairVisibility::Polygon MakePolygon(const Corners& corners)
-{
-  PairVisibility::Polygon polygon;
-  polygon.Count = static_cast<int>(corners.size());
-  std::copy(corners.begin(), corners.end(), polygon.Corners.begin());
-  polygon.Normal = GetNormal(corners);
-  return polygon;
-}
-
-//------------------------------------------------------------------------------
 // The first look where `tolerance` is 0, otherwise the integral.
 Share GetShare(const Case& scene, double tolerance, std::uint64_t key = 7, bool swapped = false)
 {
   PairVisibility visibility;
-  const auto a = MakePolygon(swapped ? scene.B : scene.A);
-  const auto b = MakePolygon(swapped ? scene.A : scene.B);
-  if (!visibility.SetPair(a, b, scene.Scene, scene.Occluders, key))
+  const vtkIdType a = scene.Scene.GetPatch(swapped ? 1 : 0);
+  const vtkIdType b = scene.Scene.GetPatch(swapped ? 0 : 1);
+  if (!visibility.SetPair(scene.Scene, a, b, scene.Occluders, key))
   {
     return Share();
   }
