@@ -63,7 +63,8 @@ inline int Result()
 
 using Point = std::array<double, 3>;
 
-/// Builds a surface from polygons; equal points are shared.
+/// Builds a surface from polygons; equal points are shared. Points are double unless asked for
+/// single.
 class Surface
 {
 public:
@@ -111,7 +112,10 @@ public:
     return data;
   }
 
-  Surface() { this->Points->SetDataTypeToDouble(); }
+  explicit Surface(bool single = false)
+  {
+    this->Points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
+  }
 
 private:
   vtkNew<vtkPoints> Points;

@@ -7,6 +7,7 @@
 
 #include "LightTransportTesting.h"
 #include "OutcomeTesting.h"
+#include "RandomNumbers.h"
 #include "Scene/PatchScene.h"
 
 #include <Eigen/Geometry>
@@ -18,41 +19,9 @@ using namespace LightTransport;
 
 namespace VisibilityTesting
 {
-using Vector = Eigen::Vector3d;
-using Corners = std::vector<Vector>;
-
-//------------------------------------------------------------------------------
-/// The same numbers on every platform.
-class Random
-{
-public:
-  explicit Random(std::uint64_t seed) : State(seed) {}
-  double Uniform(double low = 0.0, double high = 1.0)
-  {
-    this->State = this->State * 6364136223846793005ull + 1442695040888963407ull;
-    const auto bits =
-      static_cast<double>((this->State ^ this->State >> 29) >> 11 & 0xFFFFFFFFFFull);
-    return low + (high - low) * bits / static_cast<double>(0x10000000000ull);
-  }
-  Vector Point(double size = 1.0)
-  {
-    const double x = this->Uniform(-size, size), y = this->Uniform(-size, size);
-    return { x, y, this->Uniform(-size, size) };
-  }
-  Corners Triangle(const Vector& middle, double size)
-  {
-    const Vector a = this->Point(size), b = this->Point(size), c = this->Point(size);
-    return { middle + a, middle + b, middle + c };
-  }
-  Eigen::Matrix3d Rotation()
-  {
-    const Vector axis = this->Point().normalized();
-    return Eigen::AngleAxisd(this->Uniform(0.0, 6.0), axis).toRotationMatrix();
-  }
-
-private:
-  std::uint64_t State;
-};
+using LightTransportTesting::Corners;
+using LightTransportTesting::Random;
+using LightTransportTesting::Vector;
 
 //------------------------------------------------------------------------------
 inline Vector GetNormal(const Corners& corners)

@@ -1,0 +1,478 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * View factors counted by brute force, in double precision and apart from all geometry of the
+ * filters: random points of a polygon, and from each the first polygon met along half-planes.
+ *
+ * A ray from a random point in a direction of density cos / pi, of which the point, the half-plane
+ * (one of those around an axis in the polygon) and the angle in it are independent. The angle is
+ * not drawn: what is met along a whole half-plane is found by looking at all triangles, so that
+ * each sample counts all directions in it exactly. (With 1 / y over x / y as coordinates triangles
+ * are straight pieces in the half-plane, and the nearest is the highest of them.) The three other
+ * numbers are a scrambled Sobol sequence; independent scramblings tell the standard error.
+ *
+ * Surfaces in one place: what a ray meets within the worth of coordinates of the nearest is one
+ * place, measured across the surfaces. Of several there the ray meets one that faces it, of those
+ * that of the lowest number. What lies in the place where a ray starts is not met.
+ */
+#ifndef BruteForce_h
+#define BruteForce_h
+
+#include "RandomNumbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace LightTransportTesting
+{
+//------------------------------------------------------------------------------
+/// Three-dimensional Sobol sequences scrambled in independent ways (Owen 1995: each binary digit is
+/// turned depending on those before it).
+class ScrambledSobol
+{
+public:
+  static constexpr int Scramblings = 16;
+  static constexpr int Points = 1 << 13;
+  using Digits = std::array<std::uint32_t, 3>;
+
+  static const Digits& Get(int scrambling, int point)
+  {
+    static const std::vector<Digits> all = ScrambledSobol::MakeAll();
+    return all[static_cast<std::size_t>(scrambling) * Points + point];
+  }
+
+private:
+  static Digits Sobol(int point)
+  {
+    // The directions of the polynomials 1, x + 1 and x^2 + x + 1 with the first numbers 1, and
+    // 1, 3.
+    Digits digits = { 0, 0, 0 };
+    std::uint32_t directions[3][32];
+    for (int bit = 0; bit < 32; ++bit)
+    {
+      auto& [first, second, third] = directions;
+      first[bit] = 1u << (31 - bit);
+      second[bit] = bit == 0 ? 1u << 31 : second[bit - 1] ^ second[bit - 1] >> 1;
+      third[bit] = bit == 0 ? 1u << 31
+        : bit == 1          ? 3u << 30
+                            : third[bit - 1] ^ third[bit - 2] ^ third[bit - 2] >> 2;
+    }
+    for (int bit = 0; bit < 32; ++bit)
+    {
+      for (int axis = 0; axis < 3 && (point >> bit & 1) != 0; ++axis)
+      {
+        digits[axis] ^= directions[axis][bit];
+      }
+    }
+    return digits;
+  }
+
+  static std::uint32_t Scramble(std::uint32_t digits, std::uint64_t seed)
+  {
+    std::uint32_t scrambled = 0;
+    for (int bit = 0; bit < 32; ++bit)
+    {
+      // The digits before this one, with a 1 in front, so that 01 and 1 differ.
+      const std::uint64_t before = (1ull << bit) | (bit == 0 ? 0u : digits >> (32 - bit));
+      const std::uint32_t turn = MixBits(seed + before * 0x9E3779B97F4A7C15ull) & 1u;
+      scrambled |= ((digits >> (31 - bit) & 1u) ^ turn) << (31 - bit);
+    }
+    return scrambled;
+  }
+
+  static std::vector<Digits> MakeAll()
+  {
+    std::vector<Digits> all(static_cast<std::size_t>(Scramblings) * Points);
+    for (int point = 0; point < Points; ++point)
+    {
+      const Digits digits = ScrambledSobol::Sobol(point);
+      for (int k = 0; k < Scramblings; ++k)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          all[static_cast<std::size_t>(k) * Points + point][axis] =
+            ScrambledSobol::Scramble(digits[axis], MixBits(3 * k + axis + 1));
+        }
+      }
+    }
+    return all;
+  }
+};
+
+//------------------------------------------------------------------------------
+/// Shares of a polygon's view with their standard errors; after the polygons the sky and back
+/// faces.
+struct BruteForceRow
+{
+  std::vector<double> Shares;
+  std::vector<double> Errors;
+  double Sum = 0.0;      ///< of all polygons
+  double SumError = 0.0; ///< its standard error
+  std::size_t GetSky() const { return this->Shares.size() - 2; }
+  std::size_t GetBack() const { return this->Shares.size() - 1; }
+};
+
+//------------------------------------------------------------------------------
+class BruteForce
+{
+public:
+  /// The polygons as they are stored, convex, and the worth of their coordinates: surfaces nearer
+  /// than that are in one place.
+  BruteForce(const std::vector<Corners>& polygons, double worth);
+
+  /// A row with standard errors of at most `error` (of each share and of the sum), or of the
+  /// largest number of samples. The same seed gives the same row.
+  BruteForceRow Count(std::size_t polygon, double error, std::uint64_t seed = 0) const;
+
+  /// What coordinates are worth: what rounding to their type, after a calculation in double
+  /// precision, may move two surfaces apart.
+  static double GetWorth(const std::vector<Corners>& polygons, bool single);
+
+private:
+  struct Triangle
+  {
+    std::size_t Owner;
+    Vector Corners[3];
+    Vector Normal;
+    double Area;
+  };
+  /// Where a triangle crosses a half-plane: over x / y.
+  struct Piece
+  {
+    double From, To;
+    double Start, Slope;  ///< 1 / y = Start + Slope x / y
+    double Across, Along; ///< normal times the ray x / y axis + e
+    std::size_t Owner;
+    double Inverse(double t) const { return this->Start + this->Slope * t; }
+    double Facing(double t) const { return this->Along + this->Across * t; }
+  };
+  struct Workspace
+  {
+    std::vector<Piece> Pieces;
+    std::vector<double> Breaks;
+  };
+  /// A ray's start and half-plane: x along Axis, y along Up.
+  struct HalfPlane
+  {
+    Vector Origin, Axis, Up;
+    std::size_t Owner;
+  };
+
+  HalfPlane Draw(std::size_t polygon, const ScrambledSobol::Digits& digits) const;
+  void Cut(const HalfPlane& half, const Triangle& triangle, std::vector<Piece>& pieces) const;
+  void FindBreaks(Workspace& work) const;
+  std::size_t GetMet(const std::vector<Piece>& pieces, double t) const;
+  void Sweep(const HalfPlane& half, Workspace& work, std::vector<double>& sums) const;
+  static double GetShareBefore(double t);
+  BruteForceRow Summarise(const std::vector<std::vector<double>>& sums, int samples) const;
+
+  std::vector<Triangle> Triangles; ///< in the order of their polygons
+  std::vector<std::size_t> First;  ///< of each polygon; one more at the end
+  std::size_t Sky = 0;             ///< number of the sky's column; that of back faces is one more
+  double Worth = 0.0;
+  double Nearest = 0.0; ///< y below which nothing is looked at
+};
+
+//------------------------------------------------------------------------------
+inline double BruteForce::GetWorth(const std::vector<Corners>& polygons, bool single)
+{
+  double largest = 0.0;
+  for (const Corners& polygon : polygons)
+  {
+    for (const Vector& corner : polygon)
+    {
+      largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+    }
+  }
+  return largest *
+    (single ? 2.0 * std::numeric_limits<float>::epsilon()
+            : 8.0 * std::numeric_limits<double>::epsilon());
+}
+
+//------------------------------------------------------------------------------
+inline BruteForce::BruteForce(const std::vector<Corners>& polygons, double worth)
+  : Sky(polygons.size()), Worth(worth)
+{
+  // Differences of coordinates are exact, products of large coordinates are not.
+  const Vector& middle = polygons.front().front();
+  double size = 0.0;
+  for (std::size_t owner = 0; owner < polygons.size(); ++owner)
+  {
+    const Corners& polygon = polygons[owner];
+    this->First.push_back(this->Triangles.size());
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    {
+      Triangle triangle = { owner,
+        { polygon[0] - middle, polygon[k] - middle, polygon[k + 1] - middle }, Vector::Zero(),
+        0.0 };
+      const auto& corners = triangle.Corners;
+      const Vector twice = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+      triangle.Area = 0.5 * twice.norm();
+      if (triangle.Area > 0.0)
+      {
+        triangle.Normal = twice.normalized();
+        this->Triangles.push_back(triangle);
+        size = std::max({ size, corners[0].norm(), corners[1].norm(), corners[2].norm() });
+      }
+    }
+  }
+  this->First.push_back(this->Triangles.size());
+  this->Nearest = 1e-13 * size;
+}
+
+//------------------------------------------------------------------------------
+inline BruteForce::HalfPlane BruteForce::Draw(std::size_t polygon,
+  const ScrambledSobol::Digits& digits) const
+{
+  const double unit = 1.0 / 4294967296.0;
+  double place = (digits[0] + 0.5) * unit;
+  const Triangle* triangle = &this->Triangles[this->First[polygon]];
+  double area = 0.0;
+  for (std::size_t k = this->First[polygon]; k < this->First[polygon + 1]; ++k)
+  {
+    area += this->Triangles[k].Area;
+  }
+  place *= area;
+  for (; place > triangle->Area && triangle + 1 < &this->Triangles[0] + this->First[polygon + 1];
+       ++triangle)
+  {
+    place -= triangle->Area;
+  }
+  const double across = std::sqrt(std::min(place / triangle->Area, 1.0));
+  const double along = (digits[1] + 0.5) * unit;
+  HalfPlane half;
+  half.Owner = polygon;
+  const auto& corners = triangle->Corners;
+  half.Origin = corners[0] +
+    across * ((1.0 - along) * (corners[1] - corners[0]) + along * (corners[2] - corners[0]));
+  // An axis that no edge is likely to be parallel to.
+  const Vector& normal = triangle->Normal;
+  half.Axis = normal.cross(Vector(0.5377, -0.2181, 0.8144));
+  if (half.Axis.norm() < 0.1)
+  {
+    half.Axis = normal.cross(Vector(-0.2181, 0.8144, 0.5377));
+  }
+  half.Axis.normalize();
+  const double sine = 2.0 * (digits[2] + 0.5) * unit - 1.0;
+  half.Up = std::sqrt(1.0 - sine * sine) * normal + sine * normal.cross(half.Axis);
+  return half;
+}
+
+//------------------------------------------------------------------------------
+inline void BruteForce::Cut(const HalfPlane& half, const Triangle& triangle,
+  std::vector<Piece>& pieces) const
+{
+  const Vector side = half.Axis.cross(half.Up);
+  Vector corners[3];
+  double heights[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    corners[k] = triangle.Corners[k] - half.Origin;
+    heights[k] = corners[k].dot(side);
+  }
+  Vector ends[2];
+  int found = 0;
+  for (int k = 0; k < 3 && found < 2; ++k)
+  {
+    const int next = (k + 1) % 3;
+    if ((heights[k] > 0.0) != (heights[next] > 0.0))
+    {
+      const double share = heights[k] / (heights[k] - heights[next]);
+      ends[found++] = corners[k] + share * (corners[next] - corners[k]);
+    }
+  }
+  const double distance = corners[0].dot(triangle.Normal);
+  if (found < 2 || std::abs(distance) <= this->Worth)
+  {
+    return; // not crossed, or in the place where the ray starts (or seen from its edge)
+  }
+  double y[2] = { ends[0].dot(half.Up), ends[1].dot(half.Up) };
+  double x[2] = { ends[0].dot(half.Axis), ends[1].dot(half.Axis) };
+  if (std::max(y[0], y[1]) <= this->Nearest)
+  {
+    return;
+  }
+  for (int k = 0; k < 2; ++k)
+  {
+    if (y[k] < this->Nearest)
+    {
+      x[k] += (this->Nearest - y[k]) / (y[1 - k] - y[k]) * (x[1 - k] - x[k]);
+      y[k] = this->Nearest;
+    }
+  }
+  Piece piece;
+  piece.Owner = triangle.Owner;
+  piece.From = std::min(x[0] / y[0], x[1] / y[1]);
+  piece.To = std::max(x[0] / y[0], x[1] / y[1]);
+  piece.Across = triangle.Normal.dot(half.Axis);
+  piece.Along = triangle.Normal.dot(half.Up);
+  piece.Start = piece.Along / distance;
+  piece.Slope = piece.Across / distance;
+  pieces.push_back(piece);
+}
+
+//------------------------------------------------------------------------------
+// Between these the same piece is the nearest: ends of pieces, and where they cross.
+inline void BruteForce::FindBreaks(Workspace& work) const
+{
+  work.Breaks.clear();
+  for (std::size_t k = 0; k < work.Pieces.size(); ++k)
+  {
+    const Piece& piece = work.Pieces[k];
+    work.Breaks.push_back(piece.From);
+    work.Breaks.push_back(piece.To);
+    for (std::size_t l = 0; l < k; ++l)
+    {
+      const Piece& other = work.Pieces[l];
+      const double slope = piece.Slope - other.Slope;
+      const double t = (other.Start - piece.Start) / slope;
+      if (slope != 0.0 && t > std::max(piece.From, other.From) && t < std::min(piece.To, other.To))
+      {
+        work.Breaks.push_back(t);
+      }
+    }
+  }
+  std::sort(work.Breaks.begin(), work.Breaks.end());
+}
+
+//------------------------------------------------------------------------------
+inline std::size_t BruteForce::GetMet(const std::vector<Piece>& pieces, double t) const
+{
+  const Piece* nearest = nullptr;
+  double largest = 0.0;
+  for (const Piece& piece : pieces)
+  {
+    if (t >= piece.From && t <= piece.To && piece.Inverse(t) > largest)
+    {
+      largest = piece.Inverse(t);
+      nearest = &piece;
+    }
+  }
+  if (!nearest)
+  {
+    return this->Sky;
+  }
+  std::size_t met = this->Sky + 1;
+  for (const Piece& piece : pieces)
+  {
+    if (t >= piece.From && t <= piece.To && piece.Facing(t) < 0.0 && piece.Inverse(t) > 0.0)
+    {
+      const double across = std::max(std::abs(piece.Facing(t)), std::abs(nearest->Facing(t)));
+      if ((1.0 / piece.Inverse(t) - 1.0 / largest) * across <= this->Worth)
+      {
+        met = std::min(met == this->Sky + 1 ? piece.Owner : met, piece.Owner);
+      }
+    }
+  }
+  return met;
+}
+
+//------------------------------------------------------------------------------
+/// Share of the rays of a half-plane with x / y below a value (density 2 sin^2 of the angle / pi).
+inline double BruteForce::GetShareBefore(double t)
+{
+  return 0.5 + (std::atan(t) + t / (1.0 + t * t)) / 3.14159265358979323846;
+}
+
+//------------------------------------------------------------------------------
+inline void BruteForce::Sweep(const HalfPlane& half, Workspace& work,
+  std::vector<double>& sums) const
+{
+  work.Pieces.clear();
+  for (const Triangle& triangle : this->Triangles)
+  {
+    if (triangle.Owner != half.Owner)
+    {
+      this->Cut(half, triangle, work.Pieces);
+    }
+  }
+  this->FindBreaks(work);
+  std::size_t current = this->Sky;
+  double begin = 0.0;
+  for (std::size_t k = 0; k < work.Breaks.size(); ++k)
+  {
+    const bool last = k + 1 == work.Breaks.size();
+    const std::size_t met =
+      last ? this->Sky : this->GetMet(work.Pieces, 0.5 * (work.Breaks[k] + work.Breaks[k + 1]));
+    if (met != current)
+    {
+      const double here = BruteForce::GetShareBefore(work.Breaks[k]);
+      sums[current] += here - begin;
+      begin = here;
+      current = met;
+    }
+  }
+  sums[current] += 1.0 - begin;
+}
+
+//------------------------------------------------------------------------------
+inline BruteForceRow BruteForce::Summarise(const std::vector<std::vector<double>>& sums,
+  int samples) const
+{
+  const auto count = static_cast<double>(sums.size());
+  const auto measure = [&](const auto& get, double& mean, double& error)
+  {
+    double first = 0.0, second = 0.0;
+    for (const std::vector<double>& sum : sums)
+    {
+      first += get(sum) / samples / count;
+    }
+    for (const std::vector<double>& sum : sums)
+    {
+      second += std::pow(get(sum) / samples - first, 2);
+    }
+    mean = first;
+    error = std::sqrt(second / (count * (count - 1.0)));
+  };
+  BruteForceRow row;
+  row.Shares.resize(this->Sky + 2);
+  row.Errors.resize(this->Sky + 2);
+  for (std::size_t k = 0; k < row.Shares.size(); ++k)
+  {
+    measure([k](const std::vector<double>& sum) { return sum[k]; }, row.Shares[k], row.Errors[k]);
+  }
+  measure([samples](const std::vector<double>& sum)
+    { return samples - sum[sum.size() - 2] - sum[sum.size() - 1]; },
+    row.Sum, row.SumError);
+  return row;
+}
+
+//------------------------------------------------------------------------------
+inline BruteForceRow BruteForce::Count(std::size_t polygon, double error, std::uint64_t seed) const
+{
+  std::vector<std::vector<double>> sums(ScrambledSobol::Scramblings,
+    std::vector<double>(this->Sky + 2, 0.0));
+  Workspace work;
+  BruteForceRow row;
+  int done = 0;
+  for (int samples = 64; samples <= ScrambledSobol::Points; samples *= 2)
+  {
+    for (int k = 0; k < ScrambledSobol::Scramblings; ++k)
+    {
+      for (int point = done; point < samples; ++point)
+      {
+        ScrambledSobol::Digits digits = ScrambledSobol::Get(k, point);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          digits[axis] ^= static_cast<std::uint32_t>(
+            MixBits(MixBits(seed + 1) + 97 * polygon + 7 * (3 * k + axis) + 1) >> 32);
+        }
+        this->Sweep(this->Draw(polygon, digits), work, sums[k]);
+      }
+    }
+    done = samples;
+    row = this->Summarise(sums, samples);
+    if (row.SumError <= error && *std::max_element(row.Errors.begin(), row.Errors.end()) <= error)
+    {
+      break;
+    }
+  }
+  return row;
+}
+} // namespace LightTransportTesting
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// View factors of random scenes beside brute force: does "ViewFactorError" tell how far off they
+/// are?
+#ifndef ViewFactorProof_h
+#define ViewFactorProof_h
+
+#include "BruteForce.h"
+#include "RandomScenes.h"
+#include "ViewFactorTesting.h"
+
+namespace LightTransportTesting
+{
+//------------------------------------------------------------------------------
+/// What vtkViewFactors gives for polygons.
+struct FactorTable
+{
+  std::size_t Size = 0;
+  std::vector<double> Factors; ///< row by row
+  std::vector<double> Sums, Errors, Sky, Back;
+  double Get(std::size_t i, std::size_t j) const { return this->Factors[i * this->Size + j]; }
+};
+
+//------------------------------------------------------------------------------
+inline FactorTable MakeFactorTable(const std::vector<Corners>& polygons, bool single,
+  double tolerance)
+{
+  const auto factors = ComputeViewFactors(MakeData(polygons, single), tolerance);
+  FactorTable table;
+  table.Size = polygons.size();
+  table.Sums = GetCellValues(factors, "ViewFactorSum");
+  table.Errors = GetCellValues(factors, "ViewFactorError");
+  table.Sky = GetCellValues(factors, "SkyFraction");
+  table.Back = GetCellValues(factors, "BackFaceFraction");
+  for (std::size_t i = 0; i < table.Size; ++i)
+  {
+    for (std::size_t j = 0; j < table.Size; ++j)
+    {
+      table.Factors.push_back(
+        factors->GetViewFactor(static_cast<vtkIdType>(i), static_cast<vtkIdType>(j)));
+    }
+  }
+  return table;
+}
+
+//------------------------------------------------------------------------------
+/// The error of one number of a row, and the standard error of what it is compared with.
+struct Deviation
+{
+  std::string What;
+  double Error = 0.0;
+  double Sigma = 0.0;
+  /// By how much it is more than three standard errors, in estimates.
+  double GetFactor(double estimate) const
+  {
+    return std::max(this->Error - 3.0 * this->Sigma, 0.0) / estimate;
+  }
+};
+
+//------------------------------------------------------------------------------
+struct RowProof
+{
+  double Estimate = 0.0; ///< "ViewFactorError"
+  Deviation Largest;     ///< of the entries
+  Deviation Sum;         ///< of all entries
+  Deviation Opening;     ///< the larger of sky and back faces
+  /// Whether brute force is as exact as to tell.
+  bool Tells() const
+  {
+    return std::max(this->Largest.Sigma, this->Sum.Sigma) <= this->Estimate / 3.0;
+  }
+};
+
+//------------------------------------------------------------------------------
+inline RowProof Compare(const FactorTable& table, std::size_t row, const BruteForceRow& right)
+{
+  RowProof proof;
+  // Single precision is what factors are stored in.
+  proof.Estimate = table.Errors[row] + 1e-7;
+  const auto raise =
+    [&](Deviation& deviation, const std::string& what, double value, double share, double sigma)
+  {
+    const double error = std::abs(value - share);
+    if (error - 3.0 * sigma > deviation.Error - 3.0 * deviation.Sigma || deviation.What.empty())
+    {
+      deviation = { what + " " + std::to_string(value) + " right " + std::to_string(share), error,
+        sigma };
+    }
+  };
+  for (std::size_t j = 0; j < table.Size; ++j)
+  {
+    raise(proof.Largest, "to " + std::to_string(j), table.Get(row, j), right.Shares[j],
+      right.Errors[j]);
+  }
+  raise(proof.Sum, "sum", table.Sums[row], right.Sum, right.SumError);
+  raise(proof.Opening, "sky", table.Sky[row], right.Shares[right.GetSky()],
+    right.Errors[right.GetSky()]);
+  raise(proof.Opening, "back faces", table.Back[row], right.Shares[right.GetBack()],
+    right.Errors[right.GetBack()]);
+  return proof;
+}
+} // namespace LightTransportTesting
+
+#endif
