@@ -36,7 +36,7 @@ class ScrambledSobol
 {
 public:
   static constexpr int Scramblings = 16;
-  static constexpr int Points = 1 << 13;
+  static constexpr int Points = 1 << 12;
   using Digits = std::array<std::uint32_t, 3>;
 
   static const Digits& Get(int scrambling, int point)

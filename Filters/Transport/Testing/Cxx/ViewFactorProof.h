@@ -50,10 +50,10 @@ struct Deviation
   std::string What;
   double Error = 0.0;
   double Sigma = 0.0;
-  /// By how much it is more than three standard errors, in estimates.
-  double GetFactor(double estimate) const
+  /// What of it standard errors do not explain, in estimates.
+  double GetFactor(double estimate, double sigmas) const
   {
-    return std::max(this->Error - 3.0 * this->Sigma, 0.0) / estimate;
+    return std::max(this->Error - sigmas * this->Sigma, 0.0) / estimate;
   }
 };
 
@@ -67,7 +67,14 @@ struct RowProof
   /// Whether brute force is as exact as to tell.
   bool Tells() const
   {
-    return std::max(this->Largest.Sigma, this->Sum.Sigma) <= this->Estimate / 3.0;
+    return std::max({ this->Largest.Sigma, this->Sum.Sigma, this->Opening.Sigma }) <=
+      this->Estimate / 3.0;
+  }
+  /// More than 1 where the estimate is too small. Where standard errors are larger than it one in
+  /// a hundred entries is off by three of them, hardly any by six.
+  double GetFactor(const Deviation& deviation) const
+  {
+    return deviation.GetFactor(this->Estimate, this->Tells() ? 3.0 : 6.0);
   }
 };
 
