@@ -136,7 +136,7 @@ private:
   struct Triangle
   {
     std::size_t Owner;
-    Vector Corners[3];
+    Eigen::Index Corners[3]; ///< columns of Points
     Vector Normal;
     double Area;
   };
@@ -152,6 +152,7 @@ private:
   };
   struct Workspace
   {
+    Eigen::RowVectorXd Heights; ///< of all points over the plane of the half-plane
     std::vector<Piece> Pieces;
     std::vector<double> Breaks;
   };
@@ -163,13 +164,14 @@ private:
   };
 
   HalfPlane Draw(std::size_t polygon, const ScrambledSobol::Digits& digits) const;
-  void Cut(const HalfPlane& half, const Triangle& triangle, std::vector<Piece>& pieces) const;
+  void Cut(const HalfPlane& half, const Triangle& triangle, Workspace& work) const;
   void FindBreaks(Workspace& work) const;
   std::size_t GetMet(const std::vector<Piece>& pieces, double t) const;
   void Sweep(const HalfPlane& half, Workspace& work, std::vector<double>& sums) const;
   static double GetShareBefore(double t);
   BruteForceRow Summarise(const std::vector<std::vector<double>>& sums, int samples) const;
 
+  Eigen::Matrix3Xd Points;         ///< corners of all polygons
   std::vector<Triangle> Triangles; ///< in the order of their polygons
   std::vector<std::size_t> First;  ///< of each polygon; one more at the end
   std::size_t Sky = 0;             ///< number of the sky's column; that of back faces is one more
@@ -199,29 +201,30 @@ inline BruteForce::BruteForce(const std::vector<Corners>& polygons, double worth
 {
   // Differences of coordinates are exact, products of large coordinates are not.
   const Vector& middle = polygons.front().front();
-  double size = 0.0;
   for (std::size_t owner = 0; owner < polygons.size(); ++owner)
   {
     const Corners& polygon = polygons[owner];
-    this->First.push_back(this->Triangles.size());
-    for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    const Eigen::Index begin = this->Points.cols();
+    this->Points.conservativeResize(3, begin + static_cast<Eigen::Index>(polygon.size()));
+    for (std::size_t k = 0; k < polygon.size(); ++k)
     {
-      Triangle triangle = { owner,
-        { polygon[0] - middle, polygon[k] - middle, polygon[k + 1] - middle }, Vector::Zero(),
-        0.0 };
-      const auto& corners = triangle.Corners;
-      const Vector twice = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-      triangle.Area = 0.5 * twice.norm();
-      if (triangle.Area > 0.0)
+      this->Points.col(begin + static_cast<Eigen::Index>(k)) = polygon[k] - middle;
+    }
+    this->First.push_back(this->Triangles.size());
+    for (Eigen::Index k = begin + 1; k + 1 < this->Points.cols(); ++k)
+    {
+      const Vector u = this->Points.col(k) - this->Points.col(begin);
+      const Vector v = this->Points.col(k + 1) - this->Points.col(begin);
+      const Vector twice = u.cross(v);
+      if (twice.norm() > 0.0)
       {
-        triangle.Normal = twice.normalized();
-        this->Triangles.push_back(triangle);
-        size = std::max({ size, corners[0].norm(), corners[1].norm(), corners[2].norm() });
+        this->Triangles.push_back(
+          { owner, { begin, k, k + 1 }, twice.normalized(), 0.5 * twice.norm() });
       }
     }
   }
   this->First.push_back(this->Triangles.size());
-  this->Nearest = 1e-13 * size;
+  this->Nearest = 1e-13 * this->Points.cwiseAbs().maxCoeff();
 }
 
 //------------------------------------------------------------------------------
@@ -246,9 +249,10 @@ inline BruteForce::HalfPlane BruteForce::Draw(std::size_t polygon,
   const double along = (digits[1] + 0.5) * unit;
   HalfPlane half;
   half.Owner = polygon;
-  const auto& corners = triangle->Corners;
-  half.Origin = corners[0] +
-    across * ((1.0 - along) * (corners[1] - corners[0]) + along * (corners[2] - corners[0]));
+  const Vector from = this->Points.col(triangle->Corners[0]);
+  const Vector to = (1.0 - along) * this->Points.col(triangle->Corners[1]) +
+    along * this->Points.col(triangle->Corners[2]);
+  half.Origin = from + across * (to - from);
   // An axis that no edge is likely to be parallel to.
   const Vector& normal = triangle->Normal;
   half.Axis = normal.cross(Vector(0.5377, -0.2181, 0.8144));
@@ -263,30 +267,25 @@ inline BruteForce::HalfPlane BruteForce::Draw(std::size_t polygon,
 }
 
 //------------------------------------------------------------------------------
-inline void BruteForce::Cut(const HalfPlane& half, const Triangle& triangle,
-  std::vector<Piece>& pieces) const
+inline void BruteForce::Cut(const HalfPlane& half, const Triangle& triangle, Workspace& work) const
 {
-  const Vector side = half.Axis.cross(half.Up);
-  Vector corners[3];
-  double heights[3];
-  for (int k = 0; k < 3; ++k)
-  {
-    corners[k] = triangle.Corners[k] - half.Origin;
-    heights[k] = corners[k].dot(side);
-  }
   Vector ends[2];
   int found = 0;
   for (int k = 0; k < 3 && found < 2; ++k)
   {
-    const int next = (k + 1) % 3;
-    if ((heights[k] > 0.0) != (heights[next] > 0.0))
+    const Eigen::Index here = triangle.Corners[k];
+    const Eigen::Index next = triangle.Corners[(k + 1) % 3];
+    const double height = work.Heights[here];
+    const double nextHeight = work.Heights[next];
+    if ((height > 0.0) != (nextHeight > 0.0))
     {
-      const double share = heights[k] / (heights[k] - heights[next]);
-      ends[found++] = corners[k] + share * (corners[next] - corners[k]);
+      ends[found++] = this->Points.col(here) - half.Origin +
+        height / (height - nextHeight) * (this->Points.col(next) - this->Points.col(here));
     }
   }
-  const double distance = corners[0].dot(triangle.Normal);
-  if (found < 2 || std::abs(distance) <= this->Worth)
+  const double distance =
+    found < 2 ? 0.0 : (this->Points.col(triangle.Corners[0]) - half.Origin).dot(triangle.Normal);
+  if (std::abs(distance) <= this->Worth)
   {
     return; // not crossed, or in the place where the ray starts (or seen from its edge)
   }
@@ -312,7 +311,7 @@ inline void BruteForce::Cut(const HalfPlane& half, const Triangle& triangle,
   piece.Along = triangle.Normal.dot(half.Up);
   piece.Start = piece.Along / distance;
   piece.Slope = piece.Across / distance;
-  pieces.push_back(piece);
+  work.Pieces.push_back(piece);
 }
 
 //------------------------------------------------------------------------------
@@ -383,11 +382,14 @@ inline void BruteForce::Sweep(const HalfPlane& half, Workspace& work,
   std::vector<double>& sums) const
 {
   work.Pieces.clear();
+  const Vector side = half.Axis.cross(half.Up);
+  work.Heights.noalias() = side.transpose() * this->Points;
+  work.Heights.array() -= side.dot(half.Origin);
   for (const Triangle& triangle : this->Triangles)
   {
     if (triangle.Owner != half.Owner)
     {
-      this->Cut(half, triangle, work.Pieces);
+      this->Cut(half, triangle, work);
     }
   }
   this->FindBreaks(work);
@@ -426,7 +428,8 @@ inline BruteForceRow BruteForce::Summarise(const std::vector<std::vector<double>
       second += std::pow(get(sum) / samples - first, 2);
     }
     mean = first;
-    error = std::sqrt(second / (count * (count - 1.0)));
+    // What no sample has met is as large as this at times.
+    error = std::sqrt(second / (count * (count - 1.0))) + 0.1 / (count * samples);
   };
   BruteForceRow row;
   row.Shares.resize(this->Sky + 2);
