@@ -327,11 +327,13 @@ inline void BruteForce::FindBreaks(Workspace& work) const
     for (std::size_t l = 0; l < k; ++l)
     {
       const Piece& other = work.Pieces[l];
-      const double slope = piece.Slope - other.Slope;
-      const double t = (other.Start - piece.Start) / slope;
-      if (slope != 0.0 && t > std::max(piece.From, other.From) && t < std::min(piece.To, other.To))
+      const double low = std::max(piece.From, other.From);
+      const double high = std::min(piece.To, other.To);
+      const double before = piece.Inverse(low) - other.Inverse(low);
+      const double after = piece.Inverse(high) - other.Inverse(high);
+      if (low < high && before * after < 0.0)
       {
-        work.Breaks.push_back(t);
+        work.Breaks.push_back(low + before / (before - after) * (high - low));
       }
     }
   }
@@ -355,16 +357,15 @@ inline std::size_t BruteForce::GetMet(const std::vector<Piece>& pieces, double t
   {
     return this->Sky;
   }
+  const double across = std::abs(nearest->Facing(t));
   std::size_t met = this->Sky + 1;
   for (const Piece& piece : pieces)
   {
-    if (t >= piece.From && t <= piece.To && piece.Facing(t) < 0.0 && piece.Inverse(t) > 0.0)
+    const double inverse = piece.Inverse(t);
+    if (t >= piece.From && t <= piece.To && inverse > 0.0 && piece.Facing(t) < 0.0 &&
+      (largest - inverse) * std::max(-piece.Facing(t), across) <= this->Worth * largest * inverse)
     {
-      const double across = std::max(std::abs(piece.Facing(t)), std::abs(nearest->Facing(t)));
-      if ((1.0 / piece.Inverse(t) - 1.0 / largest) * across <= this->Worth)
-      {
-        met = std::min(met == this->Sky + 1 ? piece.Owner : met, piece.Owner);
-      }
+      met = met == this->Sky + 1 ? piece.Owner : std::min(met, piece.Owner);
     }
   }
   return met;
