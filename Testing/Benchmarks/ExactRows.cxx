@@ -102,7 +102,7 @@ struct ExactRows::Worker
       return {};
     }
     if (!row.Visibility.SetPair(scene, row.Patch, j, row.Between,
-          PairVisibility::GetKey(row.Patch, j), scene.AreTouching(row.Patch, j) ? open : 0.0))
+          PairVisibility::GetKey(row.Patch, j), open))
     {
       return {};
     }

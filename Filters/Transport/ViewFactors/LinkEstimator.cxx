@@ -171,8 +171,7 @@ LinkEstimator::Estimate LinkEstimator::Integrate(const Pair& pair, double thresh
   {
     return estimate;
   }
-  if (!visibility.SetPair(this->Scene, i, j, between, PairVisibility::GetKey(i, j),
-        this->Scene.AreTouching(i, j) ? open : 0.0))
+  if (!visibility.SetPair(this->Scene, i, j, between, PairVisibility::GetKey(i, j), open))
   {
     return estimate;
   }

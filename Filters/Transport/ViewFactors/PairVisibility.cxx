@@ -33,8 +33,9 @@ constexpr double FirstError = 0.02;
 constexpr double RimPart = 0.25;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
 constexpr double UsualPart = 0.8;
-// A share that is not 0 or 1 stays this far from both.
-constexpr double LeastShare = 1e-9;
+// Two patches of which one sends this part to the other are close together, as are those that
+// touch: samples of one do not resolve what the other sees of it.
+constexpr double CloseView = 0.3;
 // Edges of the target that leave the raster's lines by less than this part are along them.
 constexpr double AlongLines = 1e-12;
 
@@ -101,9 +102,12 @@ void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts,
 
 //------------------------------------------------------------------------------
 bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
-  const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching)
+  const std::vector<vtkIdType>& occluders, std::uint64_t key, double open)
 {
-  this->Touching = touching;
+  this->Open = open;
+  this->AreClose = open > 0.0 &&
+    (scene.AreTouching(i, j) ||
+      open > CloseView * std::min(scene.GetAreas()[i], scene.GetAreas()[j]));
   Polygon::SetToClippedPair(scene, i, j, this->Outer, this->Inner);
   this->OuterPlane = scene.GetPlane(i);
   this->InnerPlane = scene.GetPlane(j);
@@ -251,19 +255,24 @@ void PairVisibility::AddTriangles(const PatchScene& scene)
     [](const Occluder& a, const Occluder& b)
     { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Patch < b.Patch); });
   this->Triangles.Clear();
+  this->Exact.Set(this->Outer, this->Inner, this->Open);
   Polygon cut;
   for (const Occluder& occluder : this->Occluders)
   {
-    if (!occluder.IsCut)
+    if (!occluder.IsCut && !this->AreClose)
     {
       this->AddTriangles(scene.GetNumberOfCorners(occluder.Patch),
         [&](int corner) { return scene.GetCorner(occluder.Patch, corner); });
       continue;
     }
     cut.Set(scene, occluder.Patch);
-    if (cut.Clip(this->OuterPlane) && cut.Clip(this->InnerPlane))
+    if (!occluder.IsCut || (cut.Clip(this->OuterPlane) && cut.Clip(this->InnerPlane)))
     {
       this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
+      if (this->AreClose)
+      {
+        this->Exact.AddOccluder(cut);
+      }
     }
   }
 }
@@ -300,16 +309,7 @@ double PairVisibility::SeeFromGrid(int cuts)
         total.Open += area * flux.Open;
       });
   }
-  if (this->Touching <= 0.0 || total.Visible <= 0.0)
-  {
-    return total.GetShare();
-  }
-  const double spacing = (this->Target.End - this->Target.Begin) / ShadowRaster::Lines;
-  const double blocked = spacing / vtkMath::Pi() * (total.Open - total.Visible);
-  // Neither visible nor hidden for certain unless all samples are.
-  return total.Visible < total.Open
-    ? std::min(1.0 - LeastShare, std::max(LeastShare, 1.0 - blocked / this->Touching))
-    : 1.0;
+  return total.GetShare();
 }
 
 //------------------------------------------------------------------------------
@@ -334,6 +334,10 @@ PairVisibility::Share PairVisibility::Look()
 {
   Share share;
   share.Value = this->SeeFromGrid(Cuts[0]);
+  if (this->AreClose && share.Value > 0.0)
+  {
+    return this->IntegrateExactly(1.0);
+  }
   if (share.Value > 0.0 && share.Value < 1.0)
   {
     share.Error = FirstError;
@@ -344,10 +348,21 @@ PairVisibility::Share PairVisibility::Look()
 }
 
 //------------------------------------------------------------------------------
+PairVisibility::Share PairVisibility::IntegrateExactly(double tolerance)
+{
+  const ExactVisibility::Estimate visible = this->Exact.Integrate(tolerance * this->Open);
+  return { std::min(1.0, visible.Value / this->Open), visible.Error / this->Open };
+}
+
+//------------------------------------------------------------------------------
 // Grids are combined by their numbers of points. The error is that of the latest grid against all
 // before, which the new one has reduced.
 PairVisibility::Share PairVisibility::Integrate(double tolerance)
 {
+  if (this->AreClose)
+  {
+    return this->IntegrateExactly(tolerance);
+  }
   Share share;
   double sum = 0.0;
   double weights = 0.0;

@@ -16,6 +16,7 @@
 #ifndef PairVisibility_h
 #define PairVisibility_h
 
+#include "ViewFactors/ExactVisibility.h"
 #include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/ShadowRaster.h"
 
@@ -42,12 +43,11 @@ public:
   /**
    * Begin with a pair of patches and those that may come between them. Returns false where none of
    * these has a part in front of both planes: nothing is between. Equal keys give equal samples.
-   * `touching` is the exchange with nothing in between of two polygons that share a corner: next to
-   * it the grid does not resolve what they exchange, but nothing stands there either, so what is
-   * blocked is subtracted from it.
+   * `open` is the exchange with nothing in between: where it is large, the two are close together,
+   * and what is visible is found by ExactVisibility.
    */
   bool SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
-    const std::vector<vtkIdType>& occluders, std::uint64_t key, double touching = 0.0);
+    const std::vector<vtkIdType>& occluders, std::uint64_t key, double open = 0.0);
 
   /// A key of a pair's own.
   static std::uint64_t GetKey(vtkIdType i, vtkIdType j)
@@ -56,7 +56,8 @@ public:
   }
 
   /// A first look from a few points and, where they agree that the pair is visible or that it is
-  /// hidden, from the corners and the middles of the edges. An error of 0 says that all agree.
+  /// hidden, from the corners and the middles of the edges. An error of 0 says that all agree. Of
+  /// what is close together a few points can tell nothing but that it is hidden.
   Share Look();
 
   /// Integrate until the estimated error is below `tolerance`, or the work is used up.
@@ -72,12 +73,14 @@ private:
   void AddTriangles(int count, const GetCorner& getCorner);
   ShadowRaster::Flux See(const Vector& point);
   double SeeFromGrid(int cuts);
+  Share IntegrateExactly(double tolerance);
   double GetRimDifference(double share);
 
   Polygon Outer, Inner;
   PatchPlane OuterPlane, InnerPlane;
   std::uint64_t Key = 0;
-  double Touching = 0.0;
+  double Open = 0.0;
+  bool AreClose = false;
   int NumberOfPoints = 0;
 
   /// What is between: a patch, whether a plane cuts it, and where it comes in the order (first what
@@ -95,6 +98,8 @@ private:
   double Normal[3] = {};
   ShadowRaster::Target Target;
   ShadowRaster::Triangles Triangles;
+
+  ExactVisibility Exact; ///< of a pair that is close together
 };
 } // namespace LightTransport
 

@@ -247,7 +247,7 @@ struct ViewFactorAssembly::Looker
     this->Outer.Culler.NarrowBetween(i, j, work.GetList(depth), between);
     if (between.empty() ||
       !work.Visibility.SetPair(this->Outer.Scene, i, j, between, PairVisibility::GetKey(i, j),
-        this->Outer.Scene.AreTouching(i, j) ? value : 0.0))
+        value))
     {
       ++count.Free;
       return;
@@ -305,8 +305,7 @@ struct ViewFactorAssembly::Refiner
       }
       this->Outer.Culler.FindBetween(pair.I, pair.J, between);
       if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, between,
-            PairVisibility::GetKey(pair.I, pair.J),
-            this->Outer.Scene.AreTouching(pair.I, pair.J) ? pair.Open : 0.0))
+            PairVisibility::GetKey(pair.I, pair.J), pair.Open))
       {
         const PairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
         pair.Value = share.Value * pair.Open;
