@@ -9,6 +9,53 @@
 
 namespace LightTransport
 {
+namespace
+{
+using Vector = Polygon::Vector;
+
+//------------------------------------------------------------------------------
+// Between the segments from `a` along `u` and from `b` along `v` (Ericson, Real-Time Collision
+// Detection, 5.1.9).
+double GetSquaredDistance(const Vector& a, const Vector& u, const Vector& b, const Vector& v)
+{
+  const auto clamp = [](double value) { return std::min(std::max(value, 0.0), 1.0); };
+  const auto divide = [](double value, double by) { return by > 0.0 ? value / by : 0.0; };
+  const Vector offset = a - b;
+  const double uu = u.squaredNorm();
+  const double vv = v.squaredNorm();
+  const double uv = u.dot(v);
+  const double along = v.dot(offset);
+  const double back = u.dot(offset);
+  double s = clamp(divide(uv * along - back * vv, uu * vv - uv * uv));
+  double t = divide(uv * s + along, vv);
+  if (t < 0.0 || t > 1.0)
+  {
+    t = clamp(t);
+    s = clamp(divide(uv * t - back, uu));
+  }
+  return (offset + s * u - t * v).squaredNorm();
+}
+
+//------------------------------------------------------------------------------
+// Whether a point is over the inside of a polygon, no higher than `distance`.
+bool IsOver(const Polygon& polygon, const Vector& point, double distance)
+{
+  if (std::abs((point - polygon.Corners[0]).dot(polygon.Normal)) >= distance)
+  {
+    return false;
+  }
+  for (int corner = 0; corner < polygon.Count; ++corner)
+  {
+    const Vector edge = polygon.Corners[(corner + 1) % polygon.Count] - polygon.Corners[corner];
+    if (edge.cross(point - polygon.Corners[corner]).dot(polygon.Normal) < 0.0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace
+
 //------------------------------------------------------------------------------
 void Polygon::Set(const PatchGeometry& patches, vtkIdType patch)
 {
@@ -63,6 +110,31 @@ bool Polygon::SetToClippedPair(const PatchGeometry& patches, vtkIdType i, vtkIdT
   a.Set(patches, i);
   b.Set(patches, j);
   return b.Clip(patches.GetPlane(i)) && a.Clip(patches.GetPlane(j));
+}
+
+//------------------------------------------------------------------------------
+// Where neither passes through the other the nearest points are on two edges, or one is a corner.
+bool Polygon::IsCloser(const Polygon& other, double distance) const
+{
+  for (int i = 0; i < this->Count; ++i)
+  {
+    const Vector edge = this->Corners[(i + 1) % this->Count] - this->Corners[i];
+    for (int j = 0; j < other.Count; ++j)
+    {
+      const Vector across = other.Corners[(j + 1) % other.Count] - other.Corners[j];
+      if (GetSquaredDistance(this->Corners[i], edge, other.Corners[j], across) <
+        distance * distance)
+      {
+        return true;
+      }
+    }
+  }
+  const auto isOver = [distance](const Polygon& polygon, const Polygon& corners)
+  {
+    return std::any_of(corners.Corners.begin(), corners.Corners.begin() + corners.Count,
+      [&](const Vector& corner) { return IsOver(polygon, corner, distance); });
+  };
+  return isOver(*this, other) || isOver(other, *this);
 }
 
 //------------------------------------------------------------------------------

@@ -36,6 +36,9 @@ struct Polygon
   static bool SetToClippedPair(const PatchGeometry& patches, vtkIdType i, vtkIdType j, Polygon& a,
     Polygon& b);
 
+  /// Whether the distance from another polygon is less than `distance`.
+  bool IsCloser(const Polygon& other, double distance) const;
+
   double GetArea() const;
   /// The mean of the corners.
   Vector GetMiddle() const;

@@ -29,13 +29,13 @@ constexpr double RasterError = 0.004;
 constexpr double Slant = 0.38;
 // The largest error of the first look's rule for one shadow edge across the pair, and the part of
 // the exchange that belongs to the rim.
-constexpr double FirstError = 0.02;
+constexpr double FirstError = 0.04;
 constexpr double RimPart = 0.25;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
 constexpr double UsualPart = 0.8;
-// Two patches of which one sends this part to the other are close together, as are those that
-// touch: samples of one do not resolve what the other sees of it.
-constexpr double CloseView = 0.3;
+// Two polygons closer than this part of the larger one's extent: the raster does not resolve there
+// what one sees of the other.
+constexpr double CloseDistance = 0.125;
 // Edges of the target that leave the raster's lines by less than this part are along them.
 constexpr double AlongLines = 1e-12;
 
@@ -49,6 +49,16 @@ double GetExtent(const Polygon& polygon)
     squared = std::max(squared, (polygon.Corners[corner] - middle).squaredNorm());
   }
   return std::sqrt(squared);
+}
+
+//------------------------------------------------------------------------------
+// Whether two polygons are closer than a distance.
+bool AreCloseTogether(const Polygon& a, const Polygon& b)
+{
+  const double extents[2] = { GetExtent(a), GetExtent(b) };
+  const double distance = CloseDistance * std::max(extents[0], extents[1]);
+  return (a.GetMiddle() - b.GetMiddle()).norm() < extents[0] + extents[1] + distance &&
+    a.IsCloser(b, distance);
 }
 
 //------------------------------------------------------------------------------
@@ -105,9 +115,6 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   const std::vector<vtkIdType>& occluders, std::uint64_t key, double open)
 {
   this->Open = open;
-  this->AreClose = open > 0.0 &&
-    (scene.AreTouching(i, j) ||
-      open > CloseView * std::min(scene.GetAreas()[i], scene.GetAreas()[j]));
   Polygon::SetToClippedPair(scene, i, j, this->Outer, this->Inner);
   this->OuterPlane = scene.GetPlane(i);
   this->InnerPlane = scene.GetPlane(j);
@@ -117,6 +124,7 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   {
     return false;
   }
+  this->AreClose = open > 0.0 && AreCloseTogether(this->Outer, this->Inner);
   this->ChooseOuter(scene);
   this->SetFrame();
   this->AddTarget();
@@ -382,7 +390,7 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
     if (share.Value <= 0.0 || share.Value >= 1.0)
     {
       rim = rim < 0.0 ? this->GetRimDifference(share.Value) : rim;
-      usual = RimPart * rim / weight;
+      usual = RimPart * rim / cuts;
     }
     share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
