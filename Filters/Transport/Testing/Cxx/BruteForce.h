@@ -168,6 +168,7 @@ private:
   void FindBreaks(Workspace& work) const;
   std::size_t GetMet(const std::vector<Piece>& pieces, double t) const;
   void Sweep(const HalfPlane& half, Workspace& work, std::vector<double>& sums) const;
+  static double GetMiddle(double from, double to);
   static double GetShareBefore(double t);
   BruteForceRow Summarise(const std::vector<std::vector<double>>& sums, int samples) const;
 
@@ -372,6 +373,16 @@ inline std::size_t BruteForce::GetMet(const std::vector<Piece>& pieces, double t
 }
 
 //------------------------------------------------------------------------------
+/// x / y half-way in angle: on the way to the horizon, where surfaces may come together, the mean
+/// of two x / y would be almost there.
+inline double BruteForce::GetMiddle(double from, double to)
+{
+  const double before = std::sqrt(1.0 + from * from);
+  const double after = std::sqrt(1.0 + to * to);
+  return (from * after + to * before) / (before + after);
+}
+
+//------------------------------------------------------------------------------
 /// Share of the rays of a half-plane with x / y below a value (density 2 sin^2 of the angle / pi).
 inline double BruteForce::GetShareBefore(double t)
 {
@@ -399,8 +410,9 @@ inline void BruteForce::Sweep(const HalfPlane& half, Workspace& work,
   for (std::size_t k = 0; k < work.Breaks.size(); ++k)
   {
     const bool last = k + 1 == work.Breaks.size();
-    const std::size_t met =
-      last ? this->Sky : this->GetMet(work.Pieces, 0.5 * (work.Breaks[k] + work.Breaks[k + 1]));
+    const std::size_t met = last
+      ? this->Sky
+      : this->GetMet(work.Pieces, BruteForce::GetMiddle(work.Breaks[k], work.Breaks[k + 1]));
     if (met != current)
     {
       const double here = BruteForce::GetShareBefore(work.Breaks[k]);
