@@ -255,17 +255,21 @@ private:
     this->Seconds += GetSeconds() - begin;
     begin = GetSeconds();
     BadScene worst = { 1.0, number, "" };
+    const std::vector<double> widths = GetWidths(polygons);
+    const double worth = BruteForce::GetWorth(polygons, placement.Single);
     for (std::size_t row = 0; row < polygons.size(); ++row)
     {
       // As exact as this tolerance needs; what is there from a smaller one may do.
-      const double sigma = std::max((table.Errors[row] + 1e-7) / 3.0, this->Settings.Sigma);
+      const double ambiguity = GetAmbiguity(table, row, widths, worth);
+      const double sigma =
+        std::max((table.Errors[row] + ambiguity + 1e-7) / 3.0, this->Settings.Sigma);
       BruteForceRow& right = rows[row];
       if (right.Shares.empty() || right.SumError > sigma ||
         *std::max_element(right.Errors.begin(), right.Errors.end()) > sigma)
       {
         right = force.Count(row, sigma, number);
       }
-      const RowProof proof = Compare(table, row, right);
+      const RowProof proof = Compare(table, row, right, ambiguity);
       for (const std::string& name : { kind + ", " + placement.Name, std::string("all") })
       {
         this->Tallies[tolerance][name].Count(proof);

@@ -13,7 +13,8 @@
  *
  * Surfaces in one place: what a ray meets within the worth of coordinates of the nearest is one
  * place, measured across the surfaces. Of several there the ray meets one that faces it, of those
- * that of the lowest number. What lies in the place where a ray starts is not met.
+ * that of the lowest number. What lies in the place where a ray starts is not met: surfaces within
+ * that worth of its start, hit within that worth of the plane that it leaves.
  */
 #ifndef BruteForce_h
 #define BruteForce_h
@@ -147,12 +148,14 @@ private:
     double Start, Slope;  ///< 1 / y = Start + Slope x / y
     double Across, Along; ///< normal times the ray x / y axis + e
     std::size_t Owner;
+    bool Touching; ///< within the worth of coordinates of the start
     double Inverse(double t) const { return this->Start + this->Slope * t; }
     double Facing(double t) const { return this->Along + this->Across * t; }
   };
   struct Workspace
   {
     Eigen::RowVectorXd Heights; ///< of all points over the plane of the half-plane
+    double Lift = 1.0;          ///< height over the start's plane per y
     std::vector<Piece> Pieces;
     std::vector<double> Breaks;
   };
@@ -160,13 +163,15 @@ private:
   struct HalfPlane
   {
     Vector Origin, Axis, Up;
+    double Lift; ///< height over the polygon per y
     std::size_t Owner;
   };
 
   HalfPlane Draw(std::size_t polygon, const ScrambledSobol::Digits& digits) const;
   void Cut(const HalfPlane& half, const Triangle& triangle, Workspace& work) const;
   void FindBreaks(Workspace& work) const;
-  std::size_t GetMet(const std::vector<Piece>& pieces, double t) const;
+  bool IsMet(const Workspace& work, const Piece& piece, double t) const;
+  std::size_t GetMet(const Workspace& work, double t) const;
   void Sweep(const HalfPlane& half, Workspace& work, std::vector<double>& sums) const;
   static double GetMiddle(double from, double to);
   static double GetShareBefore(double t);
@@ -263,7 +268,8 @@ inline BruteForce::HalfPlane BruteForce::Draw(std::size_t polygon,
   }
   half.Axis.normalize();
   const double sine = 2.0 * (digits[2] + 0.5) * unit - 1.0;
-  half.Up = std::sqrt(1.0 - sine * sine) * normal + sine * normal.cross(half.Axis);
+  half.Lift = std::sqrt(1.0 - sine * sine);
+  half.Up = half.Lift * normal + sine * normal.cross(half.Axis);
   return half;
 }
 
@@ -286,9 +292,9 @@ inline void BruteForce::Cut(const HalfPlane& half, const Triangle& triangle, Wor
   }
   const double distance =
     found < 2 ? 0.0 : (this->Points.col(triangle.Corners[0]) - half.Origin).dot(triangle.Normal);
-  if (std::abs(distance) <= this->Worth)
+  if (distance == 0.0)
   {
-    return; // not crossed, or in the place where the ray starts (or seen from its edge)
+    return; // not crossed, or seen from its edge
   }
   double y[2] = { ends[0].dot(half.Up), ends[1].dot(half.Up) };
   double x[2] = { ends[0].dot(half.Axis), ends[1].dot(half.Axis) };
@@ -306,6 +312,7 @@ inline void BruteForce::Cut(const HalfPlane& half, const Triangle& triangle, Wor
   }
   Piece piece;
   piece.Owner = triangle.Owner;
+  piece.Touching = std::abs(distance) <= this->Worth;
   piece.From = std::min(x[0] / y[0], x[1] / y[1]);
   piece.To = std::max(x[0] / y[0], x[1] / y[1]);
   piece.Across = triangle.Normal.dot(half.Axis);
@@ -325,6 +332,12 @@ inline void BruteForce::FindBreaks(Workspace& work) const
     const Piece& piece = work.Pieces[k];
     work.Breaks.push_back(piece.From);
     work.Breaks.push_back(piece.To);
+    if (piece.Touching && piece.Slope != 0.0)
+    {
+      // Where its height over the start's plane is the worth of coordinates.
+      const double t = (work.Lift / this->Worth - piece.Start) / piece.Slope;
+      work.Breaks.push_back(std::clamp(t, piece.From, piece.To));
+    }
     for (std::size_t l = 0; l < k; ++l)
     {
       const Piece& other = work.Pieces[l];
@@ -342,13 +355,22 @@ inline void BruteForce::FindBreaks(Workspace& work) const
 }
 
 //------------------------------------------------------------------------------
-inline std::size_t BruteForce::GetMet(const std::vector<Piece>& pieces, double t) const
+/// Whether a ray hits a piece elsewhere than in the place where it starts.
+inline bool BruteForce::IsMet(const Workspace& work, const Piece& piece, double t) const
+{
+  const double inverse = piece.Inverse(t);
+  return t >= piece.From && t <= piece.To && inverse > 0.0 &&
+    !(piece.Touching && work.Lift <= this->Worth * inverse);
+}
+
+//------------------------------------------------------------------------------
+inline std::size_t BruteForce::GetMet(const Workspace& work, double t) const
 {
   const Piece* nearest = nullptr;
   double largest = 0.0;
-  for (const Piece& piece : pieces)
+  for (const Piece& piece : work.Pieces)
   {
-    if (t >= piece.From && t <= piece.To && piece.Inverse(t) > largest)
+    if (piece.Inverse(t) > largest && this->IsMet(work, piece, t))
     {
       largest = piece.Inverse(t);
       nearest = &piece;
@@ -360,10 +382,10 @@ inline std::size_t BruteForce::GetMet(const std::vector<Piece>& pieces, double t
   }
   const double across = std::abs(nearest->Facing(t));
   std::size_t met = this->Sky + 1;
-  for (const Piece& piece : pieces)
+  for (const Piece& piece : work.Pieces)
   {
     const double inverse = piece.Inverse(t);
-    if (t >= piece.From && t <= piece.To && inverse > 0.0 && piece.Facing(t) < 0.0 &&
+    if (piece.Facing(t) < 0.0 && this->IsMet(work, piece, t) &&
       (largest - inverse) * std::max(-piece.Facing(t), across) <= this->Worth * largest * inverse)
     {
       met = met == this->Sky + 1 ? piece.Owner : std::min(met, piece.Owner);
@@ -394,6 +416,7 @@ inline void BruteForce::Sweep(const HalfPlane& half, Workspace& work,
   std::vector<double>& sums) const
 {
   work.Pieces.clear();
+  work.Lift = half.Lift;
   const Vector side = half.Axis.cross(half.Up);
   work.Heights.noalias() = side.transpose() * this->Points;
   work.Heights.array() -= side.dot(half.Origin);
@@ -412,7 +435,7 @@ inline void BruteForce::Sweep(const HalfPlane& half, Workspace& work,
     const bool last = k + 1 == work.Breaks.size();
     const std::size_t met = last
       ? this->Sky
-      : this->GetMet(work.Pieces, BruteForce::GetMiddle(work.Breaks[k], work.Breaks[k + 1]));
+      : this->GetMet(work, BruteForce::GetMiddle(work.Breaks[k], work.Breaks[k + 1]));
     if (met != current)
     {
       const double here = BruteForce::GetShareBefore(work.Breaks[k]);

@@ -104,6 +104,30 @@ inline bool Crosses(const Corners& one, const Corners& two)
 }
 
 //------------------------------------------------------------------------------
+/// The area of a convex polygon.
+inline double GetArea(const Corners& polygon)
+{
+  Vector twice = Vector::Zero();
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+  {
+    twice += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]);
+  }
+  return 0.5 * twice.norm();
+}
+
+//------------------------------------------------------------------------------
+/// How wide a polygon is across its longest edge, on average.
+inline double GetWidth(const Corners& polygon)
+{
+  double longest = 0.0;
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+  {
+    longest = std::max(longest, (polygon[(k + 1) % polygon.size()] - polygon[k]).norm());
+  }
+  return GetArea(polygon) / longest;
+}
+
+//------------------------------------------------------------------------------
 class SceneMaker
 {
 public:
@@ -462,15 +486,7 @@ private:
   {
     for (const Corners& polygon : this->Scene.Polygons)
     {
-      Vector twice = Vector::Zero();
-      double longest = 0.0;
-      for (std::size_t k = 0; k < polygon.size(); ++k)
-      {
-        const Vector& next = polygon[(k + 1) % polygon.size()];
-        twice += (polygon[k] - polygon[0]).cross(next - polygon[0]);
-        longest = std::max(longest, (next - polygon[k]).norm());
-      }
-      this->Scene.Narrowest = std::min(this->Scene.Narrowest, 0.5 * twice.norm() / longest);
+      this->Scene.Narrowest = std::min(this->Scene.Narrowest, GetWidth(polygon));
     }
   }
 

@@ -77,17 +77,6 @@ void CutOne(Retold& retold, Random& numbers)
 }
 
 //------------------------------------------------------------------------------
-double GetArea(const Corners& polygon)
-{
-  Vector twice = Vector::Zero();
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
-  {
-    twice += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]);
-  }
-  return 0.5 * twice.norm();
-}
-
-//------------------------------------------------------------------------------
 /// The table of the surfaces that another one tells in pieces.
 FactorTable Merge(const FactorTable& pieces, const Retold& retold, std::size_t size)
 {

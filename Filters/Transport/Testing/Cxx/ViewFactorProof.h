@@ -1,7 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// View factors of random scenes beside brute force: does "ViewFactorError" tell how far off they
-/// are?
+/**
+ * View factors of random scenes beside brute force: does "ViewFactorError" tell how far off they
+ * are?
+ *
+ * What coordinates are not worth, no estimate tells: of a polygon that is w wide, touching others,
+ * a share of some worth / w is on one side or the other of what it touches, and the two may choose
+ * differently. That is allowed beside the estimate; at the origin in double precision it is
+ * nothing.
+ */
 #ifndef ViewFactorProof_h
 #define ViewFactorProof_h
 
@@ -60,7 +67,7 @@ struct Deviation
 //------------------------------------------------------------------------------
 struct RowProof
 {
-  double Estimate = 0.0; ///< "ViewFactorError"
+  double Estimate = 0.0; ///< "ViewFactorError", and what coordinates are not worth
   Deviation Largest;     ///< of the entries
   Deviation Sum;         ///< of all entries
   Deviation Opening;     ///< the larger of sky and back faces
@@ -79,11 +86,36 @@ struct RowProof
 };
 
 //------------------------------------------------------------------------------
-inline RowProof Compare(const FactorTable& table, std::size_t row, const BruteForceRow& right)
+/// What a row may be off by because polygons of these widths are given to a worth of coordinates.
+inline double GetAmbiguity(const FactorTable& table, std::size_t row,
+  const std::vector<double>& widths, double worth)
+{
+  double sum = 1.0 / widths[row];
+  for (std::size_t j = 0; j < table.Size; ++j)
+  {
+    sum += table.Get(row, j) / widths[j];
+  }
+  return 4.0 * worth * sum;
+}
+
+//------------------------------------------------------------------------------
+inline std::vector<double> GetWidths(const std::vector<Corners>& polygons)
+{
+  std::vector<double> widths;
+  for (const Corners& polygon : polygons)
+  {
+    widths.push_back(GetWidth(polygon));
+  }
+  return widths;
+}
+
+//------------------------------------------------------------------------------
+inline RowProof Compare(const FactorTable& table, std::size_t row, const BruteForceRow& right,
+  double ambiguity)
 {
   RowProof proof;
   // Single precision is what factors are stored in.
-  proof.Estimate = table.Errors[row] + 1e-7;
+  proof.Estimate = table.Errors[row] + 1e-7 + ambiguity;
   const auto raise =
     [&](Deviation& deviation, const std::string& what, double value, double share, double sigma)
   {
