@@ -42,6 +42,10 @@ public:
     std::vector<vtkIdType> Corners;
     std::vector<double> Normals; ///< three components each, of length 1, towards the front
     std::vector<double> Areas;
+    /// How far over the plane of each patch a point is still on it, which is what coordinates are
+    /// worth: a length, and a part of the distance. Empty: 0.
+    std::vector<double> Roundings;
+    std::vector<double> Slopes;
   };
 
   /**

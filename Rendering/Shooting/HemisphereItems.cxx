@@ -25,9 +25,8 @@ namespace LightTransport
 {
 namespace
 {
-/// Lower than this over a shooter's plane (the scene is 1 large) nothing is seen: single precision
-/// cannot tell what lies in the plane from what lies over it.
-constexpr float Horizon = 1e-6f;
+/// Heights over a plane, and distances, that single precision cannot tell (the scene is 1 large).
+constexpr float SinglePrecision = 1e-6f;
 constexpr int ClipPlanes = 3;
 
 //------------------------------------------------------------------------------
@@ -52,18 +51,17 @@ double SumWeights(int resolution)
 void SetEyes(vtkShaderProgram* program, const std::vector<HemisphereItems::Eye>& eyes)
 {
   std::vector<float> values;
-  const auto add = [&values](const float* vector)
+  const auto add = [&values](const float* vector, float last)
   {
     values.insert(values.end(), vector, vector + 3);
-    values.push_back(0.0f);
+    values.push_back(last);
   };
   for (const HemisphereItems::Eye& eye : eyes)
   {
-    add(eye.Position);
-    for (const float* axis : eye.Axes)
-    {
-      add(axis);
-    }
+    add(eye.Position, eye.Rounding + SinglePrecision);
+    add(eye.Axes[0], eye.Slope);
+    add(eye.Axes[1], 0.0f);
+    add(eye.Axes[2], 0.0f);
   }
   program->SetUniform4fv("eyes", static_cast<int>(values.size() / 4), values.data());
   program->SetUniformi("numberOfEyes", static_cast<int>(eyes.size()));
@@ -90,9 +88,11 @@ HemisphereItems::~HemisphereItems()
 
 //------------------------------------------------------------------------------
 Outcome HemisphereItems::Allocate(const std::vector<float>& points,
-  const std::vector<unsigned int>& triangles, const std::vector<int>& patches, int resolution)
+  const std::vector<unsigned int>& triangles, const std::vector<int>& patches, int resolution,
+  double rounding)
 {
   this->Resolution = resolution;
+  this->BackRounding = 2.0f * (static_cast<float>(rounding) + SinglePrecision);
   this->WeightOfAllPixels = SumWeights(resolution);
   const Outcome allocated = this->AllocateItems();
   return allocated ? this->AllocateScene(points, triangles, patches) : allocated;
@@ -226,7 +226,7 @@ Outcome HemisphereItems::DrawItems(const std::vector<Eye>& eyes)
   this->TrianglePatches[0]->Activate();
   program->SetUniformi("patches", this->TrianglePatches[0]->GetTextureUnit());
   program->SetUniformi("width", this->TriangleWidth);
-  program->SetUniformf("horizon", Horizon);
+  program->SetUniformf("backRounding", this->BackRounding);
   SetEyes(program, eyes);
   for (unsigned int plane = 0; plane < ClipPlanes; ++plane)
   {

@@ -35,6 +35,10 @@ public:
     float Position[3];
     /// Perpendicular to each other, and right-handed; the normal is their sum over sqrt(3).
     float Axes[3][3];
+    /// Points lower than this over the shooter's plane, plus the slope times the distance, are on
+    /// it.
+    float Rounding;
+    float Slope;
     int Shooter;  ///< the patch
     double Power; ///< what the eye point hands out of one unit of the shooter's radiosity
   };
@@ -48,10 +52,10 @@ public:
   /**
    * Points (three coordinates each, within a sphere of diameter 1), triangles (three points each)
    * and the patch that each triangle belongs to. `resolution` is the number of pixels along a side
-   * of a face, even.
+   * of a face, even. Of two sides nearer to each other than `rounding` the front is seen.
    */
   Outcome Allocate(const std::vector<float>& points, const std::vector<unsigned int>& triangles,
-    const std::vector<int>& patches, int resolution);
+    const std::vector<int>& patches, int resolution, double rounding);
 
   /**
    * Draw what eye points (at most MostEyes) see, and add what their shooters hold in `unshot` times
@@ -75,6 +79,7 @@ private:
   int Resolution = 0;
   int NumberOfIndices = 0;
   double WeightOfAllPixels = 0.0;
+  float BackRounding = 0.0f;
   int TriangleWidth = 0;
   FloatTextures::Group TrianglePatches;
   vtkSmartPointer<vtkTextureObject> Items;

@@ -38,10 +38,12 @@ void MakeAxes(const double normal[3], double angle, float axes[3][3])
 //------------------------------------------------------------------------------
 ShootingScene::ShootingScene(const vtkDeviceShooter::Patches& patches)
   : Offsets(patches.Offsets), Corners(patches.Corners), Normals(patches.Normals),
-    Areas(patches.Areas)
+    Areas(patches.Areas), Roundings(patches.Roundings), Slopes(patches.Slopes)
 {
   const double whole = std::accumulate(this->Areas.begin(), this->Areas.end(), 0.0);
   std::for_each(this->Areas.begin(), this->Areas.end(), [whole](double& area) { area /= whole; });
+  this->Roundings.resize(this->Areas.size(), 0.0);
+  this->Slopes.resize(this->Areas.size(), 0.0);
   this->SetPoints(patches.Points);
 }
 
@@ -58,6 +60,8 @@ void ShootingScene::SetPoints(const std::vector<double>& coordinates)
     high[k % 3] = std::max(high[k % 3], coordinates[k]);
   }
   const double diagonal = std::sqrt(vtkMath::Distance2BetweenPoints(low.data(), high.data()));
+  std::for_each(this->Roundings.begin(), this->Roundings.end(),
+    [diagonal](double& rounding) { rounding /= diagonal; });
   this->Points.resize(coordinates.size() / 3);
   for (std::size_t k = 0; k < coordinates.size(); ++k)
   {
@@ -94,7 +98,8 @@ Outcome ShootingScene::Upload(HemisphereItems& items, int resolution) const
       patches.push_back(patch);
     }
   }
-  return items.Allocate(points, triangles, patches, resolution);
+  const double rounding = *std::max_element(this->Roundings.begin(), this->Roundings.end());
+  return items.Allocate(points, triangles, patches, resolution, rounding);
 }
 
 //------------------------------------------------------------------------------
@@ -148,6 +153,8 @@ void ShootingScene::AddEyes(int patch, int divisions, vtkTypeInt64 number,
         // Pixels fall differently each time, so that their errors average out.
         const double turns = GoldenTurn * static_cast<double>(number++);
         MakeAxes(normal, 2.0 * vtkMath::Pi() * (turns - std::floor(turns)), eye.Axes);
+        eye.Rounding = static_cast<float>(this->Roundings[patch]);
+        eye.Slope = static_cast<float>(this->Slopes[patch]);
         eye.Shooter = patch;
         eye.Power = share * this->Areas[patch];
         eyes.push_back(eye);

@@ -41,6 +41,8 @@ private:
   std::vector<vtkIdType> Corners;
   std::vector<double> Normals;
   std::vector<double> Areas;
+  std::vector<double> Roundings;
+  std::vector<double> Slopes;
 };
 } // namespace LightTransport
 

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 uniform sampler2D patches;
 uniform int width;
+uniform float backRounding;
 
 void main()
 {
@@ -11,5 +12,6 @@ void main()
   float patchNumber = texelFetch(patches, ivec2(gl_PrimitiveID % width, gl_PrimitiveID / width), 0).x;
   gl_FragData[0] = vec4(gl_FrontFacing ? patchNumber : -patchNumber, 0.0, 0.0, 1.0);
   // The distance along the axis: what perspective makes of it has no digits left far away.
-  gl_FragDepth = 1.0 / gl_FragCoord.w;
+  // Of two sides in one place the front is seen.
+  gl_FragDepth = 1.0 / gl_FragCoord.w + (gl_FrontFacing ? 0.0 : backRounding);
 }

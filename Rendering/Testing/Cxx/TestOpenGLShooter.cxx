@@ -13,6 +13,8 @@
 #include "vtkRadiosity.h"
 #include "vtkTable.h"
 #include "vtkTestErrorObserver.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
 
 #include <algorithm>
 #include <numeric>
@@ -91,6 +93,34 @@ void TestPairs()
   corner.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
   corner.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 1, 1);
   CheckClose(ShootOnce(corner.Get(), 0)[1], 0.200043776075, 1e-2, "squares at a right angle");
+}
+
+//------------------------------------------------------------------------------
+// Two sheets with two sides each, the outer ones cut in another way, with points in single
+// precision and turned: neither is the outer side in the way, nor is it seen in place of the inner
+// one.
+void TestSheets()
+{
+  Surface sheets;
+  sheets.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 1, 1);
+  sheets.AddGrid({ 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, 1, 1);
+  sheets.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 3, 3);
+  sheets.AddGrid({ 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 3);
+  for (int turn = 0; turn < 10; ++turn)
+  {
+    vtkNew<vtkTransform> transform;
+    transform->Translate(20.0, 10.0, 5.0);
+    transform->RotateWXYZ(37.0 * turn, 0.3, 0.5, 0.1 * turn);
+    vtkNew<vtkTransformPolyDataFilter> filter;
+    filter->SetInputData(sheets.Get());
+    filter->SetTransform(transform);
+    filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
+    filter->Update();
+    const Vector irradiance = ShootOnce(filter->GetOutput(), 0);
+    CheckClose(irradiance[1], 0.199824895698, 3e-3, "the inner side of the other sheet");
+    CheckClose(*std::max_element(irradiance.begin() + 2, irradiance.end()), 0.0, 1e-6,
+      "the outer sides");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -329,6 +359,7 @@ int TestOpenGLShooter(int, char*[])
   TestShooter();
   TestOnePatch();
   TestPairs();
+  TestSheets();
   TestOcclusion();
   TestFurnace();
   TestBands();

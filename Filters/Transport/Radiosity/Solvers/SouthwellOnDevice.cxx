@@ -49,6 +49,8 @@ vtkDeviceShooter::Patches DescribePatches(const PatchScene& scene)
       corners + scene.GetNumberOfCorners(patch));
     patches.Offsets.push_back(static_cast<vtkIdType>(patches.Corners.size()));
     patches.Normals.insert(patches.Normals.end(), normal.data(), normal.data() + 3);
+    patches.Roundings.push_back(scene.GetPlane(patch).Rounding);
+    patches.Slopes.push_back(scene.GetPlane(patch).Slope);
   }
   patches.Areas = scene.GetAreas();
   return patches;
