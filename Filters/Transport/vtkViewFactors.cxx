@@ -51,7 +51,7 @@ protected:
     const Links& links = this->Owner->Store->GetLinks();
     const SceneOutput output(this->Scene, nullptr, this->Input, this->Output);
     output.AddArray("ViewFactorSum", links.RawRowSums, 1);
-    output.AddArray("ViewFactorError", links.RowErrors, 1);
+    output.AddArray("ViewFactorError", links.GetErrors(), 1);
     output.AddArray("SkyFraction", links.SkyFractions, 1);
     output.AddArray("BackFaceFraction", links.BackFaceFractions, 1);
     links.AddSummaries(this->GetOutputFields());

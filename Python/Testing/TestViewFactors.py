@@ -243,7 +243,7 @@ class TestViewFactors(unittest.TestCase):
                 (good[:-100], ("cut short", "Compute the view factors again", "another copy")),
                 (good + b"x", ("behind its end", "Compute the view factors again")),
                 (flipped, ("Compute the view factors again", "another copy")),
-                (good.replace(b"factors 2", b"factors 9"), ("not version 2", "Compute"))):
+                (good.replace(b"factors 3", b"factors 9"), ("not version 3", "Compute"))):
             if content is not None:
                 with open(self.path("bad.factors"), "wb") as stream:
                     stream.write(content)

@@ -41,6 +41,18 @@ void Links::AddSummaries(vtkFieldData* fields) const
 }
 
 //------------------------------------------------------------------------------
+std::vector<double> Links::GetErrors() const
+{
+  std::vector<double> errors = this->RowErrors;
+  for (std::size_t row = 0; row < errors.size(); ++row)
+  {
+    const double sum = this->RowSums[row] + this->SkyFractions[row] + this->BackFaceFractions[row];
+    errors[row] = std::max({ errors[row], this->OpeningErrors[row], std::abs(1.0 - sum) });
+  }
+  return errors;
+}
+
+//------------------------------------------------------------------------------
 double Links::GetRowSumError() const
 {
   double largest = DoublePrecision;

@@ -42,7 +42,13 @@ struct Links
   std::vector<double> RowErrors;  ///< estimate of sum_j |error of F_ij|
   std::vector<double> SkyFractions;
   std::vector<double> BackFaceFractions;
-  bool AreRowsClosed = false; ///< those that see no opening
+  std::vector<double> OpeningErrors; ///< estimate for the less exact of the two fractions
+  bool AreRowsClosed = false;        ///< row sums, sky and back faces make 1
+  ///@}
+
+  ///@{ How often rays of other patches met a patch, where rays were cast: whole numbers.
+  std::vector<double> FrontHits;
+  std::vector<double> BackHits;
   ///@}
 
   /// Names and values of the field data arrays that summarise how the links were made.
@@ -56,7 +62,12 @@ struct Links
   /// All of them, and the cluster tree.
   void AddSummaries(vtkFieldData* fields) const;
 
-  /// The largest error of a row sum. A row that has been closed is as good as its sum.
+  /// Of each row with its openings: the largest of the errors of its view factors, of its two
+  /// fractions, and of their sum.
+  std::vector<double> GetErrors() const;
+
+  /// The largest error of a row sum. A row without openings that has been closed is as good as
+  /// its sum.
   double GetRowSumError() const;
 
   /// Row sums of the exchange as it is, into RowSums. Collective.

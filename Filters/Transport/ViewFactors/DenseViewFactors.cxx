@@ -120,18 +120,29 @@ void Summarize(const ViewFactorAssembly& assembly, const Ranks& ranks, Links& li
 }
 
 //------------------------------------------------------------------------------
-Outcome FindOpenings(const PatchScene& scene, const Ranks& ranks, Links& links)
+// `errors` are those of what is open in each row.
+Outcome FindOpenings(const PatchScene& scene, const Ranks& ranks, Links& links,
+  std::vector<double>& errors)
 {
   bool isOpen = false;
+  double excess = 0.0;
   for (std::size_t row = 0; row < links.RowSums.size(); ++row)
   {
-    isOpen = isOpen || 1.0 - links.RowSums[row] > links.RowErrors[row];
+    const double missing = 1.0 - links.RowSums[row];
+    isOpen = isOpen || missing > links.RowErrors[row];
+    excess = std::max(excess, -missing - links.RowErrors[row]);
+  }
+  if (!isOpen)
+  {
+    links.Summaries.emplace_back("RaysCast", 0.0);
+    links.Summaries.emplace_back("RowGap", excess);
+    return Outcome::Done();
   }
   SceneRayCaster caster;
-  Outcome ready = ranks.Agree(isOpen ? caster.Build(scene) : Outcome::Done());
+  Outcome ready = ranks.Agree(caster.Build(scene));
   if (ready)
   {
-    Openings(scene, caster).Divide(links);
+    errors = Openings(scene, caster).Complete(links.Tolerance, ranks, links);
   }
   return ready;
 }
@@ -168,9 +179,11 @@ Outcome DenseViewFactors::Build(const PatchScene& scene, const Ranks& ranks, con
   Summarize(assembly, ranks, links);
   // Where pairs have been left out no row is whole: what it misses says nothing.
   Openings::Clear(links);
-  outcome = this->Senders.empty() ? FindOpenings(scene, ranks, links) : outcome;
+  std::vector<double> openingErrors(links.RowSums.size(), 0.0);
+  outcome = this->Senders.empty() ? FindOpenings(scene, ranks, links, openingErrors) : outcome;
   outcome = outcome && this->EnforceClosure
-    ? ViewFactorClosure::CloseMatrix(links, assembly.GetPairs(), this->Tolerance, ranks)
+    ? ViewFactorClosure::CloseMatrix(links, assembly.GetPairs(), openingErrors, this->Tolerance,
+        ranks)
     : outcome;
   if (!outcome)
   {

@@ -105,7 +105,7 @@ Outcome HierarchicalViewFactors::Build(const PatchScene& scene, const Ranks& ran
   Openings::Clear(links);
   if (hasOpenings)
   {
-    openings.Sample(links);
+    openings.CompleteClusters(this->Tolerance, refinement.GetRowDeviation(), ranks, links);
   }
   if (Outcome closed = ViewFactorClosure::ScaleHierarchy(links, ranks); !closed)
   {

@@ -332,6 +332,8 @@ void LinkRefinement::Assess()
   }
   const double squared = this->Estimator.GetSquaredBrightness();
   const double calibration = this->ClosesRows ? ClosedCalibration : Calibration;
-  this->ErrorEstimate = squared > 0.0 ? calibration * std::sqrt(sum / squared) : 0.0;
+  const double relative = squared > 0.0 ? std::sqrt(sum / squared) : 0.0;
+  this->ErrorEstimate = calibration * relative;
+  this->RowDeviation = Calibration * relative + OpenTolerance;
 }
 } // namespace LightTransport

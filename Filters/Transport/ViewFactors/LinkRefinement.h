@@ -84,6 +84,8 @@ public:
   const Counters& GetCounters() const { return this->Total; }
   /// Root mean square error of the irradiance, relative to the radiosity that counts.
   double GetErrorEstimate() const { return this->ErrorEstimate; }
+  /// Root mean square error of the row sums, before any closure.
+  double GetRowDeviation() const { return this->RowDeviation; }
 
 private:
   using Pair = LinkEstimator::Pair;
@@ -113,6 +115,7 @@ private:
   Counters Total;
   SlotErrors Errors; ///< of the links of all ranks
   double ErrorEstimate = 0.0;
+  double RowDeviation = 0.0;
   std::vector<double> Shares; ///< of the threshold that a slot's links may use
 };
 } // namespace LightTransport

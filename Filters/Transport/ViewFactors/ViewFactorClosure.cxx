@@ -31,9 +31,9 @@ constexpr double SlowestGain = 0.999;
 using Array = Eigen::ArrayXd;
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
 
-// Row sums closer to 1 than this are closed: single precision storage loses more.
+// Row sums, with openings, closer to 1 than this are closed: single precision storage loses more.
 constexpr double Goal = 1e-8;
-// What is missing in a closed row by no more than this has been rounded away.
+// What is missing in a row by no more than this has been rounded away.
 constexpr double Rounding = 2e-7;
 // Each round lets go of the entries that met their bounds in the one before. Rounds end earlier
 // when none helps any more.
@@ -43,7 +43,7 @@ constexpr int MaximumIterations = 300;
 constexpr double ShortestStep = 1.0 / 64.0;
 
 //------------------------------------------------------------------------------
-// A partly visible pair between two closed rows. It is lifted out of the matrix while the change is
+// A partly visible pair. It is lifted out of the matrix while the change is
 // sought, so that it is not counted as an entry of the matrix as well.
 struct Pair
 {
@@ -71,16 +71,15 @@ struct Pair
 };
 
 //------------------------------------------------------------------------------
-// G_ij becomes G_ij (1 + c_i + c_j) between closed rows; what moves is summed per row.
+// G_ij becomes G_ij (1 + c_i + c_j); what moves is summed per row.
 struct Scaling
 {
   std::vector<vtkExchangeMatrix::Tile>& Tiles;
-  const Array& Closed; // both padded to whole tiles
-  const Array& Change;
+  const Array& Change; // padded to whole tiles
   vtkSMPThreadLocal<Array> Moved;
   Array TotalMoved;
 
-  void Initialize() { this->Moved.Local() = Array::Zero(this->Closed.size()); }
+  void Initialize() { this->Moved.Local() = Array::Zero(this->Change.size()); }
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
@@ -94,16 +93,9 @@ struct Scaling
       for (vtkIdType k = 0; tile.Values && k < N; ++k)
       {
         const vtkIdType i = tile.Row * N + k;
-        if (this->Closed[i] == 0.0)
-        {
-          continue;
-        }
         Row row(tile.Values + k * N);
         const Values old = row.cast<double>();
-        row = (old *
-          (1.0 +
-            this->Closed.segment<N>(column) * (this->Change[i] + this->Change.segment<N>(column))))
-                .cast<float>();
+        row = (old * (1.0 + this->Change[i] + this->Change.segment<N>(column))).cast<float>();
         const Values difference = (row.cast<double>() - old).abs();
         moved[i] += difference.sum();
         if (tile.Row != tile.Column)
@@ -116,7 +108,7 @@ struct Scaling
 
   void Reduce()
   {
-    this->TotalMoved = Array::Zero(this->Closed.size());
+    this->TotalMoved = Array::Zero(this->Change.size());
     for (const Array& moved : this->Moved)
     {
       this->TotalMoved += moved;
@@ -126,24 +118,23 @@ struct Scaling
 
 //------------------------------------------------------------------------------
 /*
- * With one multiplier l per closed row, the change of a pair is its error estimate times l_i + l_j,
- * cut at its bounds, and the change of any other entry is relativeError G_ij (c_i + c_j) with c = l
- * cut at +-1/2. The row sums are piecewise linear in l: Newton's method, each step by conjugate
- * gradients.
+ * With one multiplier l per row, the change of a pair is its error estimate times l_i + l_j, cut at
+ * its bounds, that of what is open in a row its error times l_i, and the change of any other entry
+ * is relativeError G_ij (c_i + c_j) with c = l cut at +-1/2. The row sums are piecewise linear in
+ * l: Newton's method, each step by conjugate gradients.
  */
 class Closing
 {
 public:
-  Closing(vtkExchangeMatrix* exchange, const std::vector<PartlyVisiblePair>& pairs,
-    const std::vector<bool>& closed, double relativeError, const Ranks& ranks)
-    : Exchange(exchange), AllRanks(ranks), RelativeError(relativeError),
-      Areas(Eigen::Map<const Array>(exchange->GetAreas().data(),
-        static_cast<Eigen::Index>(exchange->GetAreas().size()))),
-      Closed(this->Areas.size())
+  Closing(const Links& links, const std::vector<PartlyVisiblePair>& pairs,
+    const std::vector<double>& openingErrors, double relativeError, const Ranks& ranks)
+    : Exchange(links.Matrix), AllRanks(ranks), RelativeError(relativeError),
+      Areas(Map(this->Exchange->GetAreas())),
+      Open(this->Areas * (Map(links.SkyFractions) + Map(links.BackFaceFractions))),
+      OpenWeights(this->Areas * Map(openingErrors))
   {
-    std::copy(closed.begin(), closed.end(), this->Closed.begin());
     this->Product->SetController(ranks.GetController());
-    this->Ok = this->Product->Initialize(exchange, 1);
+    this->Ok = this->Product->Initialize(this->Exchange, 1);
     this->LiftPairs(pairs);
   }
 
@@ -151,10 +142,9 @@ public:
   bool Run(ViewFactorClosure::Report& report)
   {
     this->Multipliers = Array::Zero(this->Areas.size());
-    this->ClosedSums = this->Multiply(this->Closed);
-    this->Missing = this->Closed *
-      (this->Areas - this->Multiply(Array::Ones(this->Areas.size())) -
-        this->SumPairs([](const Pair& pair) { return pair.Value; }));
+    this->Sums = this->Multiply(Array::Ones(this->Areas.size()));
+    this->Missing = this->Areas - this->Open - this->Sums -
+      this->SumPairs([](const Pair& pair) { return pair.Value; });
     this->Iterate();
     report.Change = this->Write();
     return this->Ok;
@@ -166,9 +156,21 @@ public:
     return { sums.begin(), sums.end() };
   }
 
+  // After Run: by what each row's openings are to be multiplied.
+  Array GetOpeningScales() const
+  {
+    const Array change = this->GetOpenChange(this->Multipliers);
+    return 1.0 + (this->Open > 0.0).select(change / this->Open, 0.0);
+  }
+
   bool IsOk() const { return this->Ok; }
 
 private:
+  static Eigen::Map<const Array> Map(const std::vector<double>& values)
+  {
+    return { values.data(), static_cast<Eigen::Index>(values.size()) };
+  }
+
   void LiftPairs(const std::vector<PartlyVisiblePair>& pairs)
   {
     std::vector<vtkExchangeMatrix::Tile>& tiles = this->Exchange->GetTiles();
@@ -176,7 +178,7 @@ private:
     {
       const vtkIdType index = this->Exchange->GetTileIndex(pair.I / N, pair.J / N);
       vtkExchangeMatrix::Tile& tile = tiles[index / this->Exchange->GetNumberOfParts()];
-      if (tile.Values && this->Closed[pair.I] > 0.0 && this->Closed[pair.J] > 0.0)
+      if (tile.Values)
       {
         this->Pairs.push_back({ pair.I, pair.J, pair.Value, pair.Error, -pair.Value,
           std::max(0.0, pair.Open - pair.Value), &tile });
@@ -216,27 +218,36 @@ private:
 
   static Array Cut(const Array& l) { return l.max(-0.5).min(0.5); }
 
-  // What is still missing in closed rows.
+  // Of what is open. A row without an opening gets none.
+  Array GetOpenChange(const Array& l) const { return (this->OpenWeights * l).max(-this->Open); }
+
+  Array GetOpenSlope(const Array& l) const
+  {
+    return (this->OpenWeights * l >= -this->Open).select(this->OpenWeights, 0.0);
+  }
+
+  // What is still missing in the rows.
   Array GetResidual(const Array& l)
   {
-    Array change = this->SumPairs([&](const Pair& pair) { return pair.GetChange(l); });
+    Array change =
+      this->GetOpenChange(l) + this->SumPairs([&](const Pair& pair) { return pair.GetChange(l); });
     if (this->RelativeError > 0.0)
     {
-      const Array c = this->Closed * Cut(l);
-      change += this->RelativeError * (this->ClosedSums * c + this->Multiply(c));
+      const Array c = Cut(l);
+      change += this->RelativeError * (this->Sums * c + this->Multiply(c));
     }
-    return this->Missing - this->Closed * change;
+    return this->Missing - change;
   }
 
   // The derivative of the row sums' change at l, times x; `free` is 1 where c still follows l.
   Array ApplyDerivative(const Array& l, const Array& free, const Array& x)
   {
-    Array change =
+    Array change = this->GetOpenSlope(l) * x +
       this->SumPairs([&](const Pair& pair) { return pair.GetSlope(l) * (x[pair.I] + x[pair.J]); });
     if (this->RelativeError > 0.0)
     {
       const Array c = free * x;
-      change += this->RelativeError * free * (this->ClosedSums * c + this->Multiply(c));
+      change += this->RelativeError * free * (this->Sums * c + this->Multiply(c));
     }
     return change;
   }
@@ -244,8 +255,8 @@ private:
   // The step that Newton's method takes at l. Rows in which nothing can move any more stay.
   Array GetStep(const Array& l, const Array& missing)
   {
-    const Array free = this->Closed * (l.abs() < 0.5).cast<double>();
-    const Array diagonal = this->RelativeError * free * this->ClosedSums +
+    const Array free = (l.abs() < 0.5).cast<double>();
+    const Array diagonal = this->RelativeError * free * this->Sums + this->GetOpenSlope(l) +
       this->SumPairs([&](const Pair& pair) { return pair.GetSlope(l); });
     const Array inverse = (diagonal > 0.0).select(1.0 / diagonal, 0.0);
     Array step = Array::Zero(l.size());
@@ -310,14 +321,13 @@ private:
   double Write()
   {
     const auto size = static_cast<Eigen::Index>(this->Exchange->GetNumberOfTileRows() * N);
-    Array closed = Array::Zero(size);
     Array change = Array::Zero(size);
-    closed.head(this->Areas.size()) = this->Closed;
-    change.head(this->Areas.size()) = this->RelativeError * this->Closed * Cut(this->Multipliers);
+    change.head(this->Areas.size()) = this->RelativeError * Cut(this->Multipliers);
     std::vector<vtkExchangeMatrix::Tile>& tiles = this->Exchange->GetTiles();
-    Scaling scaling{ tiles, closed, change, {}, Array::Zero(size) };
+    Scaling scaling{ tiles, change, {}, Array::Zero(size) };
     Threads::For(0, static_cast<vtkIdType>(tiles.size()), 1, scaling);
-    Array moved = this->AddRanks(scaling.TotalMoved.head(this->Areas.size()));
+    Array moved = this->AddRanks(scaling.TotalMoved.head(this->Areas.size())) +
+      this->GetOpenChange(this->Multipliers).abs();
     moved += this->SumPairs(
       [&](const Pair& pair)
       {
@@ -333,23 +343,39 @@ private:
   vtkNew<vtkDenseLinkOperator> Product;
   double RelativeError;
   Array Areas;
-  Array Closed; // 1 in closed rows, else 0
+  ///@{ What meets an opening, and its error.
+  Array Open;
+  Array OpenWeights;
+  ///@}
   std::vector<Pair> Pairs;
-  Array ClosedSums; // of what is in the matrix: with other closed rows
+  Array Sums; // of what is in the matrix
   Array Missing;
   Array Multipliers;
   bool Ok = false;
 };
 
 //------------------------------------------------------------------------------
-void AddRemainders(vtkExchangeMatrix& exchange, const std::vector<bool>& closed,
-  const std::vector<double>& sums)
+// What rounding leaves missing: the openings take it where there are any, else the diagonal.
+void AddRemainders(Links& links)
 {
-  std::vector<double> remainders(sums.size(), 0.0);
-  for (std::size_t row = 0; row < sums.size(); ++row)
+  vtkExchangeMatrix& exchange = *links.Matrix;
+  std::vector<double> remainders(links.RowSums.size(), 0.0);
+  for (std::size_t row = 0; row < remainders.size(); ++row)
   {
-    const double missing = 1.0 - sums[row];
-    if (closed[row] && std::abs(missing) <= Rounding)
+    double& sky = links.SkyFractions[row];
+    double& back = links.BackFaceFractions[row];
+    const double open = sky + back;
+    const double missing = 1.0 - links.RowSums[row] - open;
+    if (std::abs(missing) > Rounding)
+    {
+      continue;
+    }
+    if (open > Rounding)
+    {
+      sky *= 1.0 + missing / open;
+      back *= 1.0 + missing / open;
+    }
+    else
     {
       remainders[row] = missing * exchange.GetAreas()[row];
     }
@@ -358,15 +384,15 @@ void AddRemainders(vtkExchangeMatrix& exchange, const std::vector<bool>& closed,
 }
 
 //------------------------------------------------------------------------------
-// Those that see no opening.
-std::vector<bool> FindClosedRows(const Links& links)
+double GetLargestGap(const Links& links)
 {
-  std::vector<bool> closed(links.RowSums.size());
-  for (std::size_t row = 0; row < closed.size(); ++row)
+  double gap = 0.0;
+  for (std::size_t row = 0; row < links.RowSums.size(); ++row)
   {
-    closed[row] = links.SkyFractions[row] + links.BackFaceFractions[row] == 0.0;
+    gap = std::max(gap,
+      std::abs(1.0 - links.RowSums[row] - links.SkyFractions[row] - links.BackFaceFractions[row]));
   }
-  return closed;
+  return gap;
 }
 
 //------------------------------------------------------------------------------
@@ -376,71 +402,141 @@ void Summarize(const ViewFactorClosure::Report& report, Links& links)
   links.Summaries.emplace_back("ClosureChange", report.Change);
   links.Summaries.emplace_back("ClosureGap", report.Gap);
 }
+
+//------------------------------------------------------------------------------
+// Symmetric scaling of the links between clusters.
+class Balancing
+{
+public:
+  Balancing(Links& links, const Ranks& ranks)
+    : AllLinks(links), Hierarchy(links.Hierarchy), Areas(this->Hierarchy->GetAreas()),
+      Product(LinkOperators::MakeOnCPU(this->Hierarchy, 1, ranks)), Sums(this->Areas.size(), 1.0),
+      Open(this->Areas.size()),
+      Good(this->Product && this->Product->SetVector(0, this->Sums.data()))
+  {
+    for (std::size_t row = 0; row < this->Open.size(); ++row)
+    {
+      this->Open[row] = links.SkyFractions[row] + links.BackFaceFractions[row];
+    }
+  }
+
+  bool Run(ViewFactorClosure::Report& report)
+  {
+    double last = std::numeric_limits<double>::max();
+    for (int step = 0; step <= MaximumScalings; ++step)
+    {
+      report.Gap = this->FindGap();
+      if (!this->Good || report.Gap <= ScaledGap || report.Gap > SlowestGain * last)
+      {
+        break;
+      }
+      last = report.Gap;
+      this->ScaleWeights([](double sum) { return sum > 0.0 ? 1.0 / std::sqrt(sum) : 1.0; });
+    }
+    if (this->Good && report.Gap > ScaledGap)
+    {
+      // Some cannot be closed; none may be overfull, nor does this make another so.
+      this->ScaleWeights([](double sum) { return 1.0 / std::max(sum, 1.0); });
+      report.Gap = this->FindGap();
+    }
+    this->Finish(report);
+    return this->Good;
+  }
+
+private:
+  double GetOpenScale(std::size_t row) const
+  {
+    return this->Hierarchy->GetWeights()[row] / this->Areas[row];
+  }
+
+  // The rows as they are. One without links and openings stays empty.
+  double FindGap()
+  {
+    this->Good =
+      this->Good && this->Product->Multiply(1, 0) && this->Product->GetVector(1, this->Sums.data());
+    double gap = 0.0;
+    for (std::size_t row = 0; this->Good && row < this->Sums.size(); ++row)
+    {
+      this->Sums[row] /= this->Areas[row];
+      const double whole = this->GetWhole(row);
+      gap = std::max(gap, whole > 0.0 ? std::abs(1.0 - whole) : 0.0);
+    }
+    return gap;
+  }
+
+  double GetWhole(std::size_t row) const
+  {
+    return this->Sums[row] + this->Open[row] * this->GetOpenScale(row);
+  }
+
+  template <typename Scale>
+  void ScaleWeights(const Scale& scale)
+  {
+    std::vector<double> weights = this->Hierarchy->GetWeights();
+    for (std::size_t row = 0; row < weights.size(); ++row)
+    {
+      weights[row] *= scale(this->GetWhole(row));
+    }
+    this->Hierarchy->SetWeights(weights);
+  }
+
+  void Finish(ViewFactorClosure::Report& report)
+  {
+    for (std::size_t row = 0; row < this->Sums.size(); ++row)
+    {
+      report.Change =
+        std::max(report.Change, std::abs(this->Sums[row] - this->AllLinks.RowSums[row]));
+      this->AllLinks.SkyFractions[row] *= this->GetOpenScale(row);
+      this->AllLinks.BackFaceFractions[row] *= this->GetOpenScale(row);
+    }
+    this->AllLinks.RowSums = this->Sums;
+  }
+
+  Links& AllLinks;
+  vtkExchangeHierarchy* Hierarchy;
+  const std::vector<double>& Areas;
+  vtkSmartPointer<vtkCPULinkOperator> Product;
+  std::vector<double> Sums; ///< of the rows
+  std::vector<double> Open; ///< fractions before
+  bool Good;
+};
 } // namespace
 
 //------------------------------------------------------------------------------
 Outcome ViewFactorClosure::Close(Links& links, const std::vector<PartlyVisiblePair>& pairs,
-  const std::vector<bool>& closed, double relativeError, const Ranks& ranks, Report& report)
+  const std::vector<double>& openingErrors, double relativeError, const Ranks& ranks,
+  Report& report)
 {
-  Closing closing(links.Matrix, pairs, closed, relativeError, ranks);
+  Closing closing(links, pairs, openingErrors, relativeError, ranks);
   if (!closing.Run(report))
   {
     return Outcome::FailedAsReported();
   }
-  AddRemainders(*links.Matrix, closed, closing.GetRowSums());
-  links.RowSums = closing.GetRowSums();
-  report.Gap = 0.0;
-  for (std::size_t row = 0; row < closed.size(); ++row)
+  const Array scales = closing.GetOpeningScales();
+  for (std::size_t row = 0; row < links.RowSums.size(); ++row)
   {
-    report.Gap = std::max(report.Gap, closed[row] ? std::abs(1.0 - links.RowSums[row]) : 0.0);
+    links.SkyFractions[row] *= scales[static_cast<Eigen::Index>(row)];
+    links.BackFaceFractions[row] *= scales[static_cast<Eigen::Index>(row)];
   }
+  links.RowSums = closing.GetRowSums();
+  AddRemainders(links);
+  links.RowSums = closing.GetRowSums();
+  report.Gap = GetLargestGap(links);
   return closing.IsOk() ? Outcome::Done() : Outcome::FailedAsReported();
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorClosure::Scale(Links& links, const std::vector<bool>& closed, const Ranks& ranks,
-  Report& report)
+Outcome ViewFactorClosure::Scale(Links& links, const Ranks& ranks, Report& report)
 {
-  vtkExchangeHierarchy* hierarchy = links.Hierarchy;
-  const std::vector<double>& areas = hierarchy->GetAreas();
-  auto product = LinkOperators::MakeOnCPU(hierarchy, 1, ranks);
-  std::vector<double> sums(areas.size(), 1.0);
-  bool good = product && product->SetVector(0, sums.data());
-  std::vector<double> weights = hierarchy->GetWeights();
-  double last = std::numeric_limits<double>::max();
-  for (int step = 0; good && step <= MaximumScalings; ++step)
-  {
-    good = product->Multiply(1, 0) && product->GetVector(1, sums.data());
-    report.Gap = 0.0;
-    for (std::size_t row = 0; row < areas.size(); ++row)
-    {
-      sums[row] /= areas[row];
-      // A row without links stays one.
-      const bool scales = (closed[row] && sums[row] > 0.0) || sums[row] > 1.0;
-      report.Gap = std::max(report.Gap, scales ? std::abs(1.0 - sums[row]) : 0.0);
-      weights[row] *= scales ? 1.0 / std::sqrt(sums[row]) : 1.0;
-    }
-    if (report.Gap <= ScaledGap || step == MaximumScalings || report.Gap > SlowestGain * last)
-    {
-      break;
-    }
-    last = report.Gap;
-    hierarchy->SetWeights(weights);
-  }
-  for (std::size_t row = 0; row < areas.size(); ++row)
-  {
-    report.Change = std::max(report.Change, std::abs(sums[row] - links.RowSums[row]));
-  }
-  links.RowSums = sums;
-  return good ? Outcome::Done() : Outcome::FailedAsReported();
+  return Balancing(links, ranks).Run(report) ? Outcome::Done() : Outcome::FailedAsReported();
 }
 
 //------------------------------------------------------------------------------
 Outcome ViewFactorClosure::CloseMatrix(Links& links, const std::vector<PartlyVisiblePair>& pairs,
-  double tolerance, const Ranks& ranks)
+  const std::vector<double>& openingErrors, double tolerance, const Ranks& ranks)
 {
   Report report;
-  Outcome closed = Close(links, pairs, FindClosedRows(links),
+  Outcome closed = Close(links, pairs, openingErrors,
     ViewFactorAssembly::OpenShare * tolerance + SinglePrecision, ranks, report);
   if (closed)
   {
@@ -453,7 +549,7 @@ Outcome ViewFactorClosure::CloseMatrix(Links& links, const std::vector<PartlyVis
 Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const Ranks& ranks)
 {
   Report report;
-  Outcome scaled = Scale(links, FindClosedRows(links), ranks, report);
+  Outcome scaled = Scale(links, ranks, report);
   if (scaled)
   {
     Summarize(report, links);

@@ -28,7 +28,7 @@ using Tile = vtkExchangeMatrix::Tile;
 constexpr int N = vtkExchangeMatrix::TileSize;
 constexpr std::size_t LineLength = 40;
 constexpr char Format[] = "vtkLightTransport view factors ";
-constexpr char Version[] = "2";
+constexpr char Version[] = "3";
 constexpr Count ByteOrder = 0x0102030405060708;
 constexpr Count SwappedByteOrder = 0x0807060504030201;
 
@@ -61,7 +61,8 @@ constexpr Count BytesPerTile = sizeof(TileName) + sizeof(float) * N * N;
 /// One value for each patch.
 using Row = std::vector<double> Links::*;
 constexpr Row Rows[] = { &Links::RawRowSums, &Links::RowSums, &Links::RowErrors,
-  &Links::SkyFractions, &Links::BackFaceFractions };
+  &Links::SkyFractions, &Links::BackFaceFractions, &Links::OpeningErrors, &Links::FrontHits,
+  &Links::BackHits };
 /// Beside the rows: areas and remainders.
 constexpr Count BytesPerPatch = sizeof(double) * (2 + std::size(Rows));
 /// The largest remainder of a row, relative to its area.

@@ -8,7 +8,8 @@
  *  - a line of 40 characters, "vtkLightTransport view factors" and the version, padded with blanks;
  *  - 0x0102030405060708, TileSize, fingerprint, tolerance, numbers of patches, summaries and tiles;
  *  - double precision, one per patch: areas, raw row sums, row sums, row errors, sky fractions,
- *    back face fractions, remainders of the diagonal (vtkExchangeMatrix::GetRemainders);
+ *    back face fractions, errors of the fractions, numbers of rays that met fronts and backs,
+ *    remainders of the diagonal (vtkExchangeMatrix::GetRemainders);
  *  - each summary: the length of its name, the name, the value;
  *  - each stored tile: row, column, TileSize x TileSize values in single precision, row by row; in
  *    the order of vtkExchangeMatrix::GetTiles;

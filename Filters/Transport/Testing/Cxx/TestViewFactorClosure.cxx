@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The closure of view factors, on the matrix of a sphere's inside: there G_ij = A_i A_j / (sum A)
-// is exact, whatever the division into patches. Likewise with a smaller sphere within.
+// is exact, whatever the division into patches. Likewise with a smaller sphere within, and with a
+// hole in the sphere.
 #include "LightTransportTesting.h"
 #include "Links/Links.h"
 #include "OutcomeTesting.h"
@@ -28,7 +29,7 @@ constexpr double Double = 2e-15;
 // where the exact value is half of what is open.
 struct Case
 {
-  explicit Case(vtkIdType patches) : Areas(patches), Closed(patches, true)
+  explicit Case(vtkIdType patches) : Areas(patches), Open(patches, 0.0), OpeningErrors(patches, 0.0)
   {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> uniform(0.5, 1.5);
@@ -43,6 +44,19 @@ struct Case
     this->Inner = inner;
     this->InnerArea = std::accumulate(this->Areas.begin(), this->Areas.begin() + inner, 0.0);
     this->Total -= this->InnerArea;
+  }
+
+  // What all rows miss: through a hole of some part of the sphere. As known, within an error.
+  void SetHole(double part, double error)
+  {
+    this->Total /= 1.0 - part;
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (double& open : this->Open)
+    {
+      open = part + error * uniform(generator);
+    }
+    this->OpeningErrors.assign(this->Areas.size(), error);
   }
 
   double GetExact(vtkIdType i, vtkIdType j) const
@@ -76,6 +90,12 @@ struct Case
   Links MakeResult(std::vector<PartlyVisiblePair>& pairs, int part = 0, int parts = 1) const
   {
     Links result;
+    result.RowSums.assign(this->Areas.size(), 0.0);
+    for (const double open : this->Open)
+    {
+      result.SkyFractions.push_back(0.75 * open);
+      result.BackFaceFractions.push_back(0.25 * open);
+    }
     result.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
     Check(result.Matrix->Allocate(this->Areas, 1, part, parts), "allocation");
     for (vtkExchangeMatrix::Tile& tile : result.Matrix->GetTiles())
@@ -115,15 +135,17 @@ struct Case
     std::vector<PartlyVisiblePair> pairs;
     result = this->MakeResult(pairs);
     ViewFactorClosure::Report report;
-    CheckDone(ViewFactorClosure::Close(result, pairs, this->Closed, relativeError, Ranks(), report),
+    CheckDone(
+      ViewFactorClosure::Close(result, pairs, this->OpeningErrors, relativeError, Ranks(), report),
       "closure");
     return report;
   }
 
   std::vector<double> Areas;
-  std::vector<bool> Closed;
+  std::vector<double> Open; ///< what each row is said to miss
+  std::vector<double> OpeningErrors;
   std::vector<PartlyVisiblePair> Pairs;
-  double Total = 0.0; // area of the outer sphere
+  double Total = 0.0; // area of the outer sphere, the hole included
   vtkIdType Inner = 0;
   double InnerArea = 0.0;
 };
@@ -230,7 +252,7 @@ void TestSphereWithinSphere()
       });
   }
   ViewFactorClosure::Report report;
-  CheckDone(ViewFactorClosure::Close(result, pairs, scene.Closed, 1e-4, Ranks(), report),
+  CheckDone(ViewFactorClosure::Close(result, pairs, scene.OpeningErrors, 1e-4, Ranks(), report),
     "closure");
   Check(report.Gap < Double, "sphere within a sphere");
   const Comparison comparison = Compare(scene, result);
@@ -295,29 +317,64 @@ void TestBounds()
 }
 
 //------------------------------------------------------------------------------
-// An open row keeps its sum and its entries to the last bit.
-void TestOpenRows()
+double SumWithOpenings(const Links& result, vtkIdType i)
 {
-  Case scene(300);
-  scene.Perturb(5, 0.3);
-  for (vtkIdType i = 0; i < 300; i += 10)
-  {
-    scene.Closed[i] = false;
-  }
-  std::vector<PartlyVisiblePair> pairs;
-  const Links before = scene.MakeResult(pairs);
+  return SumRow(result, i) + result.SkyFractions[i] + result.BackFaceFractions[i];
+}
+
+//------------------------------------------------------------------------------
+// Through a hole: what is open moves by its own error, the pairs by theirs, each by the multipliers
+// of its rows, which is what makes the weighted squares smallest. The sky is three quarters of it.
+void TestHole()
+{
+  Case scene(60);
+  scene.SetHole(0.3, 0.05);
+  scene.Perturb(1, 0.1);
   Links result;
-  const ViewFactorClosure::Report report = scene.Close(result, 1e-5);
-  Check(report.Gap < Double, "closed rows beside open ones");
-  for (vtkIdType i = 0; i < 300; ++i)
+  const ViewFactorClosure::Report report = scene.Close(result, 0.0);
+  Check(report.Gap < Double, "rows with openings are closed");
+  double before = 0.0, after = 0.0;
+  std::vector<double> multipliers;
+  for (vtkIdType i = 0; i < 60; ++i)
   {
-    for (vtkIdType j = 0; !scene.Closed[i] && j < 300; ++j)
-    {
-      Check(result.Matrix->GetValue(i, j) == before.Matrix->GetValue(i, j),
-        "entries of open rows stay");
-    }
-    CheckClose(SumRow(result, i), scene.Closed[i] ? 1.0 : SumRow(before, i), Double, "row sum");
+    CheckClose(SumWithOpenings(result, i), 1.0, Double, "row with its openings");
+    const double open = result.SkyFractions[i] + result.BackFaceFractions[i];
+    CheckClose(result.SkyFractions[i], 0.75 * open, 1e-12, "sky and back faces in proportion");
+    before += std::pow(scene.Open[i] - 0.3, 2);
+    after += std::pow(open - 0.3, 2);
+    multipliers.push_back((open - scene.Open[i]) / scene.OpeningErrors[i]);
   }
+  Check(after < 0.5 * before, "the openings are closer to the exact ones");
+  for (const PartlyVisiblePair& pair : scene.Pairs)
+  {
+    const double change = (result.Matrix->GetValue(pair.I, pair.J) - pair.Value) / pair.Error;
+    CheckClose(change - multipliers[pair.I] - multipliers[pair.J], 0.0, 1e-4,
+      "pairs move as their rows do");
+  }
+}
+
+//------------------------------------------------------------------------------
+// Openings that are not there go to nothing, no further; patches that see nothing else are left.
+void TestBoundsOfOpenings()
+{
+  Case scene(50);
+  scene.Perturb(1, 0.2);
+  scene.Open.assign(50, 0.02);
+  scene.OpeningErrors.assign(50, 10.0);
+  Links result;
+  Check(scene.Close(result, 1e-6).Gap < Double, "closed with openings at their bounds");
+  for (vtkIdType i = 0; i < 50; ++i)
+  {
+    Check(result.SkyFractions[i] >= 0.0 && result.BackFaceFractions[i] >= 0.0, "no negative share");
+    CheckClose(SumWithOpenings(result, i), 1.0, Double, "row with openings at their bounds");
+  }
+
+  Case lonely(3);
+  lonely.Total = 1e30;
+  lonely.Open.assign(3, 0.97);
+  lonely.OpeningErrors.assign(3, 0.05);
+  Check(lonely.Close(result, 1e-3).Gap < Double, "rows that see nothing but openings");
+  CheckClose(result.SkyFractions[1], 0.75, 1e-7, "sky of a row without links");
 }
 
 //------------------------------------------------------------------------------
@@ -365,11 +422,9 @@ void TestNothing()
   Links result;
   ViewFactorClosure::Report report = scene.Close(result, 1e-3);
   Check(report.Change < 1e-7 && report.Gap < Double, "a matrix that is closed stays");
-  scene.Closed.assign(50, false);
-  scene.Perturb(2, 0.5);
+  scene.SetHole(0.4, 0.0);
   report = scene.Close(result, 1e-3);
-  Check(report.Change == 0.0 && report.Gap == 0.0, "an open scene stays");
-  CheckClose(result.RowSums[3], SumRow(result, 3), 1e-13, "row sums of an open scene");
+  Check(report.Change < 1e-7 && report.Gap < Double, "an open scene that is closed stays");
 }
 
 //------------------------------------------------------------------------------
@@ -388,7 +443,7 @@ void TestRanks()
       std::vector<PartlyVisiblePair> pairs;
       results[rank] = scene.MakeResult(pairs, rank, ranks);
       ViewFactorClosure::Report report;
-      CheckDone(ViewFactorClosure::Close(results[rank], pairs, scene.Closed, 1e-5,
+      CheckDone(ViewFactorClosure::Close(results[rank], pairs, scene.OpeningErrors, 1e-5,
                   Ranks(controller), report),
         "closure on several ranks");
       CheckClose(report.Change, expected.Change, 1e-6, "change on several ranks");
@@ -419,7 +474,8 @@ int TestViewFactorClosure(int, char*[])
   TestLeastSquares();
   TestSphereWithinSphere();
   TestBounds();
-  TestOpenRows();
+  TestHole();
+  TestBoundsOfOpenings();
   TestUnclosable();
   TestNothing();
   TestRanks();

@@ -80,9 +80,10 @@ void TestHalfOccluded()
   {
     factors->SetTolerance(tolerance);
     factors->Update();
-    const double error = GetCell(factors, "ViewFactorError", 0);
+    // The upper plate sees no back face: what it misses is as well known as what it sees.
+    const double error = GetCell(factors, "ViewFactorError", 1);
     Check(error > 0.0 && error <= tolerance, "the row keeps its tolerance");
-    CheckClose(factors->GetViewFactor(0, 1), 0.5 * open, error / open, "half occluded pair");
+    CheckClose(factors->GetViewFactor(1, 0), 0.5 * open, error / open, "half occluded pair");
   }
   Check(GetSummary(factors->GetPolyDataOutput(), "PairsPartlyVisible") >= 1.0,
     "partly visible pairs are counted");

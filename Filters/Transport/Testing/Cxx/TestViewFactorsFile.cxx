@@ -65,8 +65,9 @@ Links MakeResult(vtkIdType patches)
   result.Tolerance = 1e-4;
   result.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
   result.Matrix->AllocateSparse(row(), 1);
-  for (auto* values : { &result.RawRowSums, &result.RowSums, &result.RowErrors,
-         &result.SkyFractions, &result.BackFaceFractions })
+  for (auto* values :
+    { &result.RawRowSums, &result.RowSums, &result.RowErrors, &result.SkyFractions,
+      &result.BackFaceFractions, &result.OpeningErrors, &result.FrontHits, &result.BackHits })
   {
     *values = row();
   }
@@ -123,8 +124,9 @@ bool IsSame(const Links& a, const Links& b)
   return a.Fingerprint == b.Fingerprint && a.Tolerance == b.Tolerance &&
     IsSame(a.RawRowSums, b.RawRowSums) && IsSame(a.RowSums, b.RowSums) &&
     IsSame(a.RowErrors, b.RowErrors) && IsSame(a.SkyFractions, b.SkyFractions) &&
-    IsSame(a.BackFaceFractions, b.BackFaceFractions) && a.Summaries == b.Summaries &&
-    IsSame(a.Matrix, b.Matrix);
+    IsSame(a.BackFaceFractions, b.BackFaceFractions) && IsSame(a.OpeningErrors, b.OpeningErrors) &&
+    IsSame(a.FrontHits, b.FrontHits) && IsSame(a.BackHits, b.BackHits) &&
+    a.Summaries == b.Summaries && IsSame(a.Matrix, b.Matrix);
 }
 
 //------------------------------------------------------------------------------
@@ -172,7 +174,7 @@ std::string Sign(std::string bytes)
   std::uint64_t patches, summaries, length;
   std::memcpy(&patches, &bytes[Patches], 8);
   std::memcpy(&summaries, &bytes[Summaries], 8);
-  std::size_t next = Areas + 56 * patches;
+  std::size_t next = Areas + 80 * patches;
   add(bytes.data(), next);
   for (; summaries > 0; --summaries)
   {
@@ -214,11 +216,11 @@ void TestRoundTrip(const Folder& folder)
     Check(folder.GetNumberOfFiles() == 1, what + "one file");
   }
   const std::string bytes = GetBytes(name);
-  Check(bytes.rfind("vtkLightTransport view factors 2", 0) == 0 && bytes[Line - 1] == '\n',
+  Check(bytes.rfind("vtkLightTransport view factors 3", 0) == 0 && bytes[Line - 1] == '\n',
     "a line to read");
   const Links result = MakeResult(1000);
   CheckClose(static_cast<double>(bytes.size()),
-    Areas + 56.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Matrix->GetNumberOfStoredTiles() +
+    Areas + 80.0 * 1000 + 3 * 16 + 13 + 15 + 16.0 * result.Matrix->GetNumberOfStoredTiles() +
       result.Matrix->GetNumberOfBytes() + 8,
     0.0, "length of the file");
   Check(Sign(bytes) == bytes, "the checksum is what its description says");
@@ -230,8 +232,8 @@ void TestTruncation(const Folder& folder, const std::string& bytes)
   const std::string name = folder.Get("short");
   const std::size_t end = bytes.size();
   for (const std::size_t length : { std::size_t(0), std::size_t(1), std::size_t(31), Line, Line + 1,
-         Order + 8, Tiles, Areas - 1, Areas, Areas + 8, Areas + 56 * 300 - 1, Areas + 56 * 300,
-         Areas + 56 * 300 + 8, Areas + 56 * 300 + 60, Areas + 56 * 300 + 90, end - 4 * N * N - 30,
+         Order + 8, Tiles, Areas - 1, Areas, Areas + 8, Areas + 80 * 300 - 1, Areas + 80 * 300,
+         Areas + 80 * 300 + 8, Areas + 80 * 300 + 60, Areas + 80 * 300 + 90, end - 4 * N * N - 30,
          end - 4 * N * N - 9, end - 4 * N * N - 8, end - 12, end - 8, end - 1 })
   {
     PutBytes(name, bytes.substr(0, length));
@@ -251,7 +253,7 @@ void TestFlippedBytes(const Folder& folder, const std::string& bytes)
   for (std::size_t k = 0; k < 900; ++k)
   {
     const std::size_t offset = k < Areas + 16 ? k
-      : k < 600                               ? generator() % (Areas + 56 * 300 + 100)
+      : k < 600                               ? generator() % (Areas + 80 * 300 + 100)
                                               : generator() % bytes.size();
     std::string damaged = bytes;
     damaged[offset] = static_cast<char>(damaged[offset] ^ (1 << (generator() % 8)));
@@ -285,7 +287,7 @@ void TestMadeUp(const Folder& folder, const std::string& bytes)
     expect(Replace(bytes, Tiles, count), "cut short", "tiles that are not there");
     expect(Replace(bytes, Summaries, count), count == 301 ? "" : "damaged",
       "summaries that are not there");
-    expect(Replace(bytes, Areas + 56 * 300, count), count == 301 ? "" : "damaged",
+    expect(Replace(bytes, Areas + 80 * 300, count), count == 301 ? "" : "damaged",
       "a name that is not there");
     expect(Replace(bytes, Patches, count), count == 301 ? "" : "cut short",
       "patches that are not there");
@@ -302,13 +304,13 @@ void TestMadeUp(const Folder& folder, const std::string& bytes)
         "a row value that cannot be");
     }
   }
-  for (std::size_t row = 4; row < 6; ++row)
+  for (std::size_t row = 4; row < 9; ++row)
   {
     expect(Sign(Replace(bytes, Areas + 8 * (300 * row + 299), nan)), "areas or sums", "a NaN");
   }
   for (const double value : { nan, infinity, 1e-3, -1e-3 })
   {
-    expect(Sign(Replace(bytes, Areas + 8 * (300 * 6 + 11), value)), "areas or sums",
+    expect(Sign(Replace(bytes, Areas + 8 * (300 * 9 + 11), value)), "areas or sums",
       "a remainder that cannot be");
   }
 
@@ -346,7 +348,7 @@ void TestMemory(const Folder& folder, const std::string& bytes)
   head = Replace(head, Tiles, std::uint64_t(0));
   PutBytes(name, head);
   std::error_code problem;
-  fs::resize_file(fs::u8path(name), Areas + 56 * patches + 8, problem);
+  fs::resize_file(fs::u8path(name), Areas + 80 * patches + 8, problem);
   if (!problem)
   {
     ExpectError(name, "of memory", "a great many patches");
@@ -365,8 +367,8 @@ void TestForeign(const Folder& folder, const std::string& bytes)
   };
   expect(std::string(100000, '\0'), "not a file of view factors", "zeros");
   expect("# vtk DataFile Version 5.1\n", "not a file of view factors", "another format");
-  expect(Replace(bytes, 31, '3'), "not version 2", "a later version");
-  expect(Replace(bytes, Order + 8, std::uint64_t(128)), "not version 2", "another size of tiles");
+  expect(Replace(bytes, 31, '4'), "not version 3", "a later version");
+  expect(Replace(bytes, Order + 8, std::uint64_t(128)), "not version 3", "another size of tiles");
   std::string swapped = bytes;
   for (std::size_t word = Order; word < Areas; word += 8)
   {
