@@ -157,8 +157,9 @@ public:
    * receives its "SkyFraction" (vtkViewFactors) times sigma T^4 W/m2, where T is the background's
    * temperature in kelvin (with BandLimits the part of each band), plus its sky fraction times pi
    * times the background's radiance, in the unit of the emission per steradian, one value per band
-   * or one for all. It is part of "Irradiance", and enters no closed scene. A patch that sees both
-   * sky and back faces knows its sky fraction from 128 rays only. Defaults 0 K, range 0
+   * or one for all. It is part of "Irradiance", and enters no closed scene. Where rows are
+   * closed (EnforceClosure, hierarchical links) a black scene as warm as its background exchanges
+   * nothing with it, to rounding; else to a small part of ViewFactorTolerance. Defaults 0 K, range 0
    * to 1e30, and none.
    */
   vtkSetClampMacro(BackgroundTemperature, double, 0.0, 1e30);

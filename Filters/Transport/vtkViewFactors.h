@@ -22,19 +22,25 @@
  * Output port 0: the input with the cell arrays
  *   - "ViewFactorSum" (1 component): sum_j F_ij as computed, before any closure. 1 in a closed
  * scene.
- *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|.
- *   - "SkyFraction" (1): the part of the missing 1 - ViewFactorSum that leaves the scene.
- *   - "BackFaceFraction" (1): the part of it that meets back faces. Where less is missing than
- * "ViewFactorError" both are 0; how more divides is sampled with 128 rays (Embree).
+ *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|, or where that is larger of the error
+ * of the next two, or of what is missing to 1 in the sum of all three.
+ *   - "SkyFraction" (1): the part of what leaves the patch that leaves the scene.
+ *   - "BackFaceFraction" (1): the part that meets back faces. Both are integrated on their own, by
+ * eight sets of scrambled Sobol' rays (Embree) that tell their own error, and combined with
+ * 1 - ViewFactorSum by the variances of both, until they keep the Tolerance too, or 100 / Tolerance
+ * rays of a patch (65,536 at most) are used up. A row that misses no more than its error, and where
+ * 128 rays find no opening, has none. Under a closure they are what is applied.
  * and field data:
  *   - PairsExamined = PairsBackFacing (also those in one plane) + PairsFacing; PairsNotSending were
  * not examined (vtkRadiosity only).
  *   - of the facing ones PairsUnobstructed (nothing reaches into the shaft between them),
  * PairsHidden and PairsPartlyVisible; the rest has something near that hides nothing.
+ *   - RowGap: how much what the rays found and what row sums miss differ at most, beyond the errors of
+ * both. 0 where all agrees.
  *   - RaysCast, ViewFactorSeconds, MatrixBytes (tiles of 256 x 256 pairs that are all zero are not
  * stored), DenseMatrixBytes.
  *   - ClosureChange (largest sum of the absolute changes of a row of F), ClosureGap (largest
- * |1 - sum| left in a row that should be closed).
+ * |1 - sum| left in a row, sky and back faces included).
  *
  * Output port 1: vtkTable, view factors between groups: columns "Group", "Area" (input unit
  * squared), one per receiving group, "Sky" and "BackFace".
@@ -79,10 +85,11 @@ public:
 
   ///@{
   /**
-   * Make the rows of patches that see no opening sum to 1 and keep the matrix symmetric, moving
-   * each entry in proportion to its error estimate (least squares: van Leersum 1989), never below
-   * 0 or above its value with nothing in between. Rows that see the sky or back faces stay as they
-   * are. Default off; the field data arrays ClosureChange and ClosureGap tell how far it went.
+   * Make each row sum to 1 with its sky and back faces and keep the matrix symmetric, moving each
+   * entry in proportion to its error estimate (least squares: van Leersum 1989), never below 0 or
+   * above its value with nothing in between; what is open in a row is one more entry, divided
+   * between "SkyFraction" and "BackFaceFraction" as before. Default off; the field data arrays
+   * ClosureChange and ClosureGap tell how far it went.
    */
   vtkSetMacro(EnforceClosure, bool);
   vtkGetMacro(EnforceClosure, bool);
@@ -98,17 +105,17 @@ public:
    * the same everywhere. It is an estimate from the samples that decide which links there are;
    * single patches may be off by much more.
    *
-   * Rows that sum to more than 1 are scaled down to 1, and rows that see no opening to 1, whether
-   * EnforceClosure is on or not (by weights of the patches: the links stay symmetric). Light that
-   * is reflected often would add up the errors of rows, and closing takes away most of what links
-   * leave out: in a scene without openings there are fewer of them, and LinkTolerance then bounds
-   * the error of the radiosity in a room lit by a lamp. "ViewFactorSum" is the sum before.
+   * Rows are closed, whether EnforceClosure is on or not: the weights of the patches are scaled until
+   * each row sums to 1 with its sky and back faces (Sinkhorn and Knopp 1967; the links stay
+   * symmetric). Light that is reflected often would add up the errors of rows, and closing takes
+   * away most of what links leave out: LinkTolerance then bounds the error of the radiosity by even
+   * light and by the sky, and in a room lit by a lamp. "ViewFactorSum" and the two fractions are what
+   * is applied; "ViewFactorError" is a root mean square for all rows.
    *
    * Field data are ClusterTreeUsed ("Spatial" or "Atlas"), PairsExamined, PairsBackFacing and
    * PairsUnobstructed (pairs of clusters), LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of
    * which between two patches), LinkError (the estimate), ClosureChange (largest change of a row
-   * sum), ClosureGap, MatrixBytes, DenseMatrixBytes and ViewFactorSeconds. "SkyFraction" and
-   * "BackFaceFraction" come from 512 rays a patch.
+   * sum), ClosureGap, RaysCast, RowGap, MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
    */
   vtkSetMacro(Hierarchical, bool);
   vtkGetMacro(Hierarchical, bool);

@@ -125,17 +125,13 @@ Outcome FindOpenings(const PatchScene& scene, const Ranks& ranks, Links& links,
   std::vector<double>& errors)
 {
   bool isOpen = false;
-  double excess = 0.0;
   for (std::size_t row = 0; row < links.RowSums.size(); ++row)
   {
-    const double missing = 1.0 - links.RowSums[row];
-    isOpen = isOpen || missing > links.RowErrors[row];
-    excess = std::max(excess, -missing - links.RowErrors[row]);
+    isOpen = isOpen || 1.0 - links.RowSums[row] > links.RowErrors[row];
   }
   if (!isOpen)
   {
-    links.Summaries.emplace_back("RaysCast", 0.0);
-    links.Summaries.emplace_back("RowGap", excess);
+    Openings::Skip(links.RowErrors, links);
     return Outcome::Done();
   }
   SceneRayCaster caster;

@@ -86,7 +86,7 @@ Outcome HierarchicalViewFactors::Build(const PatchScene& scene, const Ranks& ran
   }
   const Openings openings(scene, caster);
   const bool hasOpenings = openings.Exist();
-  refinement.SetClosesRows(!hasOpenings);
+  refinement.SetHasOpenings(hasOpenings);
   const double available = MemoryForLinks * TransportMemory::GetAvailableBytes();
   Outcome outcome =
     refinement.Refine(this->Tolerance, available, ranks, monitor.GetStage(0.0, RefineDone));
@@ -101,16 +101,22 @@ Outcome HierarchicalViewFactors::Build(const PatchScene& scene, const Ranks& ran
   {
     return outcome;
   }
-  links.RawRowSums = links.RowSums;
-  Openings::Clear(links);
   if (hasOpenings)
   {
     openings.CompleteClusters(this->Tolerance, refinement.GetRowDeviation(), ranks, links);
+  }
+  else
+  {
+    Openings::Skip(std::vector<double>(links.RowSums.size(),
+                     Openings::Confidence * refinement.GetRowDeviation()),
+      links);
   }
   if (Outcome closed = ViewFactorClosure::ScaleHierarchy(links, ranks); !closed)
   {
     return closed;
   }
+  // No other weights than those of the closed rows are ever in use.
+  links.RawRowSums = links.RowSums;
   links.Summaries.emplace_back("ViewFactorSeconds", vtkTimerLog::GetUniversalTime() - begin);
   return monitor.Check(1.0);
 }

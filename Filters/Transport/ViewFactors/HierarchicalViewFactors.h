@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// View factors between clusters of patches, in an exchange hierarchy (LinkRefinement). Rows are
-/// always closed: those that see no opening sum to 1, others to no more.
+/// always closed: with what they see of the sky and of back faces they sum to 1.
 #ifndef HierarchicalViewFactors_h
 #define HierarchicalViewFactors_h
 

@@ -64,9 +64,9 @@ public:
   /// A radiosity for each patch (>= 0) that counts instead of 1 everywhere.
   void SetBrightness(const std::vector<double>& brightness);
 
-  /// Whether the rows of the links will be closed afterwards in a scene without openings: what the
-  /// links of a cluster leave out with one sign is then brought in.
-  void SetClosesRows(bool closes) { this->ClosesRows = closes; }
+  /// Whether the scene has openings. The closure of the rows brings in what the links of a cluster
+  /// leave out with one sign; with openings a little less of it.
+  void SetHasOpenings(bool has) { this->HasOpenings = has; }
 
   /// The nodes of the scene's tree in the form of vtkExchangeHierarchy.
   std::vector<vtkExchangeHierarchy::Node> GetNodes() const;
@@ -82,7 +82,8 @@ public:
   const std::vector<vtkExchangeHierarchy::Link>& GetLinks() const { return this->Links; }
   /// Of all ranks.
   const Counters& GetCounters() const { return this->Total; }
-  /// Root mean square error of the irradiance, relative to the radiosity that counts.
+  /// Root mean square error of the irradiance when rows have been closed, relative to the radiosity
+  /// that counts.
   double GetErrorEstimate() const { return this->ErrorEstimate; }
   /// Root mean square error of the row sums, before any closure.
   double GetRowDeviation() const { return this->RowDeviation; }
@@ -109,7 +110,7 @@ private:
   const UnoccludedPairs Open;
   const ShaftCuller Culler;
   LinkEstimator Estimator;
-  bool ClosesRows = false;
+  bool HasOpenings = true;
   std::vector<Pair> Units;
   std::vector<vtkExchangeHierarchy::Link> Links;
   Counters Total;

@@ -29,6 +29,9 @@ constexpr int MostRaysForMissing = 4096;
 // What estimates of the errors of row sums are in standard deviations: they are bounds, measured
 // against exact rows in canyons, cities and craters.
 constexpr double EstimatePerDeviation = 6.0;
+// The deviation of fractions beside that of links between clusters: the square of both is what
+// counts.
+constexpr double ClusterShare = 0.7;
 // Patches that tell whether a scene has openings at all.
 constexpr vtkIdType PatchesThatLook = 2000;
 // Patches that one rank takes at a time.
@@ -139,6 +142,19 @@ void Openings::Clear(Links& links)
 }
 
 //------------------------------------------------------------------------------
+void Openings::Skip(const std::vector<double>& errors, Links& links)
+{
+  Clear(links);
+  double gap = 0.0;
+  for (std::size_t row = 0; row < errors.size(); ++row)
+  {
+    gap = std::max(gap, std::abs(1.0 - links.RowSums[row]) - errors[row]);
+  }
+  links.Summaries.emplace_back("RaysCast", 0.0);
+  links.Summaries.emplace_back("RowGap", gap);
+}
+
+//------------------------------------------------------------------------------
 // Of a patch `judge` makes a row from what is known, `fewest` says how many rays it casts at least;
 // others follow until a deviation is reached. Errors are `confidence` deviations. Returns those of
 // what is open.
@@ -207,9 +223,10 @@ void Openings::CompleteClusters(double tolerance, double deviation, const Ranks&
   Links& links) const
 {
   const auto judge = [&](vtkIdType patch, const PatchOutlook& outlook) {
-    return Row({ 1.0 - links.RowSums[patch], deviation }, 1.0, outlook);
+    return Row({ 1.0 - links.RowSums[patch], deviation }, Confidence * deviation, outlook);
   };
   const auto fewest = [&](vtkIdType) { return GetRaysForNothing(tolerance); };
-  this->CastRays({ GetMostRays(tolerance), 0.5 * tolerance, 1.0 }, ranks, links, judge, fewest);
+  this->CastRays({ GetMostRays(tolerance), ClusterShare * tolerance, 1.0 }, ranks, links, judge,
+    fewest);
 }
 } // namespace LightTransport

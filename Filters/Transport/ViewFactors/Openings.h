@@ -47,8 +47,8 @@ public:
    * Complete is for rows whose sums are known to their RowErrors. Returns the error of what is open
    * in each row, whichever way it divides.
    *
-   * CompleteClusters is for rows of which one deviation is known for all (root mean square); half
-   * the tolerance is then the standard deviation of the fractions, which their errors are, too.
+   * CompleteClusters is for rows of which one deviation is known for all (root mean square); 0.7
+   * times the tolerance is then the deviation of the fractions, which their errors are, too.
    */
   std::vector<double> Complete(double tolerance, const Ranks& ranks, Links& links) const;
   void CompleteClusters(double tolerance, double deviation, const Ranks& ranks, Links& links) const;
@@ -57,8 +57,12 @@ public:
   /// The work that a tolerance is worth: 100 rays over it, 65,536 at most.
   static int GetMostRays(double tolerance);
 
-  /// No row sees an opening.
+  /// No row sees an opening, or nothing is known of any.
   static void Clear(Links& links);
+
+  /// Likewise without rays in a scene that has none: the same summaries, with the error of each row
+  /// sum.
+  static void Skip(const std::vector<double>& errors, Links& links);
 
 private:
   struct Row;
