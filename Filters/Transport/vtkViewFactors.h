@@ -28,15 +28,15 @@
  *   - "BackFaceFraction" (1): the part that meets back faces. Both are integrated on their own, by
  * eight sets of scrambled Sobol' rays (Embree) that tell their own error, and combined with
  * 1 - ViewFactorSum by the variances of both, until they keep the Tolerance too, or 100 / Tolerance
- * rays of a patch (65,536 at most) are used up. A row that misses no more than its error, and where
+ * rays of a patch (32,768 at most) are used up. A row that misses no more than its error, and where
  * 128 rays find no opening, has none. Under a closure they are what is applied.
  * and field data:
  *   - PairsExamined = PairsBackFacing (also those in one plane) + PairsFacing; PairsNotSending were
  * not examined (vtkRadiosity only).
  *   - of the facing ones PairsUnobstructed (nothing reaches into the shaft between them),
  * PairsHidden and PairsPartlyVisible; the rest has something near that hides nothing.
- *   - RowGap: how much what the rays found and what row sums miss differ at most, beyond the errors of
- * both. 0 where all agrees.
+ *   - RowGap: how much what the rays found and what row sums miss differ at most, beyond what their
+ * errors explain. 0 where all agrees.
  *   - RaysCast, ViewFactorSeconds, MatrixBytes (tiles of 256 x 256 pairs that are all zero are not
  * stored), DenseMatrixBytes.
  *   - ClosureChange (largest sum of the absolute changes of a row of F), ClosureGap (largest

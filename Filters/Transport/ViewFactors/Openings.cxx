@@ -19,12 +19,12 @@ namespace
 {
 // Rays that a tolerance is worth, over it, and at most.
 constexpr double MostWork = 100.0;
-constexpr int MostRays = 65536;
+constexpr int MostRays = 32768;
 // Rays that know what is open this much worse than the row's sum does have no say in it.
 constexpr double WorseThanSums = 30.0;
 // Rays after which a kind of opening that none of them has met is not there, or what a row misses
 // is no opening: as many as would meet one of the size of the tolerance, and at most.
-constexpr int MostRaysForNothing = 1024;
+constexpr int MostRaysForNothing = 512;
 constexpr int MostRaysForMissing = 4096;
 // What estimates of the errors of row sums are in standard deviations: they are bounds, measured
 // against exact rows in canyons, cities and craters.
@@ -73,8 +73,8 @@ struct Openings::Row
   Row(const Estimate& missing, double error, const PatchOutlook& outlook)
   {
     const Estimate found = outlook.GetOpen();
-    this->Gap =
-      std::max(0.0, std::abs(found.Value - missing.Value) - Confidence * found.Deviation - error);
+    this->Gap = std::max(0.0,
+      std::abs(found.Value - missing.Value) - 2.0 * Confidence * found.Deviation - error);
     this->MayBeOpen = missing.Value > error;
     this->IsSumBetter = found.Deviation >= WorseThanSums * missing.Deviation;
     if (found.Value > 0.0)

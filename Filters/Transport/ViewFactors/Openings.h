@@ -41,8 +41,8 @@ public:
    * What a row misses and what rays find are combined by their variances, and rays divide it, until
    * the errors keep the `tolerance`. A row that misses no more than its error, and where the first
    * rays find nothing, has no opening; what a row misses and rays cannot find is none. The summary
-   * "RowGap" is by how much the two differ at most, beyond the errors of both. No patch casts more
-   * than GetMostRays(tolerance).
+   * "RowGap" is by how much the two differ at most, beyond the error of the sum and twice that of
+   * the rays (which single rows of many exceed). No patch casts more than GetMostRays(tolerance).
    *
    * Complete is for rows whose sums are known to their RowErrors. Returns the error of what is open
    * in each row, whichever way it divides.
@@ -54,7 +54,7 @@ public:
   void CompleteClusters(double tolerance, double deviation, const Ranks& ranks, Links& links) const;
   ///@}
 
-  /// The work that a tolerance is worth: 100 rays over it, 65,536 at most.
+  /// The work that a tolerance is worth: 100 rays over it, 32,768 at most.
   static int GetMostRays(double tolerance);
 
   /// No row sees an opening, or nothing is known of any.
