@@ -25,6 +25,10 @@ constexpr const char* TexelArea = "Area";
 ///@}
 /// Field data of an image, 4 values: xmin, xmax, ymin, ymax of what of it is to be seen.
 constexpr const char* DisplayWindow = "DisplayWindow";
+/// Behind the name of an array of surfaces of two sides: that of the back.
+constexpr const char* BackSuffix = "Back";
+/// Cell array, 1 component: why results of a polygon are to be doubted, as bits.
+constexpr const char* SceneProblems = "SceneProblems";
 /// Field data, 1 value: the index that "TransmittedIrradiance" was computed for.
 constexpr const char* RefractiveIndex = "RefractiveIndex";
 ///@{ Cell and point arrays, flux per unit area: what falls on a surface, directly or in all, what

@@ -142,7 +142,7 @@ Outcome vtkDirectIrradiance::Run::Compute()
   this->Incident.assign(patches * LightBands, 0.0);
   this->Transmitted.assign(patches * LightBands, 0.0);
   this->Rays.assign(patches, 0.0);
-  const std::vector<vtkIdType>& locals = this->Scene.GetLocalPatches();
+  const std::vector<vtkIdType> locals = this->Scene.GetLocalPatches();
   const auto count = static_cast<vtkIdType>(locals.size());
   auto compute = [this, &locals](vtkIdType first, vtkIdType last)
   {

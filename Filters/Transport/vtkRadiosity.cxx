@@ -428,6 +428,7 @@ void vtkRadiosity::Run::Write()
   output.AddArray("Radiosity", radiosity, bands);
   output.AddArray(ArrayNames::Irradiance, this->Irradiance, bands);
   output.AddArray("NetFlux", flux, bands);
+  output.AddFlags(ArrayNames::SceneProblems, this->Scene.GetProblems());
   if (this->Materials.IsThermal())
   {
     this->WriteThermal(flux, output);
@@ -465,8 +466,8 @@ void vtkRadiosity::Run::WriteSummaries() const
 void vtkRadiosity::Run::WriteThermal(const std::vector<double>& flux, const SceneOutput& output)
 {
   vtkIdType impossible = 0;
-  const std::vector<double> temperatures =
-    this->Materials.ComputeTemperatures(this->Irradiance, this->Solution.ErrorBound, impossible);
+  const std::vector<double> temperatures = this->Materials.ComputeTemperatures(this->Scene,
+    this->Irradiance, this->Solution.ErrorBound, impossible);
   if (impossible > 0)
   {
     this->Warn(std::to_string(impossible) +
@@ -474,8 +475,8 @@ void vtkRadiosity::Run::WriteThermal(const std::vector<double>& flux, const Scen
       "out more than they absorb. Raise it, or give the patches around them a higher "
       "temperature.");
   }
-  output.AddArray("SurfaceTemperature", temperatures, 1);
-  std::vector<double> totals(temperatures.size(), 0.0);
+  output.AddFaceArray("SurfaceTemperature", temperatures, 1);
+  std::vector<double> totals(this->Scene.GetAreas().size(), 0.0);
   for (std::size_t k = 0; k < flux.size(); ++k)
   {
     totals[k / this->Materials.NumberOfBands] += flux[k];

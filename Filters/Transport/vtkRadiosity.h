@@ -29,7 +29,8 @@
  * component per band; with temperatures also "SurfaceTemperature" (kelvin; where the net flux q is
  * given, T with q = emissivity (sigma T^4 - H), and 0 with a warning where more is taken out than
  * any temperature allows; for an adiabatic patch of emissivity 0 the limit for small emissivities,
- * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); in field data SolverUsed,
+ * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); the cell array
+ * "SceneProblems" as vtkViewFactors writes it; in field data SolverUsed,
  * SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations, ErrorBound,
  * Converged, SolverSeconds, the summaries of vtkViewFactors, and with temperatures NetPower: all
  * net fluxes times areas (W where lengths are in metres), which should be 0 in a closed scene and

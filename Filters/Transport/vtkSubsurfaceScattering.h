@@ -4,7 +4,7 @@
  * @class vtkSubsurfaceScattering
  * @brief light that enters a translucent object, is scattered inside and leaves elsewhere
  *
- * The surface is cut into the input's patches (planar convex polygons). What enters patch j leaves
+ * The surface is cut into the input's patches (polygons of any shape). What enters patch j leaves
  * patch i in proportion to the diffuse reflectance profile R_d(r) of a semi-infinite medium,
  * integrated over both patches, with r the straight distance between the points:
  *
@@ -31,7 +31,7 @@
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
- * finite, patches that are not planar convex polygons, links that do not fit into memory.
+ * finite, links that do not fit into memory.
  *
  * H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model for Subsurface Light
  * Transport", SIGGRAPH 2001; H. W. Jensen, J. Buhler, "A Rapid Hierarchical Rendering Technique for

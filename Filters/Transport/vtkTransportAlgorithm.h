@@ -5,13 +5,18 @@
  * @brief what all light transport filters share: one scene from any input, progress, abort,
  * devices, ranks
  *
- * The input is a vtkPolyData, or a composite data set of them, of planar convex polygons; whatever
- * its structure it is *one* scene. Ghost cells do not count. In a parallel run (a controller with
- * several processes) the scene is gathered to every rank first, because a rank that sees only its
- * own piece gets wrong visibility; each rank then writes the results of its own patches. The output
- * has the structure of the input, all its arrays, and the results. Points are duplicated where a
- * crease (FeatureAngle) or a change of material meets them, so that no point value is an average
- * across either.
+ * The input is a vtkPolyData, or a composite data set of them; whatever its structure it is *one*
+ * scene. Ghost cells do not count. Polygons may have any shape and number of corners: concave ones,
+ * and holes that a seam bridges to the border, are cut into convex pieces inside of the scene and
+ * stay one patch with one result, the mean over its area. Polygons that leave their plane by more
+ * than 1e-4 of their radius are cut into triangles; those without area (fewer than 3 corners too),
+ * and with a border that crosses itself, are left out, with results of 0. A warning counts each
+ * kind and names the first, and an error tells where nothing is left. In a parallel run (a
+ * controller with several processes) the scene is gathered to every rank first, because a rank that
+ * sees only its own piece gets wrong visibility; each rank then writes the results of its own
+ * patches. The output has the structure of the input, all its arrays, and the results. Points are
+ * duplicated where a crease (FeatureAngle) or a change of material meets them, so that no point
+ * value is an average across either.
  *
  * Errors are reported with vtkErrorMacro and leave the output empty; on several ranks all agree on
  * an error before any of them enters a collective call.

@@ -5,6 +5,7 @@
 #include "Run/TransportRun.h"
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
+#include "Shared/ArrayNames.h"
 #include "ViewFactors/ViewFactorGroups.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkDataObject.h"
@@ -54,6 +55,7 @@ protected:
     output.AddArray("ViewFactorError", links.GetErrors(), 1);
     output.AddArray("SkyFraction", links.SkyFractions, 1);
     output.AddArray("BackFaceFraction", links.BackFaceFractions, 1);
+    output.AddFlags(ArrayNames::SceneProblems, this->Scene.GetProblems());
     links.AddSummaries(this->GetOutputFields());
   }
 

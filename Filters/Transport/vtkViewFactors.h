@@ -30,6 +30,8 @@
  * 1 - ViewFactorSum by the variances of both, until they keep the Tolerance too, or 100 / Tolerance
  * rays of a patch (32,768 at most) are used up. A row that misses no more than its error, and where
  * 128 rays find no opening, has none. Under a closure they are what is applied.
+ *   - "SceneProblems" (1, int): flags, 0 where all is well: 8 without area or with a border that
+ * crosses itself (left out, all else is 0), 32 not plane (cut into triangles).
  * and field data:
  *   - PairsExamined = PairsBackFacing (also those in one plane) + PairsFacing; PairsNotSending were
  * not examined (vtkRadiosity only).

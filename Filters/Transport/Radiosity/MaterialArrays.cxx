@@ -41,15 +41,17 @@ const char* MaterialArrays::GetDefaultName(int array)
 Outcome MaterialArrays::BandArray::CheckRange(const PatchScene& scene, double low, double high,
   const char* range) const
 {
-  const auto count = static_cast<vtkIdType>(this->Values.size());
-  for (vtkIdType k = 0; k < count; ++k)
+  for (vtkIdType face = 0; face < scene.GetFaces().GetNumberOfFaces(); ++face)
   {
-    const vtkIdType polygon = k / this->Components;
-    const double value = this->Get(scene.GetPatch(polygon), static_cast<int>(k % this->Components));
-    if (!(value >= low && value <= high))
+    const vtkIdType patch = scene.GetPatch(face);
+    for (int component = 0; patch >= 0 && component < this->Components; ++component)
     {
-      return Outcome::Failed("The cell array \"" + this->Name + "\" is " + std::to_string(value) +
-        " at polygon " + std::to_string(polygon) + ": it must be " + range + ".");
+      const double value = this->Get(patch, component);
+      if (!(value >= low && value <= high))
+      {
+        return Outcome::Failed("The cell array \"" + this->Name + "\" is " + std::to_string(value) +
+          " at " + scene.GetFaces().Describe(face) + ": it must be " + range + ".");
+      }
     }
   }
   return Outcome::Done();
@@ -243,11 +245,15 @@ Outcome MaterialArrays::CheckRanges(const PatchScene& scene) const
 //------------------------------------------------------------------------------
 Outcome MaterialArrays::CheckGivenFluxes(const PatchScene& scene) const
 {
-  for (vtkIdType polygon = 0; polygon < scene.GetNumberOfPatches(); ++polygon)
+  for (vtkIdType face = 0; face < scene.GetFaces().GetNumberOfFaces(); ++face)
   {
-    const vtkIdType patch = scene.GetPatch(polygon);
+    const vtkIdType patch = scene.GetPatch(face);
+    if (patch < 0)
+    {
+      continue;
+    }
     const double condition = this->Get(BOUNDARY_CONDITION, patch, 0);
-    const std::string place = " at polygon " + std::to_string(polygon);
+    const std::string place = " at " + scene.GetFaces().Describe(face);
     if (condition != GivenTemperature && condition != GivenNetFlux)
     {
       return Outcome::Failed("The cell array " + this->Quote(BOUNDARY_CONDITION) + " is " +

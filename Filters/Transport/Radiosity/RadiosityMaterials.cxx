@@ -76,18 +76,26 @@ bool RadiosityMaterials::HasGivenFluxes() const
 
 //------------------------------------------------------------------------------
 // q = emissivity (sigma T^4 - H). One band, where any flux is given.
-std::vector<double> RadiosityMaterials::ComputeTemperatures(const std::vector<double>& irradiance,
-  double tolerance, vtkIdType& impossible) const
+std::vector<double> RadiosityMaterials::ComputeTemperatures(const PatchScene& scene,
+  const std::vector<double>& irradiance, double tolerance, vtkIdType& impossible) const
 {
-  std::vector<double> temperatures = this->Temperature;
+  const SceneFaces& faces = scene.GetFaces();
+  const std::vector<double> received = faces.GetMeans(irradiance, this->NumberOfBands);
+  std::vector<double> temperatures(faces.GetNumberOfFaces(), 0.0);
   impossible = 0;
-  for (std::size_t patch = 0; patch < temperatures.size(); ++patch)
+  for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
   {
+    const vtkIdType patch = faces.GetPatch(face);
+    if (patch < 0)
+    {
+      continue;
+    }
+    temperatures[face] = this->Temperature[patch];
     if (this->HasGivenFlux[patch])
     {
       const double flux = this->Emission[patch];
-      const double black = irradiance[patch] + (flux == 0.0 ? 0.0 : flux / this->Emissivity[patch]);
-      temperatures[patch] = BlackBody::GetTemperature(std::max(black, 0.0));
+      const double black = received[face] + (flux == 0.0 ? 0.0 : flux / this->Emissivity[patch]);
+      temperatures[face] = BlackBody::GetTemperature(std::max(black, 0.0));
       impossible += black < -tolerance ? 1 : 0;
     }
   }

@@ -45,14 +45,14 @@ struct RadiosityMaterials
   bool IsThermal() const { return !this->Temperature.empty(); }
   bool HasGivenFluxes() const;
   /**
-   * The temperature of each patch of a thermal scene that receives this irradiance: the given one,
-   * or where the net flux is given the one at which it emits that flux and what it absorbs. Where
-   * there is none, since more is taken out than it absorbs (`impossible` counts those where that
-   * exceeds `tolerance`), 0. A patch of emissivity 0 (and net flux 0) gets the limit for small
-   * emissivities.
+   * The temperature of each face of a thermal scene whose patches receive this irradiance (for
+   * their mean): the given one, or where the net flux is given the one at which it emits that flux
+   * and what it absorbs. Where there is none, since more is taken out than it absorbs (`impossible`
+   * counts those where that exceeds `tolerance`), and for faces without patches, 0. One of
+   * emissivity 0 (and net flux 0) gets the limit for small emissivities.
    */
-  std::vector<double> ComputeTemperatures(const std::vector<double>& irradiance, double tolerance,
-    vtkIdType& impossible) const;
+  std::vector<double> ComputeTemperatures(const PatchScene& scene,
+    const std::vector<double>& irradiance, double tolerance, vtkIdType& impossible) const;
 
   /**
    * What a patch is made of, as far as points are not averaged across a change of it: 2 values per

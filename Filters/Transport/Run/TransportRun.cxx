@@ -26,6 +26,13 @@ Outcome TransportRun::Go()
          &TransportRun::Link, &TransportRun::Compute })
   {
     outcome = outcome ? (this->*step)() : outcome;
+    if (outcome && step == &TransportRun::Gather)
+    {
+      for (const std::string& warning : this->Scene.GetWarnings())
+      {
+        this->Warn(warning);
+      }
+    }
   }
   if (outcome)
   {

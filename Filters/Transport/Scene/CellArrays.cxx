@@ -91,11 +91,11 @@ std::vector<double> CellArrays::SpreadBlockValues(const std::vector<double>& blo
 std::vector<double> CellArrays::Gather(const std::vector<double>& mine, int components) const
 {
   const std::vector<double> all = this->AllRanks.Gather(mine);
-  std::vector<double> values(all.size());
-  for (vtkIdType polygon = 0; polygon < this->Scene.GetNumberOfPatches(); ++polygon)
+  std::vector<double> values(this->Scene.GetNumberOfPatches() * components);
+  for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
-    std::copy_n(all.begin() + polygon * components, components,
-      values.begin() + this->Scene.GetPatch(polygon) * components);
+    std::copy_n(all.begin() + this->Scene.GetPolygon(patch) * components, components,
+      values.begin() + patch * components);
   }
   return values;
 }

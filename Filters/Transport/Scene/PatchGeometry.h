@@ -18,7 +18,7 @@ class PatchGeometry
 public:
   using Vector = Eigen::Vector3d;
 
-  /// Corners that a patch may have (polygons are clipped in arrays of fixed size).
+  /// Corners that a patch may have (they are clipped in arrays of fixed size).
   static constexpr int MaximumCorners = 30;
 
   vtkIdType GetNumberOfPatches() const { return static_cast<vtkIdType>(this->Areas.size()); }
@@ -63,15 +63,14 @@ protected:
 
   /// Make room for areas, normals, centroids and radii of the patches that Offsets has.
   void AllocatePatches();
-  /// Find them for one patch. Returns nullptr, or why the polygon is no patch and the remedy.
-  const char* ComputePatch(vtkIdType patch);
+  /// Find them for one patch, which has an area; in the plane of this normal, where it is not null.
+  void ComputePatch(vtkIdType patch, const Vector* plane);
 
   std::vector<Vector> Points;
   std::vector<vtkIdType> Offsets;
   std::vector<vtkIdType> Corners;
 
 private:
-  const char* CheckShape(vtkIdType patch) const;
   void ComputeWorth(vtkIdType patch);
 
   std::vector<double> Areas;

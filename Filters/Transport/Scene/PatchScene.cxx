@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/PatchScene.h"
 
+#include "Scene/ScenePieces.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -40,22 +43,34 @@ struct CoordinateHash
 };
 
 //------------------------------------------------------------------------------
+Outcome FailWithoutArea(const std::vector<std::string>& reasons)
+{
+  std::string text = "The input has no polygons with an area: give a surface that has one.";
+  for (const std::string& reason : reasons)
+  {
+    text += " " + reason;
+  }
+  return Outcome::Failed(text);
+}
+
+//------------------------------------------------------------------------------
 // On top of the codes: surfaces that are near each other in space are so in the order.
-void AddSurfaces(const std::vector<Vector>& centers, GatheredPolygons& polygons)
+void AddSurfaces(const std::vector<Vector>& centers, const std::vector<vtkIdType>& surfaces,
+  std::vector<std::uint64_t>& codes)
 {
   std::map<vtkIdType, std::pair<Vector, double>> sums;
-  for (std::size_t polygon = 0; polygon < polygons.Surfaces.size(); ++polygon)
+  for (std::size_t piece = 0; piece < surfaces.size(); ++piece)
   {
-    auto& sum = sums.emplace(polygons.Surfaces[polygon], std::make_pair(Vector(0.0, 0.0, 0.0), 0.0))
-                  .first->second;
-    sum.first += centers[polygon];
+    auto& sum =
+      sums.emplace(surfaces[piece], std::make_pair(Vector(0.0, 0.0, 0.0), 0.0)).first->second;
+    sum.first += centers[piece];
     sum.second += 1.0;
   }
-  std::vector<vtkIdType> surfaces;
+  std::vector<vtkIdType> numbers;
   std::vector<Vector> middles;
   for (const auto& sum : sums)
   {
-    surfaces.push_back(sum.first);
+    numbers.push_back(sum.first);
     middles.push_back(sum.second.first / sum.second.second);
   }
   PatchTree tree;
@@ -64,13 +79,14 @@ void AddSurfaces(const std::vector<Vector>& centers, GatheredPolygons& polygons)
   std::map<vtkIdType, std::uint64_t> places;
   for (std::size_t place = 0; place < order.size(); ++place)
   {
-    places[surfaces[order[place]]] = place;
+    places[numbers[order[place]]] = place;
   }
-  for (std::size_t polygon = 0; polygon < polygons.Surfaces.size(); ++polygon)
+  for (std::size_t piece = 0; piece < surfaces.size(); ++piece)
   {
-    polygons.Codes[polygon] |= places[polygons.Surfaces[polygon]] << (2 * PatchTree::AtlasBits);
+    codes[piece] |= places[surfaces[piece]] << (2 * PatchTree::AtlasBits);
   }
 }
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -99,14 +115,23 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order)
     return normalized;
   }
   this->LocalCells = polygons.LocalCells;
-  this->SortPatches(polygons);
-  this->ComputeFingerprint(polygons);
-  this->MergePoints(polygons);
-  if (Outcome computed = this->ComputePatches(); !computed)
+  this->FirstLocal = polygons.FirstLocal;
+  this->PlaceOffsets.assign(polygons.Counts.size() + 1, 0);
+  std::partial_sum(polygons.Counts.begin(), polygons.Counts.end(), this->PlaceOffsets.begin() + 1);
+  std::vector<Vector> corners;
+  corners.reserve(polygons.Coordinates.size() / 3);
+  for (std::size_t corner = 0; corner < polygons.Coordinates.size(); corner += 3)
   {
-    return computed;
+    corners.push_back((Vector(&polygons.Coordinates[corner]) - this->Center) / this->Scale);
   }
-  this->Tree.FillNodes(*this);
+  ScenePieces pieces(this->PlaceOffsets, corners, this->CoordinateRounding.norm());
+  if (pieces.GetNumber() == 0)
+  {
+    return FailWithoutArea(pieces.GetWarnings());
+  }
+  this->Problems = pieces.Problems;
+  this->Warnings = pieces.GetWarnings();
+  this->Arrange(polygons, corners, pieces);
   return Outcome::Done();
 }
 
@@ -120,6 +145,10 @@ Outcome PatchScene::Normalize(const GatheredPolygons& polygons)
     const Vector point(&polygons.Coordinates[corner]);
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
+  }
+  if (!((high - low).array() > 0.0).any())
+  {
+    return FailWithoutArea({});
   }
   this->Center = 0.5 * low + 0.5 * high;
   this->Scale = (high - low).stableNorm();
@@ -136,82 +165,120 @@ Outcome PatchScene::Normalize(const GatheredPolygons& polygons)
 }
 
 //------------------------------------------------------------------------------
-// The order comes from the scaled scene: in the input's unit a mean of corners could overflow.
-void PatchScene::SortPatches(GatheredPolygons& polygons)
+void PatchScene::Arrange(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
+  const ScenePieces& pieces)
 {
-  const std::size_t patches = polygons.Counts.size();
-  std::vector<vtkIdType> starts(patches + 1, 0);
-  std::partial_sum(polygons.Counts.begin(), polygons.Counts.end(), starts.begin() + 1);
-  std::vector<Vector> centers(patches, Vector::Zero());
-  std::vector<Vector> normals(patches, Vector::Zero());
-  for (std::size_t polygon = 0; polygon < patches; ++polygon)
+  const std::vector<vtkIdType> order = this->SortPieces(polygons, corners, pieces);
+  this->MergePoints(polygons, corners, pieces, order);
+  this->ComputeFingerprint(polygons, pieces, order);
+  this->AllocatePatches();
+  std::vector<vtkIdType> faces;
+  for (std::size_t patch = 0; patch < order.size(); ++patch)
   {
-    const auto getPoint = [&](vtkIdType corner) -> Vector
-    { return (Vector(&polygons.Coordinates[3 * corner]) - this->Center) / this->Scale; };
-    const vtkIdType first = starts[polygon];
-    for (vtkIdType corner = first; corner < starts[polygon + 1]; ++corner)
-    {
-      centers[polygon] += getPoint(corner) / polygons.Counts[polygon];
-      const vtkIdType next = corner + 1 < starts[polygon + 1] ? corner + 1 : first;
-      normals[polygon] +=
-        (getPoint(corner) - getPoint(first)).cross(getPoint(next) - getPoint(first));
-    }
-    normals[polygon].normalize();
+    const Vector& plane = pieces.Planes[order[patch]];
+    this->ComputePatch(static_cast<vtkIdType>(patch), plane.isZero() ? nullptr : &plane);
+    faces.push_back(pieces.Faces[order[patch]]);
   }
-  AddSurfaces(centers, polygons);
-  this->Polygons = this->OrderOfPatches == Order::Atlas ? this->Tree.Sort(polygons.Codes)
-                                                        : this->Tree.Sort(centers, normals);
-  this->Patches.resize(patches);
-  this->Offsets.assign(1, 0);
-  std::vector<double> coordinates;
-  coordinates.reserve(polygons.Coordinates.size());
-  for (std::size_t patch = 0; patch < patches; ++patch)
-  {
-    const vtkIdType polygon = this->Polygons[patch];
-    this->Patches[polygon] = static_cast<vtkIdType>(patch);
-    this->Offsets.push_back(this->Offsets.back() + polygons.Counts[polygon]);
-    coordinates.insert(coordinates.end(), polygons.Coordinates.begin() + 3 * starts[polygon],
-      polygons.Coordinates.begin() + 3 * starts[polygon + 1]);
-  }
-  polygons.Coordinates.swap(coordinates);
-  const auto local = this->Patches.begin() + polygons.FirstLocal;
-  this->LocalPatches.assign(local, local + static_cast<vtkIdType>(this->LocalCells.size()));
+  this->Faces =
+    SceneFaces(static_cast<vtkIdType>(polygons.Counts.size()), 1, faces, this->GetAreas());
+  this->Tree.FillNodes(*this);
 }
 
 //------------------------------------------------------------------------------
-void PatchScene::MergePoints(const GatheredPolygons& polygons)
+// The order comes from the scaled scene: in the input's unit a mean of corners could overflow.
+std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
+  const std::vector<Vector>& corners, const ScenePieces& pieces)
+{
+  const vtkIdType count = pieces.GetNumber();
+  std::vector<Vector> centers(count, Vector::Zero());
+  std::vector<Vector> normals(count, Vector::Zero());
+  for (vtkIdType piece = 0; piece < count; ++piece)
+  {
+    const vtkIdType first = pieces.Offsets[piece];
+    const Vector& origin = corners[pieces.Corners[first]];
+    for (vtkIdType corner = first; corner < pieces.Offsets[piece + 1]; ++corner)
+    {
+      const vtkIdType next = corner + 1 < pieces.Offsets[piece + 1] ? corner + 1 : first;
+      const Vector& place = corners[pieces.Corners[corner]];
+      centers[piece] += place / pieces.GetCount(piece);
+      normals[piece] += (place - origin).cross(corners[pieces.Corners[next]] - origin);
+    }
+    normals[piece].normalize();
+  }
+  if (this->OrderOfPatches == Order::Spatial)
+  {
+    return this->Tree.Sort(centers, normals);
+  }
+  std::vector<std::uint64_t> codes;
+  std::vector<vtkIdType> surfaces;
+  for (const vtkIdType face : pieces.Faces)
+  {
+    codes.push_back(polygons.Codes[face]);
+    surfaces.push_back(polygons.Surfaces[face]);
+  }
+  AddSurfaces(centers, surfaces, codes);
+  return this->Tree.Sort(codes);
+}
+
+//------------------------------------------------------------------------------
+// Points of patches come first, in the order of these; then those that no patch has.
+void PatchScene::MergePoints(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
+  const ScenePieces& pieces, const std::vector<vtkIdType>& order)
 {
   std::unordered_map<std::array<double, 3>, vtkIdType, CoordinateHash> known;
-  known.reserve(polygons.Coordinates.size() / 6);
-  for (std::size_t corner = 0; corner < polygons.Coordinates.size(); corner += 3)
+  known.reserve(corners.size() / 2);
+  const auto getPlace = [&](vtkIdType corner)
   {
-    const std::array<double, 3> key{ polygons.Coordinates[corner], polygons.Coordinates[corner + 1],
-      polygons.Coordinates[corner + 2] };
-    const auto inserted = known.emplace(key, static_cast<vtkIdType>(this->Points.size()));
-    if (inserted.second)
+    const double* place = &polygons.Coordinates[3 * corner];
+    return known
+      .emplace(std::array<double, 3>{ place[0], place[1], place[2] },
+        static_cast<vtkIdType>(known.size()))
+      .first->second;
+  };
+  this->Points.clear();
+  this->Corners.clear();
+  this->Offsets.assign(1, 0);
+  for (const vtkIdType piece : order)
+  {
+    for (vtkIdType k = pieces.Offsets[piece]; k < pieces.Offsets[piece + 1]; ++k)
     {
-      this->Points.push_back((Vector(key.data()) - this->Center) / this->Scale);
+      const vtkIdType corner = pieces.Corners[k];
+      this->Corners.push_back(getPlace(corner));
+      if (known.size() > this->Points.size())
+      {
+        this->Points.push_back(corners[corner]);
+      }
     }
-    this->Corners.push_back(inserted.first->second);
+    this->Offsets.push_back(static_cast<vtkIdType>(this->Corners.size()));
   }
+  this->Places.resize(corners.size());
+  for (std::size_t corner = 0; corner < corners.size(); ++corner)
+  {
+    this->Places[corner] = getPlace(static_cast<vtkIdType>(corner));
+  }
+  this->NumberOfPlaces = static_cast<vtkIdType>(known.size());
 }
 
 //------------------------------------------------------------------------------
-Outcome PatchScene::ComputePatches()
+std::vector<vtkIdType> PatchScene::GetLocalPatches() const
 {
-  this->AllocatePatches();
-  for (std::size_t polygon = 0; polygon < this->Patches.size(); ++polygon)
+  std::vector<vtkIdType> patches;
+  const auto count = static_cast<vtkIdType>(this->LocalCells.size());
+  for (int side = 0; side < this->Faces.GetNumberOfSides(); ++side)
   {
-    if (const char* problem = this->ComputePatch(this->Patches[polygon]))
+    const vtkIdType first = this->FirstLocal + side * this->Faces.GetNumberOfPolygons();
+    for (vtkIdType face = first; face < first + count; ++face)
     {
-      return Outcome::Failed("Polygon " + std::to_string(polygon) + " " + problem);
+      const SceneFaces::Range range = this->Faces.GetPatches(face);
+      patches.insert(patches.end(), range.begin(), range.end());
     }
   }
-  return Outcome::Done();
+  return patches;
 }
 
 //------------------------------------------------------------------------------
-void PatchScene::ComputeFingerprint(const GatheredPolygons& polygons)
+void PatchScene::ComputeFingerprint(const GatheredPolygons& polygons, const ScenePieces& pieces,
+  const std::vector<vtkIdType>& order)
 {
   std::uint64_t hash = 0xCBF29CE484222325ull;
   const auto add = [&hash](std::uint64_t bits)
@@ -219,21 +286,24 @@ void PatchScene::ComputeFingerprint(const GatheredPolygons& polygons)
     hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
     hash ^= hash >> 29;
   };
-  for (const vtkIdType count : polygons.Counts)
+  for (vtkIdType piece = 0; piece < pieces.GetNumber(); ++piece)
   {
-    add(static_cast<std::uint64_t>(count));
+    add(static_cast<std::uint64_t>(pieces.GetCount(piece)));
   }
-  for (const double coordinate : polygons.Coordinates)
+  for (const vtkIdType piece : order)
   {
-    std::uint64_t bits;
-    std::memcpy(&bits, &coordinate, sizeof(bits));
-    add(bits);
+    for (vtkIdType k = pieces.Offsets[piece]; k < pieces.Offsets[piece + 1]; ++k)
+    {
+      std::uint64_t bits[3];
+      std::memcpy(bits, &polygons.Coordinates[3 * pieces.Corners[k]], sizeof(bits));
+      std::for_each(std::begin(bits), std::end(bits), add);
+    }
   }
   // Where rounding decides, another compiler may sort in another way: what was computed for one
   // order must not be taken for the other.
-  for (const vtkIdType polygon : this->Polygons)
+  for (const vtkIdType piece : order)
   {
-    add(static_cast<std::uint64_t>(polygon));
+    add(static_cast<std::uint64_t>(piece));
   }
   // The spatial tree follows from the order of the patches.
   if (this->OrderOfPatches == Order::Atlas)

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The scene that all transport filters work on: the patches of a data object, of all its blocks and
- * of all ranks, in flat arrays. Constant once it has been built.
+ * of all ranks, in flat arrays. Constant once it has been built. Polygons of any shape are cut into
+ * patches, which are plane and convex (PolygonCutting); whose they are GetFaces() knows.
  *
  * Points are merged where their coordinates are equal, then centred and scaled so that the bounding
  * box has diagonal 1: nothing downstream needs an absolute length, and a micrometre and a thousand
@@ -21,17 +22,21 @@
 #include "Scene/PatchGeometry.h"
 #include "Scene/PatchTree.h"
 #include "Scene/PolygonGathering.h"
+#include "Scene/SceneFaces.h"
 #include "Shared/Outcome.h"
 #include "Support/Ranks.h"
 #include "vtkType.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 class vtkDataObject;
 
 namespace LightTransport
 {
+struct ScenePieces;
+
 class PatchScene : public PatchGeometry
 {
 public:
@@ -45,23 +50,41 @@ public:
   static constexpr std::size_t MaximumSurfaces = std::size_t(1) << (64 - 2 * PatchTree::AtlasBits);
 
   /**
-   * Gather the patches of `input`. Fails, on every rank alike, with nothing to work on, coordinates
-   * that are not finite, a patch without area, a patch that is not a planar convex polygon; in the
-   * order of an atlas for a surface without "AtlasCoordinates", or more surfaces than
-   * MaximumSurfaces.
+   * Gather the patches of `input`. Fails, on every rank alike, with nothing to work on (no polygon
+   * that has an area), coordinates that are not finite; in the order of an atlas for a surface
+   * without "AtlasCoordinates", or more surfaces than MaximumSurfaces.
    */
   Outcome Build(vtkDataObject* input, const Ranks& ranks, Order order = Order::Spatial);
 
-  ///@{ The polygons of this rank in their order: which cells, and which patches they have become.
+  const SceneFaces& GetFaces() const { return this->Faces; }
+  /// Of each face, flags of SceneFaces::Problem.
+  const std::vector<int>& GetProblems() const { return this->Problems; }
+  /// What users should know of the polygons, a line each; the same on all ranks.
+  const std::vector<std::string>& GetWarnings() const { return this->Warnings; }
+
+  ///@{ The polygons of this rank in their order: which cells, the number of the first of them, and
+  /// all patches of them.
   const std::vector<LocalCell>& GetLocalCells() const { return this->LocalCells; }
-  const std::vector<vtkIdType>& GetLocalPatches() const { return this->LocalPatches; }
+  vtkIdType GetFirstLocalPolygon() const { return this->FirstLocal; }
+  std::vector<vtkIdType> GetLocalPatches() const;
   ///@}
-  /// The patch that the input's polygon `polygon` has become.
-  vtkIdType GetPatch(vtkIdType polygon) const { return this->Patches[polygon]; }
-  /// The patches of all polygons.
-  const std::vector<vtkIdType>& GetPatches() const { return this->Patches; }
+  /// The places of a polygon's corners: those at one place have the same number.
+  SceneFaces::Range GetPlaces(vtkIdType polygon) const
+  {
+    return { this->Places.data() + this->PlaceOffsets[polygon],
+      this->Places.data() + this->PlaceOffsets[polygon + 1] };
+  }
+  /// The first corner of each polygon among the corners of all, and after them their number.
+  const std::vector<vtkIdType>& GetPlaceOffsets() const { return this->PlaceOffsets; }
+  vtkIdType GetNumberOfPlaces() const { return this->NumberOfPlaces; }
+
+  /// A patch of a face, for what all of them have alike; -1 where it has none.
+  vtkIdType GetPatch(vtkIdType face) const { return this->Faces.GetPatch(face); }
   /// The input's polygon of a patch.
-  vtkIdType GetPolygon(vtkIdType patch) const { return this->Polygons[patch]; }
+  vtkIdType GetPolygon(vtkIdType patch) const
+  {
+    return this->Faces.GetPolygon(this->Faces.GetFace(patch));
+  }
   /// The tree that the order of the patches comes from.
   const PatchTree& GetTree() const { return this->Tree; }
   Order GetOrder() const { return this->OrderOfPatches; }
@@ -75,21 +98,29 @@ public:
 
 private:
   Outcome Normalize(const GatheredPolygons& polygons);
-  void SortPatches(GatheredPolygons& polygons);
-  void MergePoints(const GatheredPolygons& polygons);
-  void ComputeFingerprint(const GatheredPolygons& polygons);
-  Outcome ComputePatches();
+  void Arrange(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
+    const ScenePieces& pieces);
+  std::vector<vtkIdType> SortPieces(const GatheredPolygons& polygons,
+    const std::vector<Vector>& corners, const ScenePieces& pieces);
+  void MergePoints(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
+    const ScenePieces& pieces, const std::vector<vtkIdType>& order);
+  void ComputeFingerprint(const GatheredPolygons& polygons, const ScenePieces& pieces,
+    const std::vector<vtkIdType>& order);
 
   Vector Center = Vector::Zero();
   double Scale = 1.0;
   std::uint64_t Fingerprint = 0;
 
   Order OrderOfPatches = Order::Spatial;
-  std::vector<vtkIdType> Polygons; ///< of each patch
-  std::vector<vtkIdType> Patches;  ///< of each polygon
   PatchTree Tree;
+  SceneFaces Faces;
+  std::vector<int> Problems;
+  std::vector<std::string> Warnings;
   std::vector<LocalCell> LocalCells;
-  std::vector<vtkIdType> LocalPatches; ///< as LocalCells
+  vtkIdType FirstLocal = 0;
+  std::vector<vtkIdType> PlaceOffsets; ///< of each polygon, in Places
+  std::vector<vtkIdType> Places;
+  vtkIdType NumberOfPlaces = 0;
 };
 } // namespace LightTransport
 

@@ -5,19 +5,21 @@
 #include "Scene/Leaves.h"
 #include "Scene/PatchScene.h"
 #include "Scene/SmoothPoints.h"
+#include "Shared/ArrayNames.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <map>
 #include <numeric>
-#include <unordered_map>
 
 namespace LightTransport
 {
@@ -46,14 +48,21 @@ void AppendPoints(vtkPolyData* input, const std::vector<vtkIdType>& sources, vtk
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkDoubleArray> MakeArray(const std::string& name, vtkIdType tuples, int components)
+template <typename Array>
+vtkSmartPointer<Array> MakeArray(const std::string& name, vtkIdType tuples, int components)
 {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  auto array = vtkSmartPointer<Array>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
   array->Fill(0.0);
   return array;
+}
+
+//------------------------------------------------------------------------------
+std::string GetSideName(const std::string& name, int side)
+{
+  return side == 0 ? name : name + ArrayNames::BackSuffix;
 }
 } // namespace
 
@@ -63,7 +72,7 @@ SceneOutput::SceneOutput(const PatchScene& scene, const SmoothPoints* points, vt
   : Scene(scene), Points(points), Output(output)
 {
   const std::vector<vtkPolyData*> leaves = Leaves::Get(input);
-  this->PointGroups.assign(leaves.size(), {});
+  this->Groups.assign(leaves.size(), {});
   std::vector<vtkIdType> firstLocal(leaves.size() + 1, 0);
   for (const LocalCell& local : scene.GetLocalCells())
   {
@@ -92,7 +101,18 @@ SceneOutput::SceneOutput(const PatchScene& scene, const SmoothPoints* points, vt
 }
 
 //------------------------------------------------------------------------------
-// The first smooth group that meets a point keeps it; every further one gets a copy of its own at
+SceneOutput::PointGroups SceneOutput::GetGroups(vtkIdType polygon, vtkIdType corner) const
+{
+  PointGroups groups{ -1, -1 };
+  for (int side = 0; side < this->Scene.GetFaces().GetNumberOfSides(); ++side)
+  {
+    groups[side] = this->Points->GetGroup(polygon, side, corner);
+  }
+  return groups;
+}
+
+//------------------------------------------------------------------------------
+// The first smooth groups that meet a point keep it; all further ones get a copy of their own at
 // the end.
 void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
   vtkPolyData* output)
@@ -102,11 +122,12 @@ void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
   {
     return;
   }
-  std::vector<vtkIdType>& groups = this->PointGroups[block];
-  groups.assign(input->GetNumberOfPoints(), -1);
+  constexpr PointGroups none{ -1, -1 };
+  std::vector<PointGroups>& groups = this->Groups[block];
+  groups.assign(input->GetNumberOfPoints(), none);
   const std::vector<LocalCell>& cells = this->Scene.GetLocalCells();
   std::vector<vtkIdType> sources; // of the points added
-  std::unordered_map<vtkIdType, vtkIdType> added;
+  std::map<PointGroups, vtkIdType> added;
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkIdList> corners;
   auto local = static_cast<std::size_t>(firstLocal);
@@ -114,18 +135,18 @@ void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
   for (vtkIdType polygon = 0; polygon < input->GetPolys()->GetNumberOfCells(); ++polygon)
   {
     input->GetPolys()->GetCellAtId(polygon, corners);
-    const bool isPatch =
+    const bool isOfScene =
       local < cells.size() && cells[local].Block == block && cells[local].Cell == first + polygon;
-    for (vtkIdType corner = 0; isPatch && corner < corners->GetNumberOfIds(); ++corner)
+    for (vtkIdType corner = 0; isOfScene && corner < corners->GetNumberOfIds(); ++corner)
     {
-      const vtkIdType patch = this->Scene.GetLocalPatches()[local];
-      const vtkIdType group = this->Points->GetGroup(this->Scene.GetOffsets()[patch] + corner);
+      const PointGroups group =
+        this->GetGroups(this->Scene.GetFirstLocalPolygon() + static_cast<vtkIdType>(local), corner);
       const vtkIdType point = corners->GetId(corner);
-      if (groups[point] < 0)
+      if (groups[point] == none)
       {
         groups[point] = group;
       }
-      if (groups[point] == group)
+      if (group == none || groups[point] == group)
       {
         continue;
       }
@@ -137,7 +158,7 @@ void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
       }
       corners->SetId(corner, inserted.first->second);
     }
-    local += isPatch ? 1 : 0;
+    local += isOfScene ? 1 : 0;
     polygons->InsertNextCell(corners);
   }
   if (!sources.empty())
@@ -151,46 +172,72 @@ void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
 void SceneOutput::AddArray(const std::string& name, const std::vector<double>& values,
   int components) const
 {
-  this->AddCellArray(name, values, components);
-  if (this->Points)
+  this->AddFaceArray(name, this->Scene.GetFaces().GetMeans(values, components), components);
+}
+
+//------------------------------------------------------------------------------
+void SceneOutput::AddFaceArray(const std::string& name, const std::vector<double>& values,
+  int components) const
+{
+  const std::vector<double> means =
+    this->Points ? this->Points->GetMeans(values, components) : std::vector<double>();
+  for (int side = 0; side < this->Scene.GetFaces().GetNumberOfSides(); ++side)
   {
-    this->AddPointArray(name, values, components);
+    this->AddCellArray<vtkDoubleArray>(name, values, components, side);
+    if (this->Points)
+    {
+      this->AddPointArray(name, means, components, side);
+    }
   }
 }
 
 //------------------------------------------------------------------------------
-void SceneOutput::AddCellArray(const std::string& name, const std::vector<double>& values,
-  int components) const
+void SceneOutput::AddFlags(const std::string& name, const std::vector<int>& flags) const
 {
-  std::vector<vtkSmartPointer<vtkDoubleArray>> arrays;
+  for (int side = 0; side < this->Scene.GetFaces().GetNumberOfSides(); ++side)
+  {
+    this->AddCellArray<vtkIntArray>(name, flags, 1, side);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <typename Array, typename Value>
+void SceneOutput::AddCellArray(const std::string& name, const std::vector<Value>& values,
+  int components, int side) const
+{
+  std::vector<vtkSmartPointer<Array>> arrays;
   for (vtkPolyData* data : Leaves::Get(this->Output))
   {
-    arrays.push_back(MakeArray(name, data->GetNumberOfCells(), components));
+    arrays.push_back(
+      MakeArray<Array>(GetSideName(name, side), data->GetNumberOfCells(), components));
     data->GetCellData()->AddArray(arrays.back());
   }
   const std::vector<LocalCell>& cells = this->Scene.GetLocalCells();
-  for (std::size_t k = 0; k < cells.size(); ++k)
+  vtkIdType face =
+    this->Scene.GetFirstLocalPolygon() + side * this->Scene.GetFaces().GetNumberOfPolygons();
+  for (const LocalCell& cell : cells)
   {
-    arrays[cells[k].Block]->SetTypedTuple(cells[k].Cell,
-      &values[this->Scene.GetLocalPatches()[k] * components]);
+    arrays[cell.Block]->SetTypedTuple(cell.Cell, &values[face * components]);
+    ++face;
   }
 }
 
 //------------------------------------------------------------------------------
-void SceneOutput::AddPointArray(const std::string& name, const std::vector<double>& values,
-  int components) const
+void SceneOutput::AddPointArray(const std::string& name, const std::vector<double>& means,
+  int components, int side) const
 {
-  const std::vector<double> means = this->Points->GetMeans(values, components);
   const std::vector<vtkPolyData*> leaves = Leaves::Get(this->Output);
   for (std::size_t block = 0; block < leaves.size(); ++block)
   {
-    auto array = MakeArray(name, leaves[block]->GetNumberOfPoints(), components);
-    const std::vector<vtkIdType>& groups = this->PointGroups[block];
+    auto array = MakeArray<vtkDoubleArray>(GetSideName(name, side),
+      leaves[block]->GetNumberOfPoints(), components);
+    const std::vector<PointGroups>& groups = this->Groups[block];
     for (std::size_t point = 0; point < groups.size(); ++point)
     {
-      if (groups[point] >= 0)
+      if (groups[point][side] >= 0)
       {
-        array->SetTypedTuple(static_cast<vtkIdType>(point), &means[groups[point] * components]);
+        array->SetTypedTuple(static_cast<vtkIdType>(point),
+          &means[groups[point][side] * components]);
       }
     }
     leaves[block]->GetPointData()->AddArray(array);

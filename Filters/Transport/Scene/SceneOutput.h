@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Numbers of patches as arrays of a filter's output, which gets the structure and the arrays of the
- * input, with points duplicated where several smooth groups meet at one.
+ * Numbers of patches and faces as arrays of a filter's output, which gets the structure and the
+ * arrays of the input, with points duplicated where several smooth groups meet at one.
  */
 #ifndef SceneOutput_h
 #define SceneOutput_h
 
 #include "vtkType.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -29,24 +30,36 @@ public:
     vtkDataObject* output);
 
   /**
-   * Write values[patch * components + component] (of all patches) as the cell array `name` of the
-   * local part of the output, and as a point array where there are smooth points. Cells that are no
-   * patches (ghosts, lines), and points of none, get 0.
+   * Write the means over faces of values[patch * components + component] (of all patches) as the
+   * cell array `name` of the local part of the output, and as a point array where there are smooth
+   * points; those of backs as `name` with the suffix "Back". Cells that are no faces (ghosts,
+   * lines), faces without patches, and points of none, get 0.
    */
   void AddArray(const std::string& name, const std::vector<double>& values, int components) const;
 
+  /// The same with values[face * components + component].
+  void AddFaceArray(const std::string& name, const std::vector<double>& values,
+    int components) const;
+
+  /// Flags of each face, as integers of the cell array `name`, and of that of the backs.
+  void AddFlags(const std::string& name, const std::vector<int>& flags) const;
+
 private:
+  /// The smooth groups that have values at a point, of the front and of the back; -1 for none.
+  using PointGroups = std::array<vtkIdType, 2>;
+
   void CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal, vtkPolyData* output);
-  void AddCellArray(const std::string& name, const std::vector<double>& values,
-    int components) const;
-  void AddPointArray(const std::string& name, const std::vector<double>& values,
-    int components) const;
+  PointGroups GetGroups(vtkIdType polygon, vtkIdType corner) const;
+  template <typename Array, typename Value>
+  void AddCellArray(const std::string& name, const std::vector<Value>& values, int components,
+    int side) const;
+  void AddPointArray(const std::string& name, const std::vector<double>& means, int components,
+    int side) const;
 
   const PatchScene& Scene;
   const SmoothPoints* Points;
   vtkDataObject* Output;
-  /// Smooth group of each output point of each block, -1 for points of no patch.
-  std::vector<std::vector<vtkIdType>> PointGroups;
+  std::vector<std::vector<PointGroups>> Groups; ///< of each output point of each block
 };
 } // namespace LightTransport
 

@@ -15,61 +15,90 @@ namespace LightTransport
 namespace
 {
 //------------------------------------------------------------------------------
-/// The corners that use each point: those of point p are [Starts[p], Starts[p + 1]) of Corners.
-struct PointUses
+PatchScene::Vector GetNormal(const PatchScene& scene, vtkIdType face)
 {
-  explicit PointUses(const PatchGeometry& patches)
-    : Starts(patches.GetPoints().size() + 1, 0), Corners(patches.GetCorners().size()),
-      Patches(patches.GetCorners().size())
+  PatchScene::Vector normal = PatchScene::Vector::Zero();
+  for (const vtkIdType patch : scene.GetFaces().GetPatches(face))
   {
-    for (const vtkIdType point : patches.GetCorners())
+    normal += scene.GetFaces().GetShare(patch) * scene.GetNormal(patch);
+  }
+  return normal.stableNormalized();
+}
+
+//------------------------------------------------------------------------------
+/// The corners of faces at each place and side: those of key k are [Starts[k], Starts[k + 1]).
+struct PlaceUses
+{
+  explicit PlaceUses(const PatchScene& scene)
+    : Starts(scene.GetNumberOfPlaces() * scene.GetFaces().GetNumberOfSides() + 1, 0)
+  {
+    const auto visit = [&scene](auto&& take)
     {
-      ++this->Starts[point + 1];
-    }
-    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-    std::vector<vtkIdType> next(this->Starts.begin(), this->Starts.end() - 1);
-    for (vtkIdType patch = 0; patch < patches.GetNumberOfPatches(); ++patch)
-    {
-      for (vtkIdType corner = patches.GetOffsets()[patch]; corner < patches.GetOffsets()[patch + 1];
-           ++corner)
+      const SceneFaces& faces = scene.GetFaces();
+      vtkIdType corner = 0;
+      for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
       {
-        const vtkIdType use = next[patches.GetCorners()[corner]]++;
-        this->Corners[use] = corner;
-        this->Patches[use] = patch;
+        const vtkIdType side = faces.GetSide(face);
+        for (const vtkIdType place : scene.GetPlaces(faces.GetPolygon(face)))
+        {
+          if (faces.GetPatch(face) >= 0)
+          {
+            take(place + side * scene.GetNumberOfPlaces(), corner, face);
+          }
+          ++corner;
+        }
       }
-    }
+    };
+    visit([this](vtkIdType key, vtkIdType, vtkIdType) { ++this->Starts[key + 1]; });
+    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+    this->Corners.resize(this->Starts.back());
+    this->Faces.resize(this->Starts.back());
+    std::vector<vtkIdType> next(this->Starts.begin(), this->Starts.end() - 1);
+    visit(
+      [&](vtkIdType key, vtkIdType corner, vtkIdType face)
+      {
+        this->Corners[next[key]] = corner;
+        this->Faces[next[key]++] = face;
+      });
   }
 
   std::vector<vtkIdType> Starts;
-  std::vector<vtkIdType> Corners;
-  std::vector<vtkIdType> Patches; ///< as Corners
+  std::vector<vtkIdType> Corners; ///< among those of all faces
+  std::vector<vtkIdType> Faces;   ///< as Corners
 };
 } // namespace
 
 //------------------------------------------------------------------------------
 SmoothPoints::SmoothPoints(const PatchScene& scene, double featureAngle,
   const std::vector<double>& materials, int materialComponents)
-  : Scene(scene), Groups(scene.GetCorners().size(), 0)
+  : Scene(scene), Groups(scene.GetPlaceOffsets().back() * scene.GetFaces().GetNumberOfSides(), -1)
 {
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(featureAngle));
+  std::vector<PatchScene::Vector> normals;
+  for (vtkIdType face = 0; face < scene.GetFaces().GetNumberOfFaces(); ++face)
+  {
+    normals.push_back(GetNormal(scene, face));
+  }
   const auto areJoined = [&](vtkIdType a, vtkIdType b)
   {
-    return scene.GetNormal(a).dot(scene.GetNormal(b)) >= cosine &&
-      std::equal(materials.begin() + a * materialComponents,
-        materials.begin() + (a + 1) * materialComponents,
-        materials.begin() + b * materialComponents);
+    const vtkIdType patchA = scene.GetPatch(a);
+    const vtkIdType patchB = scene.GetPatch(b);
+    return normals[a].dot(normals[b]) >= cosine &&
+      std::equal(materials.begin() + patchA * materialComponents,
+        materials.begin() + (patchA + 1) * materialComponents,
+        materials.begin() + patchB * materialComponents);
   };
-  const PointUses uses(scene);
-  for (std::size_t point = 0; point < scene.GetPoints().size(); ++point)
+  const PlaceUses uses(scene);
+  for (std::size_t key = 0; key + 1 < uses.Starts.size(); ++key)
   {
-    const vtkIdType first = uses.Starts[point];
-    const vtkIdType count = uses.Starts[point + 1] - first;
+    const vtkIdType first = uses.Starts[key];
+    const vtkIdType count = uses.Starts[key + 1] - first;
     DisjointSets sets(count);
     for (vtkIdType a = 0; a < count; ++a)
     {
       for (vtkIdType b = 0; b < a; ++b)
       {
-        if (areJoined(uses.Patches[first + a], uses.Patches[first + b]))
+        if (areJoined(uses.Faces[first + a], uses.Faces[first + b]))
         {
           sets.Join(a, b);
         }
@@ -86,21 +115,36 @@ SmoothPoints::SmoothPoints(const PatchScene& scene, double featureAngle,
 }
 
 //------------------------------------------------------------------------------
+vtkIdType SmoothPoints::GetGroup(vtkIdType polygon, int side, vtkIdType corner) const
+{
+  const std::vector<vtkIdType>& offsets = this->Scene.GetPlaceOffsets();
+  return this->Groups[side * offsets.back() + offsets[polygon] + corner];
+}
+
+//------------------------------------------------------------------------------
+// Face by face in the order of the patches.
 std::vector<double> SmoothPoints::GetMeans(const std::vector<double>& values, int components) const
 {
   std::vector<double> means(this->NumberOfGroups * components, 0.0);
   std::vector<double> weights(this->NumberOfGroups, 0.0);
-  const std::vector<vtkIdType>& offsets = this->Scene.GetOffsets();
+  const SceneFaces& faces = this->Scene.GetFaces();
   for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
-    const double area = this->Scene.GetAreas()[patch];
-    for (vtkIdType corner = offsets[patch]; corner < offsets[patch + 1]; ++corner)
+    const vtkIdType face = faces.GetFace(patch);
+    if (faces.GetPatch(face) != patch)
     {
-      const vtkIdType group = this->Groups[corner];
+      continue;
+    }
+    const double area = faces.GetArea(face);
+    const vtkIdType polygon = faces.GetPolygon(face);
+    const std::vector<vtkIdType>& offsets = this->Scene.GetPlaceOffsets();
+    for (vtkIdType corner = 0; corner < offsets[polygon + 1] - offsets[polygon]; ++corner)
+    {
+      const vtkIdType group = this->GetGroup(polygon, faces.GetSide(face), corner);
       weights[group] += area;
       for (int component = 0; component < components; ++component)
       {
-        means[group * components + component] += area * values[patch * components + component];
+        means[group * components + component] += area * values[face * components + component];
       }
     }
   }

@@ -17,7 +17,7 @@ namespace LightTransport
 Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSettings& settings,
   const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor)
 {
-  this->Patches.clear();
+  this->Faces = SceneFaces();
   if (!settings.Hierarchical && scene.GetOrder() != PatchScene::Order::Spatial)
   {
     return Outcome::Failed("A matrix needs the spatial order of the scene: set ClusterTree to "
@@ -46,7 +46,7 @@ Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSetting
   }
   if (updated)
   {
-    this->Patches = scene.GetPatches();
+    this->Faces = scene.GetFaces();
   }
   return updated;
 }
@@ -68,13 +68,22 @@ Outcome ViewFactorStore::CheckLoaded(const PatchScene& scene, const Ranks& ranks
 double ViewFactorStore::GetViewFactor(vtkIdType i, vtkIdType j) const
 {
   const vtkExchange* exchange = this->GetLinks().GetExchange();
-  const vtkIdType patches = exchange ? static_cast<vtkIdType>(this->Patches.size()) : 0;
-  if (i < 0 || j < 0 || i >= patches || j >= patches)
+  const vtkIdType faces = exchange ? this->Faces.GetNumberOfFaces() : 0;
+  if (i < 0 || j < 0 || i >= faces || j >= faces)
   {
     return 0.0;
   }
-  const vtkIdType row = this->Patches[i];
-  return exchange->GetValue(row, this->Patches[j]) / exchange->GetAreas()[row];
+  double factor = 0.0;
+  for (const vtkIdType row : this->Faces.GetPatches(i))
+  {
+    double exchanged = 0.0;
+    for (const vtkIdType column : this->Faces.GetPatches(j))
+    {
+      exchanged += exchange->GetValue(row, column);
+    }
+    factor += this->Faces.GetShare(row) * (exchanged / exchange->GetAreas()[row]);
+  }
+  return factor;
 }
 
 //------------------------------------------------------------------------------
@@ -114,7 +123,7 @@ Outcome ViewFactorStore::Load(const std::string& fileName, const Ranks& ranks)
   if (read)
   {
     this->Cache.Put(std::move(loaded));
-    this->Patches.clear();
+    this->Faces = SceneFaces();
     this->LoadedFile = fileName;
   }
   return read;
@@ -124,7 +133,7 @@ Outcome ViewFactorStore::Load(const std::string& fileName, const Ranks& ranks)
 void ViewFactorStore::Forget()
 {
   this->Cache.Put(Links());
-  this->Patches.clear();
+  this->Faces = SceneFaces();
   this->LoadedFile.clear();
 }
 } // namespace LightTransport

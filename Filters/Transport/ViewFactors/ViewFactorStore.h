@@ -7,6 +7,7 @@
 #define ViewFactorStore_h
 
 #include "Links/LinkCache.h"
+#include "Scene/SceneFaces.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 #include "vtkType.h"
@@ -42,8 +43,8 @@ public:
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
 
-  /// F_ij, patches counted as the polygons of the scene of the last update. 0 where out of range
-  /// and, on several ranks, where another rank holds the pair.
+  /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
+  /// what other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j) const;
 
   ///@{ On one process: save what the last update computed; take it from a file until Forget or
@@ -59,7 +60,7 @@ private:
   Outcome CheckLoaded(const PatchScene& scene, const Ranks& ranks) const;
 
   LinkCache Cache;
-  std::vector<vtkIdType> Patches; ///< of each polygon of the scene of the last update
+  SceneFaces Faces; ///< of the scene of the last update
   std::string LoadedFile;
 };
 } // namespace LightTransport
