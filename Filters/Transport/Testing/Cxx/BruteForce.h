@@ -7,9 +7,11 @@
  * A ray from a random point in a direction of density cos / pi, of which the point, the half-plane
  * (one of those around an axis in the polygon) and the angle in it are independent. The angle is
  * not drawn: what is met along a whole half-plane is found by looking at all triangles, so that
- * each sample counts all directions in it exactly. (With 1 / y over x / y as coordinates triangles
- * are straight pieces in the half-plane, and the nearest is the highest of them.) The three other
- * numbers are a scrambled Sobol sequence; independent scramblings tell the standard error.
+ * each sample counts all directions in it exactly. Half-planes are drawn evenly in angle and
+ * weighted by their cosine, so that what is seen near the horizon is met often. (With 1 / y over x
+ * / y as coordinates triangles are straight pieces in the half-plane, and the nearest is the
+ * highest of them.) The three other numbers are a scrambled Sobol sequence; independent scramblings
+ * tell the standard error.
  *
  * Surfaces in one place: what a ray meets within the worth of coordinates of the nearest is one
  * place, measured across the surfaces. Of several there the ray meets one that faces it, of those
@@ -26,6 +28,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace LightTransportTesting
@@ -163,7 +166,7 @@ private:
   struct HalfPlane
   {
     Vector Origin, Axis, Up;
-    double Lift; ///< height over the polygon per y
+    double Lift; ///< height over the polygon per y, and the weight of the half-plane
     std::size_t Owner;
   };
 
@@ -267,9 +270,9 @@ inline BruteForce::HalfPlane BruteForce::Draw(std::size_t polygon,
     half.Axis = normal.cross(Vector(-0.2181, 0.8144, 0.5377));
   }
   half.Axis.normalize();
-  const double sine = 2.0 * (digits[2] + 0.5) * unit - 1.0;
-  half.Lift = std::sqrt(1.0 - sine * sine);
-  half.Up = half.Lift * normal + sine * normal.cross(half.Axis);
+  const double angle = 3.14159265358979323846 * ((digits[2] + 0.5) * unit - 0.5);
+  half.Lift = std::cos(angle);
+  half.Up = half.Lift * normal + std::sin(angle) * normal.cross(half.Axis);
   return half;
 }
 
@@ -439,12 +442,12 @@ inline void BruteForce::Sweep(const HalfPlane& half, Workspace& work,
     if (met != current)
     {
       const double here = BruteForce::GetShareBefore(work.Breaks[k]);
-      sums[current] += here - begin;
+      sums[current] += half.Lift * (here - begin);
       begin = here;
       current = met;
     }
   }
-  sums[current] += 1.0 - begin;
+  sums[current] += half.Lift * (1.0 - begin);
 }
 
 //------------------------------------------------------------------------------
@@ -452,16 +455,21 @@ inline BruteForceRow BruteForce::Summarise(const std::vector<std::vector<double>
   int samples) const
 {
   const auto count = static_cast<double>(sums.size());
+  std::vector<double> weights;
+  for (const std::vector<double>& sum : sums)
+  {
+    weights.push_back(std::accumulate(sum.begin(), sum.end(), 0.0));
+  }
   const auto measure = [&](const auto& get, double& mean, double& error)
   {
     double first = 0.0, second = 0.0;
-    for (const std::vector<double>& sum : sums)
+    for (std::size_t k = 0; k < sums.size(); ++k)
     {
-      first += get(sum) / samples / count;
+      first += get(sums[k]) / weights[k] / count;
     }
-    for (const std::vector<double>& sum : sums)
+    for (std::size_t k = 0; k < sums.size(); ++k)
     {
-      second += std::pow(get(sum) / samples - first, 2);
+      second += std::pow(get(sums[k]) / weights[k] - first, 2);
     }
     mean = first;
     // What no sample has met is as large as this at times.
@@ -474,8 +482,8 @@ inline BruteForceRow BruteForce::Summarise(const std::vector<std::vector<double>
   {
     measure([k](const std::vector<double>& sum) { return sum[k]; }, row.Shares[k], row.Errors[k]);
   }
-  measure([samples](const std::vector<double>& sum)
-    { return samples - sum[sum.size() - 2] - sum[sum.size() - 1]; },
+  measure([](const std::vector<double>& sum)
+    { return std::accumulate(sum.begin(), sum.end() - 2, 0.0); },
     row.Sum, row.SumError);
   return row;
 }
