@@ -27,12 +27,13 @@ namespace
 {
 constexpr const char* Usage =
   "usage: ViewFactorProofBenchmark [--scenes N] [--first N] [--tolerances T,T,...] [--kind KIND]\n"
-  "                                [--placement NAME] [--sigma S] [--scene N]\n"
+  "                                [--placement NAME] [--retold 1] [--sigma S] [--scene N]\n"
   "  --scenes      how many (default 10000)\n"
   "  --first       number of the first one (default 0)\n"
   "  --tolerances  of the view factors (default 1e-2,1e-3)\n"
   "  --kind        only scenes of that kind\n"
   "  --placement   only those placed that way, \"double\" or \"float, 10 off\" for example\n"
+  "  --retold      1: polygons begin at other corners, and one of them is in pieces (default 0)\n"
   "  --sigma       standard error of the brute force at which it stops at the latest (default\n"
   "                3e-5: rows with an estimate of less than three times that are counted apart)\n"
   "  --scene       tell all of one scene\n";
@@ -44,6 +45,7 @@ struct Options
   std::vector<double> Tolerances = { 1e-2, 1e-3 };
   std::string Kind;
   std::string Placement;
+  bool Retold = false;
   double Sigma = 3e-5;
   int Scene = -1;
 };
@@ -99,6 +101,10 @@ bool ReadOptions(int argc, char* argv[], Options& options)
     else if (name == "--placement")
     {
       options.Placement = value;
+    }
+    else if (name == "--retold")
+    {
+      options.Retold = std::atoi(value) != 0;
     }
     else if (name == "--sigma")
     {
@@ -186,11 +192,15 @@ public:
       return;
     }
     SceneMaker maker(number);
-    const RandomScene scene = maker.Make(kind);
+    RandomScene scene = maker.Make(kind);
     const Placement placement = maker.MakePlacement();
     if (!this->Settings.Placement.empty() && placement.Name != this->Settings.Placement)
     {
       return;
+    }
+    if (this->Settings.Retold)
+    {
+      scene.Polygons = Retell(scene.Polygons, number).Polygons;
     }
     const std::vector<Corners> polygons = Place(scene.Polygons, placement);
     const bool tell = this->Settings.Scene >= 0;

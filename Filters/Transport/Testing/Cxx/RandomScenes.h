@@ -128,6 +128,69 @@ inline double GetWidth(const Corners& polygon)
 }
 
 //------------------------------------------------------------------------------
+/// The same surfaces told in another way, and which polygon each of its polygons is part of.
+struct Retold
+{
+  std::vector<Corners> Polygons;
+  std::vector<std::size_t> Parts;
+};
+
+//------------------------------------------------------------------------------
+inline void TurnCorners(Retold& retold, Random& numbers)
+{
+  for (Corners& polygon : retold.Polygons)
+  {
+    std::rotate(polygon.begin(), polygon.begin() + numbers.Index(static_cast<int>(polygon.size())),
+      polygon.end());
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Cut one polygon from a point inside to its corners, or a parallelogram along its diagonal.
+inline void CutOne(Retold& retold, Random& numbers)
+{
+  const int which = numbers.Index(static_cast<int>(retold.Polygons.size()));
+  const Corners polygon = retold.Polygons[which];
+  const std::size_t part = retold.Parts[which];
+  retold.Polygons.erase(retold.Polygons.begin() + which);
+  retold.Parts.erase(retold.Parts.begin() + which);
+  std::vector<Corners> pieces;
+  if (polygon.size() == 4 && numbers.Chance(0.5))
+  {
+    pieces = { { polygon[0], polygon[1], polygon[2] }, { polygon[0], polygon[2], polygon[3] } };
+  }
+  else
+  {
+    const Vector middle = 0.4 * polygon[0] + 0.35 * polygon[1] + 0.25 * polygon[2];
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+    {
+      pieces.push_back({ middle, polygon[k], polygon[(k + 1) % polygon.size()] });
+    }
+  }
+  for (const Corners& piece : pieces)
+  {
+    retold.Polygons.push_back(piece);
+    retold.Parts.push_back(part);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Polygons that begin at other corners, and one of them in pieces.
+inline Retold Retell(const std::vector<Corners>& polygons, int number)
+{
+  Random numbers(MixBits(number + 77));
+  Retold retold;
+  retold.Polygons = polygons;
+  for (std::size_t k = 0; k < polygons.size(); ++k)
+  {
+    retold.Parts.push_back(k);
+  }
+  TurnCorners(retold, numbers);
+  CutOne(retold, numbers);
+  return retold;
+}
+
+//------------------------------------------------------------------------------
 class SceneMaker
 {
 public:
