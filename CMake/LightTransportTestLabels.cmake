@@ -10,7 +10,8 @@ set(LIGHTTRANSPORT_SLOW_TESTS
   TestPatchMesherSizing
   TestPipeline
   TestReport
-  TestViewFactorCatalogue)
+  TestSurfacesInOnePlace
+  "TestViewFactor(Catalogue|Estimate|Properties)")
 # Tests that need OpenGL in folders where the others do not.
 set(LIGHTTRANSPORT_GL_TESTS TestPluginAlone TestReport)
 foreach (list IN ITEMS LIGHTTRANSPORT_SLOW_TESTS LIGHTTRANSPORT_GL_TESTS)
