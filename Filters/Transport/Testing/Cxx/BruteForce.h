@@ -222,13 +222,16 @@ inline BruteForce::BruteForce(const std::vector<Corners>& polygons, double worth
     this->First.push_back(this->Triangles.size());
     for (Eigen::Index k = begin + 1; k + 1 < this->Points.cols(); ++k)
     {
-      const Vector u = this->Points.col(k) - this->Points.col(begin);
-      const Vector v = this->Points.col(k + 1) - this->Points.col(begin);
-      const Vector twice = u.cross(v);
-      if (twice.norm() > 0.0)
+      // Slivers lose digits of their normals.
+      using Precise = Eigen::Matrix<long double, 3, 1>;
+      const Precise from = this->Points.col(begin).cast<long double>();
+      const Precise twice = (this->Points.col(k).cast<long double>() - from)
+                              .cross(this->Points.col(k + 1).cast<long double>() - from);
+      const auto area = static_cast<double>(0.5L * twice.norm());
+      if (area > 0.0)
       {
         this->Triangles.push_back(
-          { owner, { begin, k, k + 1 }, twice.normalized(), 0.5 * twice.norm() });
+          { owner, { begin, k, k + 1 }, twice.normalized().cast<double>(), area });
       }
     }
   }
