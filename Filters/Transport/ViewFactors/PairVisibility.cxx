@@ -30,12 +30,15 @@ constexpr double Slant = 0.38;
 // The largest error of the first look's rule for one shadow edge across the pair, and the part of
 // the exchange that belongs to the rim.
 constexpr double FirstError = 0.04;
-constexpr double RimPart = 0.25;
+constexpr double RimPart = 0.5;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
-constexpr double UsualPart = 0.8;
+constexpr double UsualPart = 0.6;
 // Two polygons closer than this part of the larger one's extent: the raster does not resolve there
 // what one sees of the other.
 constexpr double CloseDistance = 0.125;
+// Points of which one counts no more samples than this see a small part of the inner polygon, which
+// the raster does not resolve.
+constexpr double FewestSamples = 0.4 * ShadowRaster::Bits;
 // Edges of the target that leave the raster's lines by less than this part are along them.
 constexpr double AlongLines = 1e-12;
 
@@ -125,6 +128,9 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     return false;
   }
   this->AreClose = open > 0.0 && AreCloseTogether(this->Outer, this->Inner);
+  this->Samples = ShadowRaster::Lines * ShadowRaster::Bits;
+  this->IsExactReady = false;
+  this->Scene = &scene;
   this->ChooseOuter(scene);
   this->SetFrame();
   this->AddTarget();
@@ -137,11 +143,16 @@ bool PairVisibility::SelectOccluders(const PatchScene& scene,
   const std::vector<vtkIdType>& occluders)
 {
   this->Occluders.clear();
+  const double distance = (this->OuterPlane.Origin - this->InnerPlane.Origin).norm();
+  this->Hull.Set(this->Outer, this->Inner,
+    std::max(this->OuterPlane.GetTolerance(distance), this->InnerPlane.GetTolerance(distance)));
   for (const vtkIdType patch : occluders)
   {
     const Side outer = FindSide(scene, patch, this->OuterPlane);
     const Side inner = outer == Side::Behind ? outer : FindSide(scene, patch, this->InnerPlane);
-    if (inner != Side::Behind)
+    if (inner != Side::Behind &&
+      !this->Hull.IsBeyond(scene.GetNumberOfCorners(patch),
+        [&](int corner) { return scene.GetCorner(patch, corner); }))
     {
       this->Occluders.push_back({ patch, outer == Side::Both || inner == Side::Both, 0.0 });
     }
@@ -263,26 +274,30 @@ void PairVisibility::AddTriangles(const PatchScene& scene)
     [](const Occluder& a, const Occluder& b)
     { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Patch < b.Patch); });
   this->Triangles.Clear();
-  this->Exact.Set(this->Outer, this->Inner, this->Open);
   Polygon cut;
   for (const Occluder& occluder : this->Occluders)
   {
-    if (!occluder.IsCut && !this->AreClose)
+    if (!occluder.IsCut)
     {
       this->AddTriangles(scene.GetNumberOfCorners(occluder.Patch),
         [&](int corner) { return scene.GetCorner(occluder.Patch, corner); });
       continue;
     }
-    cut.Set(scene, occluder.Patch);
-    if (!occluder.IsCut || (cut.Clip(this->OuterPlane) && cut.Clip(this->InnerPlane)))
+    if (this->ShapeOccluder(occluder, cut))
     {
       this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
-      if (this->AreClose)
-      {
-        this->Exact.AddOccluder(cut);
-      }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+// What of an occluder is between the two polygons; false where nothing is.
+bool PairVisibility::ShapeOccluder(const Occluder& occluder, Polygon& shape) const
+{
+  shape.Set(*this->Scene, occluder.Patch);
+  return !occluder.IsCut ||
+    (shape.Clip(this->OuterPlane) && shape.Clip(this->InnerPlane) &&
+      !this->Hull.IsBeyond(shape.Count, [&](int corner) { return shape.Corners[corner]; }));
 }
 
 //------------------------------------------------------------------------------
@@ -294,7 +309,9 @@ Flux PairVisibility::See(const Vector& place)
   const double point[3] = { offset.dot(this->AxisU), offset.dot(this->AxisW),
     offset.dot(this->AxisH) };
   const double shift[2] = { sampler.Get(index, 0), sampler.Get(index, 1) };
-  return ShadowRaster::See(this->Target, this->Triangles, point, this->Normal, shift);
+  const Flux flux = ShadowRaster::See(this->Target, this->Triangles, point, this->Normal, shift);
+  this->Samples = std::min(this->Samples, flux.Samples);
+  return flux;
 }
 
 //------------------------------------------------------------------------------
@@ -324,17 +341,17 @@ double PairVisibility::SeeFromGrid(int cuts)
 // The points of a grid lie inside: what only the rim sees shows at the corners and between them.
 double PairVisibility::GetRimDifference(double share)
 {
-  double difference = 0.0;
+  double sum = 0.0;
   for (int corner = 0; corner < this->Outer.Count; ++corner)
   {
     const Vector& begin = this->Outer.Corners[corner];
     const Vector& end = this->Outer.Corners[(corner + 1) % this->Outer.Count];
     for (const Vector& place : { begin, Vector(0.5 * (begin + end)) })
     {
-      difference = std::max(difference, std::abs(this->See(place).GetShare(share) - share));
+      sum += std::abs(this->See(place).GetShare(share) - share);
     }
   }
-  return difference;
+  return sum / (2.0 * this->Outer.Count);
 }
 
 //------------------------------------------------------------------------------
@@ -342,22 +359,38 @@ PairVisibility::Share PairVisibility::Look()
 {
   Share share;
   share.Value = this->SeeFromGrid(Cuts[0]);
-  if (this->AreClose && share.Value > 0.0)
+  if (this->NeedsExactViews() && share.Value > 0.0)
   {
     return this->IntegrateExactly(1.0);
   }
-  if (share.Value > 0.0 && share.Value < 1.0)
-  {
-    share.Error = FirstError;
-    return share;
-  }
-  share.Error = RimPart * this->GetRimDifference(share.Value);
+  const double rim = share.Value > 0.0 ? 0.0 : this->GetRimDifference(share.Value);
+  const bool isHidden = share.Value <= 0.0 && rim <= 0.0;
+  share.Error = isHidden ? 0.0 : std::max(FirstError, RimPart * rim);
   return share;
+}
+
+//------------------------------------------------------------------------------
+bool PairVisibility::NeedsExactViews() const
+{
+  return this->AreClose || (this->Open > 0.0 && this->Samples < FewestSamples);
 }
 
 //------------------------------------------------------------------------------
 PairVisibility::Share PairVisibility::IntegrateExactly(double tolerance)
 {
+  if (!this->IsExactReady)
+  {
+    this->Exact.Set(this->Outer, this->Inner, this->Open);
+    Polygon shape;
+    for (const Occluder& occluder : this->Occluders)
+    {
+      if (this->ShapeOccluder(occluder, shape))
+      {
+        this->Exact.AddOccluder(shape);
+      }
+    }
+    this->IsExactReady = true;
+  }
   const ExactVisibility::Estimate visible = this->Exact.Integrate(tolerance * this->Open);
   return { std::min(1.0, visible.Value / this->Open), visible.Error / this->Open };
 }
@@ -379,6 +412,10 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
   for (const int cuts : Cuts)
   {
     const double latest = this->SeeFromGrid(cuts);
+    if (this->NeedsExactViews())
+    {
+      return this->IntegrateExactly(tolerance);
+    }
     const double weight = cuts * cuts;
     const double change = weights > 0.0 ? std::abs(latest - sum / weights) : 1.0;
     sum += weight * latest;
@@ -387,11 +424,13 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
     // Two grids may agree by luck: never less than what they usually are off by.
     double usual = UsualPart * FirstError / weight +
       RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
-    if (share.Value <= 0.0 || share.Value >= 1.0)
+    if (share.Value <= 0.0)
     {
       rim = rim < 0.0 ? this->GetRimDifference(share.Value) : rim;
-      usual = RimPart * rim / cuts;
+      usual = 0.0;
     }
+    // What only a band at the rim sees, narrower than the grid.
+    usual = share.Value * cuts < rim ? std::max(usual, RimPart * rim / cuts) : usual;
     share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
     const double work = static_cast<double>(this->NumberOfPoints) * (this->Triangles.Count + 8);

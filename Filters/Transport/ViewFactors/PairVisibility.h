@@ -16,6 +16,7 @@
 #ifndef PairVisibility_h
 #define PairVisibility_h
 
+#include "Geometry/PairHull.h"
 #include "ViewFactors/ExactVisibility.h"
 #include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/ShadowRaster.h"
@@ -43,8 +44,9 @@ public:
   /**
    * Begin with a pair of patches and those that may come between them. Returns false where none of
    * these has a part in front of both planes: nothing is between. Equal keys give equal samples.
-   * `open` is the exchange with nothing in between: where it is large, the two are close together,
-   * and what is visible is found by ExactVisibility.
+   * `open` is the exchange with nothing in between; with it what the raster does not resolve
+   * (polygons that are close together, or of which one sees a small part of the other) is found by
+   * ExactVisibility. Scene and occluders must outlive the pair.
    */
   bool SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     const std::vector<vtkIdType>& occluders, std::uint64_t key, double open = 0.0);
@@ -55,15 +57,24 @@ public:
     return static_cast<std::uint64_t>(i) << 32 ^ static_cast<std::uint64_t>(j);
   }
 
-  /// A first look from a few points and, where they agree that the pair is visible or that it is
-  /// hidden, from the corners and the middles of the edges. An error of 0 says that all agree. Of
-  /// what is close together a few points can tell nothing but that it is hidden.
+  /// A first look from a few points and, where all of them see nothing, from the corners and the
+  /// middles of the edges. An error of 0 says that none of these sees anything. What all of them
+  /// see is not known to be visible: something is between the two.
   Share Look();
 
   /// Integrate until the estimated error is below `tolerance`, or the work is used up.
   Share Integrate(double tolerance);
 
 private:
+  /// What is between: a patch, whether a plane cuts it, and where it comes in the order (first what
+  /// hides much, so that a hidden polygon is soon known to be hidden).
+  struct Occluder
+  {
+    vtkIdType Patch;
+    bool IsCut;
+    double Rank;
+  };
+
   bool SelectOccluders(const PatchScene& scene, const std::vector<vtkIdType>& occluders);
   void ChooseOuter(const PatchScene& scene);
   void SetFrame();
@@ -73,6 +84,8 @@ private:
   void AddTriangles(int count, const GetCorner& getCorner);
   ShadowRaster::Flux See(const Vector& point);
   double SeeFromGrid(int cuts);
+  bool ShapeOccluder(const Occluder& occluder, Polygon& shape) const;
+  bool NeedsExactViews() const;
   Share IntegrateExactly(double tolerance);
   double GetRimDifference(double share);
 
@@ -81,17 +94,12 @@ private:
   std::uint64_t Key = 0;
   double Open = 0.0;
   bool AreClose = false;
+  double Samples = 0.0; ///< of the raster that count, from the point where they are fewest
+  const PatchScene* Scene = nullptr;
   int NumberOfPoints = 0;
 
-  /// What is between: a patch, whether a plane cuts it, and where it comes in the order (first what
-  /// hides much, so that a hidden polygon is soon known to be hidden).
-  struct Occluder
-  {
-    vtkIdType Patch;
-    bool IsCut;
-    double Rank;
-  };
   std::vector<Occluder> Occluders;
+  PairHull Hull;
 
   // The inner polygon's frame.
   Vector Origin, AxisU, AxisW, AxisH;
@@ -99,7 +107,8 @@ private:
   ShadowRaster::Target Target;
   ShadowRaster::Triangles Triangles;
 
-  ExactVisibility Exact; ///< of a pair that is close together
+  ExactVisibility Exact;
+  bool IsExactReady = false;
 };
 } // namespace LightTransport
 
