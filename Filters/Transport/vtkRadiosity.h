@@ -160,8 +160,8 @@ public:
    * times the background's radiance, in the unit of the emission per steradian, one value per band
    * or one for all. It is part of "Irradiance", and enters no closed scene. Where rows are
    * closed (EnforceClosure, hierarchical links) a black scene as warm as its background exchanges
-   * nothing with it, to rounding; else to a small part of ViewFactorTolerance. Defaults 0 K, range 0
-   * to 1e30, and none.
+   * nothing with it, to rounding; else to a small part of ViewFactorTolerance. Defaults 0 K, range
+   * 0 to 1e30, and none.
    */
   vtkSetClampMacro(BackgroundTemperature, double, 0.0, 1e30);
   vtkGetMacro(BackgroundTemperature, double);

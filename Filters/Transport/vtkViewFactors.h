@@ -22,8 +22,8 @@
  * Output port 0: the input with the cell arrays
  *   - "ViewFactorSum" (1 component): sum_j F_ij as computed, before any closure. 1 in a closed
  * scene.
- *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|, or where that is larger of the error
- * of the next two, or of what is missing to 1 in the sum of all three.
+ *   - "ViewFactorError" (1): estimate of sum_j |error of F_ij|, or where that is larger of the
+ * error of the next two, or of what is missing to 1 in the sum of all three.
  *   - "SkyFraction" (1): the part of what leaves the patch that leaves the scene.
  *   - "BackFaceFraction" (1): the part that meets back faces. Both are integrated on their own, by
  * eight sets of scrambled Sobol' rays (Embree) that tell their own error, and combined with
@@ -107,12 +107,12 @@ public:
    * the same everywhere. It is an estimate from the samples that decide which links there are;
    * single patches may be off by much more.
    *
-   * Rows are closed, whether EnforceClosure is on or not: the weights of the patches are scaled until
-   * each row sums to 1 with its sky and back faces (Sinkhorn and Knopp 1967; the links stay
+   * Rows are closed, whether EnforceClosure is on or not: the weights of the patches are scaled
+   * until each row sums to 1 with its sky and back faces (Sinkhorn and Knopp 1967; the links stay
    * symmetric). Light that is reflected often would add up the errors of rows, and closing takes
    * away most of what links leave out: LinkTolerance then bounds the error of the radiosity by even
-   * light and by the sky, and in a room lit by a lamp. "ViewFactorSum" and the two fractions are what
-   * is applied; "ViewFactorError" is a root mean square for all rows.
+   * light and by the sky, and in a room lit by a lamp. "ViewFactorSum" and the two fractions are
+   * what is applied; "ViewFactorError" is a root mean square for all rows.
    *
    * Field data are ClusterTreeUsed ("Spatial" or "Atlas"), PairsExamined, PairsBackFacing and
    * PairsUnobstructed (pairs of clusters), LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of

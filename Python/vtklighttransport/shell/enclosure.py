@@ -15,7 +15,7 @@ ENCLOSURE = (
     Switch("--by-brightness", "RefineByBrightness", True,
            "refine hierarchical links where light is"),
     Switch("--closure", "EnforceClosure", True,
-           "make the view factors of closed scenes sum to 1"),
+           "make the view factors of each patch sum to 1 with what it sees of the sky"),
     NumberList("--band-limits", "BandLimit",
                "limits of spectral bands for temperatures: wavelengths in micrometres, such as "
                "0,8,14,inf"),
