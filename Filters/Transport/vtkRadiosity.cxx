@@ -10,12 +10,14 @@
 #include "Radiosity/RadiositySolver.h"
 #include "Radiosity/SolverSettings.h"
 #include "Radiosity/SolverTable.h"
+#include "Radiosity/ThermalDoubts.h"
 #include "Run/TransportRun.h"
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
+#include "ViewFactors/EnclosureVerdict.h"
 #include "ViewFactors/HierarchicalViewFactors.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkCPULinkOperator.h"
@@ -99,6 +101,7 @@ private:
   bool Finish();
 
   void WriteThermal(const std::vector<double>& flux, const SceneOutput& output);
+  void WriteVerdict(const SceneOutput& output) const;
   void WriteSummaries() const;
 
   vtkRadiosity* Owner;
@@ -111,6 +114,7 @@ private:
   std::vector<double> Irradiance; // patches x bands
   std::string DeviceUsed;
   std::string DeviceExplanation;
+  double NetPower = 0.0; // of a thermal scene
   double SolverSeconds = 0.0;
   int Shots = 0; // of the solver that needs no links
 };
@@ -428,12 +432,35 @@ void vtkRadiosity::Run::Write()
   output.AddArray("Radiosity", radiosity, bands);
   output.AddArray(ArrayNames::Irradiance, this->Irradiance, bands);
   output.AddArray("NetFlux", flux, bands);
-  output.AddFlags(ArrayNames::SceneProblems, this->Scene.GetProblems());
   if (this->Materials.IsThermal())
   {
     this->WriteThermal(flux, output);
   }
+  this->WriteVerdict(output);
   this->WriteSummaries();
+}
+
+//------------------------------------------------------------------------------
+// What shots see is not known as openings.
+void vtkRadiosity::Run::WriteVerdict(const SceneOutput& output) const
+{
+  if (!this->Links)
+  {
+    output.AddFlags(ArrayNames::SceneProblems, this->Scene.GetProblems());
+    return;
+  }
+  const EnclosureVerdict verdict(this->Scene, *this->Links);
+  output.AddFlags(ArrayNames::SceneProblems, verdict.GetProblems());
+  verdict.AddTo(this->GetOutputFields());
+  std::vector<std::string> warnings = verdict.GetWarnings();
+  if (this->Materials.IsThermal())
+  {
+    ThermalDoubts::Add(this->Materials, this->Scene, verdict, this->NetPower, warnings);
+  }
+  for (const std::string& warning : warnings)
+  {
+    this->Warn(warning);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -486,9 +513,9 @@ void vtkRadiosity::Run::WriteThermal(const std::vector<double>& flux, const Scen
     output.AddArray("TotalNetFlux", totals, 1);
   }
   const std::vector<double>& areas = this->Scene.GetAreas();
-  const double power = std::inner_product(areas.begin(), areas.end(), totals.begin(), 0.0);
-  FieldValues::Add(this->GetOutputFields(), "NetPower",
-    power * this->Scene.GetScale() * this->Scene.GetScale());
+  this->NetPower =
+    this->GetAreaUnit() * std::inner_product(areas.begin(), areas.end(), totals.begin(), 0.0);
+  FieldValues::Add(this->GetOutputFields(), "NetPower", this->NetPower);
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
 #include "Shared/ArrayNames.h"
+#include "ViewFactors/EnclosureVerdict.h"
 #include "ViewFactors/ViewFactorGroups.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkDataObject.h"
@@ -55,8 +56,14 @@ protected:
     output.AddArray("ViewFactorError", links.GetErrors(), 1);
     output.AddArray("SkyFraction", links.SkyFractions, 1);
     output.AddArray("BackFaceFraction", links.BackFaceFractions, 1);
-    output.AddFlags(ArrayNames::SceneProblems, this->Scene.GetProblems());
+    const EnclosureVerdict verdict(this->Scene, links);
+    output.AddFlags(ArrayNames::SceneProblems, verdict.GetProblems());
+    verdict.AddTo(this->GetOutputFields());
     links.AddSummaries(this->GetOutputFields());
+    for (const std::string& warning : verdict.GetWarnings())
+    {
+      this->Warn(warning);
+    }
   }
 
 private:

@@ -44,7 +44,7 @@ void Links::AddSummaries(vtkFieldData* fields) const
 std::vector<double> Links::GetErrors() const
 {
   std::vector<double> errors = this->RowErrors;
-  for (std::size_t row = 0; row < errors.size(); ++row)
+  for (std::size_t row = 0; row < errors.size() && this->AreRowsWhole; ++row)
   {
     const double sum = this->RowSums[row] + this->SkyFractions[row] + this->BackFaceFractions[row];
     errors[row] = std::max({ errors[row], this->OpeningErrors[row], std::abs(1.0 - sum) });

@@ -44,6 +44,7 @@ struct Links
   std::vector<double> BackFaceFractions;
   std::vector<double> OpeningErrors; ///< estimate for the less exact of the two fractions
   bool AreRowsClosed = false;        ///< row sums, sky and back faces make 1
+  bool AreRowsWhole = true;          ///< no pairs were left out
   ///@}
 
   ///@{ How often rays of other patches met a patch, where rays were cast: whole numbers.

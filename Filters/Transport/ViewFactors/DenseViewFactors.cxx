@@ -124,7 +124,7 @@ void Summarize(const ViewFactorAssembly& assembly, const Ranks& ranks, Links& li
 Outcome FindOpenings(const PatchScene& scene, const Ranks& ranks, Links& links,
   std::vector<double>& errors)
 {
-  bool isOpen = false;
+  bool isOpen = !links.AreRowsWhole;
   for (std::size_t row = 0; row < links.RowSums.size(); ++row)
   {
     isOpen = isOpen || 1.0 - links.RowSums[row] > links.RowErrors[row];
@@ -136,9 +136,13 @@ Outcome FindOpenings(const PatchScene& scene, const Ranks& ranks, Links& links,
   }
   SceneRayCaster caster;
   Outcome ready = ranks.Agree(caster.Build(scene));
-  if (ready)
+  if (ready && links.AreRowsWhole)
   {
     errors = Openings(scene, caster).Complete(links.Tolerance, ranks, links);
+  }
+  else if (ready)
+  {
+    Openings(scene, caster).Survey(ranks, links);
   }
   return ready;
 }
@@ -173,10 +177,10 @@ Outcome DenseViewFactors::Build(const PatchScene& scene, const Ranks& ranks, con
   }
   links.RawRowSums = links.RowSums;
   Summarize(assembly, ranks, links);
-  // Where pairs have been left out no row is whole: what it misses says nothing.
-  Openings::Clear(links);
   std::vector<double> openingErrors(links.RowSums.size(), 0.0);
-  outcome = this->Senders.empty() ? FindOpenings(scene, ranks, links, openingErrors) : outcome;
+  // Where pairs have been left out no row is whole: what it misses says nothing.
+  links.AreRowsWhole = this->Senders.empty();
+  outcome = FindOpenings(scene, ranks, links, openingErrors);
   outcome = outcome && this->EnforceClosure
     ? ViewFactorClosure::CloseMatrix(links, assembly.GetPairs(), openingErrors, this->Tolerance,
         ranks)

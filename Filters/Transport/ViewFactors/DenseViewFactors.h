@@ -15,7 +15,8 @@ class DenseViewFactors : public LinkBuilder
 {
 public:
   /// `senders` tells which patches send anything, empty for all: pairs of which neither does are
-  /// left out, and nothing is known of openings then. A closure needs whole rows and all senders.
+  /// left out, and openings are known by a few rays then. A closure needs whole rows and all
+  /// senders.
   DenseViewFactors(double tolerance, bool enforceClosure, std::vector<bool> senders);
 
   LinkKey GetKey() const override;

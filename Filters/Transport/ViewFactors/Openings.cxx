@@ -229,4 +229,15 @@ void Openings::CompleteClusters(double tolerance, double deviation, const Ranks&
   this->CastRays({ GetMostRays(tolerance), ClusterShare * tolerance, 1.0 }, ranks, links, judge,
     fewest);
 }
+
+//------------------------------------------------------------------------------
+void Openings::Survey(const Ranks& ranks, Links& links) const
+{
+  const auto judge = [](vtkIdType, const PatchOutlook& outlook)
+  { return Row(outlook.GetOpen(), 1.0, outlook); };
+  this->CastRays({ PatchOutlook::FirstRays, 0.0, Confidence }, ranks, links, judge,
+    [](vtkIdType) { return 0; });
+  // There are no sums that it could tell of.
+  links.Summaries.pop_back();
+}
 } // namespace LightTransport

@@ -54,6 +54,9 @@ public:
   void CompleteClusters(double tolerance, double deviation, const Ranks& ranks, Links& links) const;
   ///@}
 
+  /// The same by the first rays alone, where rows are not whole. Collective.
+  void Survey(const Ranks& ranks, Links& links) const;
+
   /// The work that a tolerance is worth: 100 rays over it, 32,768 at most.
   static int GetMostRays(double tolerance);
 
