@@ -25,6 +25,11 @@ namespace
 {
 using Vector = PatchScene::Vector;
 
+// The step between coordinates in single precision over what they may be off (PolygonGathering),
+// and the part of the median patch's size from which on it is told of.
+constexpr double SpacingPerRounding = 4.0 / 3.0;
+constexpr double CoarseSpacing = 0.01;
+
 //------------------------------------------------------------------------------
 struct CoordinateHash
 {
@@ -132,7 +137,29 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order)
   this->Problems = pieces.Problems;
   this->Warnings = pieces.GetWarnings();
   this->Arrange(polygons, corners, pieces);
+  this->WarnOfSpacing();
   return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// Coarse coordinates are taken as they are.
+void PatchScene::WarnOfSpacing()
+{
+  std::vector<double> areas = this->GetAreas();
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  const double size = std::sqrt(*middle);
+  const double spacing = SpacingPerRounding * this->CoordinateRounding.maxCoeff();
+  if (spacing > CoarseSpacing * size)
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << "The points are stored in steps of up to " << spacing * this->Scale
+         << ", more than 1 % of the size of the median patch (" << size * this->Scale
+         << "): results are those of the rounded coordinates. Store them in double precision, or "
+            "move the scene to the origin first.";
+    this->Warnings.push_back(text.str());
+  }
 }
 
 //------------------------------------------------------------------------------

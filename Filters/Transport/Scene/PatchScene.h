@@ -98,6 +98,7 @@ public:
 
 private:
   Outcome Normalize(const GatheredPolygons& polygons);
+  void WarnOfSpacing();
   void Arrange(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
     const ScenePieces& pieces);
   std::vector<vtkIdType> SortPieces(const GatheredPolygons& polygons,

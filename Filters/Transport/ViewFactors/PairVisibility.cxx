@@ -39,6 +39,8 @@ constexpr double CloseDistance = 0.125;
 // Points of which one counts no more samples than this see a small part of the inner polygon, which
 // the raster does not resolve.
 constexpr double FewestSamples = 0.4 * ShadowRaster::Bits;
+// Of heights over the planes of a hull in double precision (the scene is 1 large).
+constexpr double HeightRounding = 1e-14;
 // Edges of the target that leave the raster's lines by less than this part are along them.
 constexpr double AlongLines = 1e-12;
 
@@ -122,6 +124,8 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   this->OuterPlane = scene.GetPlane(i);
   this->InnerPlane = scene.GetPlane(j);
   this->Key = key;
+  this->HullRounding =
+    HeightRounding + std::max(scene.GetEdgeRounding(i), scene.GetEdgeRounding(j));
   this->NumberOfPoints = 0;
   if (!this->SelectOccluders(scene, occluders))
   {
@@ -143,9 +147,7 @@ bool PairVisibility::SelectOccluders(const PatchScene& scene,
   const std::vector<vtkIdType>& occluders)
 {
   this->Occluders.clear();
-  const double distance = (this->OuterPlane.Origin - this->InnerPlane.Origin).norm();
-  this->Hull.Set(this->Outer, this->Inner,
-    std::max(this->OuterPlane.GetTolerance(distance), this->InnerPlane.GetTolerance(distance)));
+  this->Hull.Set(this->Outer, this->Inner, this->HullRounding);
   for (const vtkIdType patch : occluders)
   {
     const Side outer = FindSide(scene, patch, this->OuterPlane);

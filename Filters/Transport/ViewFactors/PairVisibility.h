@@ -100,6 +100,7 @@ private:
 
   std::vector<Occluder> Occluders;
   PairHull Hull;
+  double HullRounding = 0.0;
 
   // The inner polygon's frame.
   Vector Origin, AxisU, AxisW, AxisH;
