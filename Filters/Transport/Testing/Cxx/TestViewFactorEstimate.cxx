@@ -75,7 +75,7 @@ void TestEstimate(double tolerance, int scenes)
 //------------------------------------------------------------------------------
 int TestViewFactorEstimate(int, char*[])
 {
-  TestEstimate(1e-2, 140);
-  TestEstimate(1e-3, 35);
+  TestEstimate(1e-2, 105);
+  TestEstimate(1e-3, 28);
   return Result();
 }
