@@ -32,7 +32,11 @@ struct FactorTable
 inline FactorTable MakeFactorTable(const std::vector<Corners>& polygons, bool single,
   double tolerance)
 {
+  // Of random scenes there is much to warn of: back faces, openings, tolerances.
+  const int warns = vtkObject::GetGlobalWarningDisplay();
+  vtkObject::GlobalWarningDisplayOff();
   const auto factors = ComputeViewFactors(MakeData(polygons, single), tolerance);
+  vtkObject::SetGlobalWarningDisplay(warns);
   FactorTable table;
   table.Size = polygons.size();
   table.Sums = GetCellValues(factors, "ViewFactorSum");
