@@ -47,6 +47,7 @@ public:
   Run(vtkDirectIrradiance* owner, const RunPorts& ports)
     : TransportRun(ports), Owner(owner), StartTime(vtkTimerLog::GetUniversalTime())
   {
+    this->NumberOfSides = owner->TwoSided ? 2 : 1;
   }
 
 protected:
@@ -299,5 +300,6 @@ void vtkDirectIrradiance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EnvironmentSamples: " << this->EnvironmentSamples << "\n";
   os << indent << "ShadowSamples: " << this->ShadowSamples << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
+  os << indent << "TwoSided: " << this->TwoSided << "\n";
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
 }

@@ -99,6 +99,17 @@ public:
   vtkGetMacro(RefractiveIndex, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether light falls on the backs of polygons, too: on the sheets that most models are made of.
+   * Each output array then has a second one for the backs, with the suffix "Back", and "DirectFlux"
+   * is the sum of both. Default off: backs are in the dark.
+   */
+  vtkSetMacro(TwoSided, bool);
+  vtkGetMacro(TwoSided, bool);
+  vtkBooleanMacro(TwoSided, bool);
+  ///@}
+
   /// Includes the lights and the environment.
   vtkMTimeType GetMTime() override;
 
@@ -121,6 +132,7 @@ private:
   int EnvironmentSamples = 256;
   int ShadowSamples = 16;
   bool Shadows = true;
+  bool TwoSided = false;
   double RefractiveIndex = 1.0;
 };
 

@@ -76,7 +76,10 @@ void PrintValues(ostream& os, const std::vector<double>& values)
 class vtkRadiosity::Run : public TransportRun
 {
 public:
-  Run(vtkRadiosity* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner) {}
+  Run(vtkRadiosity* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner)
+  {
+    this->NumberOfSides = owner->TwoSided ? 2 : 1;
+  }
 
 protected:
   Outcome Check() override;
@@ -137,6 +140,12 @@ Outcome vtkRadiosity::Run::Check()
       std::string("LinkMethod is not what the given view factors are: set it to Auto, or switch "
                   "Hierarchical of vtkViewFactors ") +
       (givenHierarchical ? "off." : "on."));
+  }
+  if (given && given->TwoSided != this->Owner->TwoSided)
+  {
+    return Outcome::Failed(std::string("The given view factors are those of ") +
+      (given->TwoSided ? "both sides" : "one side") +
+      " of each polygon: switch TwoSided of vtkViewFactors and vtkRadiosity both on, or both off.");
   }
   if (this->Solver->NeedsEachPair() && (givenHierarchical || method == LINK_METHOD_HIERARCHICAL))
   {
@@ -200,7 +209,12 @@ Outcome vtkRadiosity::Run::Read()
   this->Materials.Settings.BackgroundTemperature = this->Owner->BackgroundTemperature;
   this->Materials.Settings.BackgroundRadiance = this->Owner->BackgroundRadiances;
   const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
-  return this->Materials.Read(arrays, this->Scene, names);
+  Outcome read = this->Materials.Read(arrays, this->Scene, names);
+  for (const std::string& warning : this->Materials.Warnings)
+  {
+    this->Warn(warning);
+  }
+  return read;
 }
 
 //------------------------------------------------------------------------------
@@ -618,5 +632,6 @@ void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Device: " << this->Device << "\n";
   os << indent << "ViewFactorTolerance: " << this->ViewFactorTolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
+  os << indent << "TwoSided: " << this->TwoSided << "\n";
   os << indent << "ViewFactors: " << this->ViewFactors << "\n";
 }

@@ -21,6 +21,10 @@
  *   - 6: given net flux ["PrescribedNetFlux"], optional (0: adiabatic), W/m2, positive when it
  * leaves the surface: heat that is put into the patch from behind. One band only: it is the sum
  * over all wavelengths.
+ * With TwoSided the back of each polygon has arrays of its own, whose names have the suffix "Back"
+ * ("ReflectanceBack"); where there is none the front's holds for both. Without "EmissionBack" lamps
+ * shine from both sides, which a warning says once; without "DirectIrradianceBack" no direct light
+ * falls on backs, with a warning.
  * Either Temperature and Emissivity are there, or Reflectance (or Emissivity) and at least one of
  * Emission, DirectIrradiance and a background.
  *
@@ -203,6 +207,19 @@ public:
 
   ///@{
   /**
+   * Whether each polygon is two faces, front and back, each with a material and results of its own:
+   * thin sheets are one polygon in most models. Outputs (cell and point arrays) of the backs have
+   * the suffix "Back". No heat is conducted through a sheet: a temperature is that of the side, and
+   * a given net flux holds for each side alone. View factors that are given (SetViewFactors) must
+   * have the same setting. Default off: backs block and absorb.
+   */
+  vtkSetMacro(TwoSided, bool);
+  vtkGetMacro(TwoSided, bool);
+  vtkBooleanMacro(TwoSided, bool);
+  ///@}
+
+  ///@{
+  /**
    * What tree the clusters of hierarchical links are nodes of, see vtkViewFactors::SetClusterTree,
    * whose own decides where SetViewFactors gave one. Default CLUSTER_TREE_AUTO.
    */
@@ -288,6 +305,7 @@ private:
   int LinkMethod = LINK_METHOD_AUTO;
   double LinkTolerance = 1e-2;
   int ClusterTree = CLUSTER_TREE_AUTO;
+  bool TwoSided = false;
   bool RefineByBrightness = false;
   int Device = DEVICE_AUTO;
   double ViewFactorTolerance = 1e-4;

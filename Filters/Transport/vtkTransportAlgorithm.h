@@ -10,8 +10,10 @@
  * and holes that a seam bridges to the border, are cut into convex pieces inside of the scene and
  * stay one patch with one result, the mean over its area. Polygons that leave their plane by more
  * than 1e-4 of their radius are cut into triangles; those without area (fewer than 3 corners too),
- * and with a border that crosses itself, are left out, with results of 0. A warning counts each
- * kind and names the first, and an error tells where nothing is left. In a parallel run (a
+ * and with a border that crosses itself, are left out, with results of 0. Of faces that lie on each
+ * other and face the same way the first counts, and those of which nothing is left beside it are
+ * left out, too. A warning counts each kind and names the first of it, and an error tells where
+ * nothing is left. In a parallel run (a
  * controller with several processes) the scene is gathered to every rank first, because a rank that
  * sees only its own piece gets wrong visibility; each rank then writes the results of its own
  * patches. The output has the structure of the input, all its arrays, and the results. Points are

@@ -21,7 +21,10 @@ vtkStandardNewMacro(vtkViewFactors);
 class vtkViewFactors::Run : public TransportRun
 {
 public:
-  Run(vtkViewFactors* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner) {}
+  Run(vtkViewFactors* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner)
+  {
+    this->NumberOfSides = owner->TwoSided ? 2 : 1;
+  }
 
 protected:
   Outcome Gather() override
@@ -152,6 +155,7 @@ void vtkViewFactors::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
+  os << indent << "TwoSided: " << this->TwoSided << "\n";
   os << indent << "Hierarchical: " << this->Hierarchical << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "ClusterTree: " << this->ClusterTree << "\n";

@@ -5,7 +5,8 @@
  * @brief view factors (form factors) between all patches of a surface, with occlusion
  *
  * F_ij is the fraction of what leaves patch i diffusely that reaches patch j. Surfaces are
- * one-sided: the front is where the counter-clockwise normal points; back faces block and absorb.
+ * one-sided: the front is where the counter-clockwise normal points; back faces block and absorb,
+ * unless TwoSided is on.
  * The exchange G_ij = A_i F_ij is computed once per pair, so A_i F_ij = A_j F_ji holds exactly.
  *
  * How a pair is computed: both patches are clipped to the half-space in front of the other; near
@@ -30,8 +31,9 @@
  * 1 - ViewFactorSum by the variances of both, until they keep the Tolerance too, or 100 / Tolerance
  * rays of a patch (32,768 at most) are used up. A row that misses no more than its error, and where
  * 128 rays find no opening, has none. Under a closure they are what is applied.
- *   - "SceneProblems" (1, int): flags, 0 where all is well: 8 without area or with a border that
- * crosses itself (left out, all else is 0), 32 not plane (cut into triangles).
+ *   - "SceneProblems" (1, int): flags, 0 where all is well: 4 on a polygon of a lower number that
+ * faces the same way (left out where all of it is), 8 without area or with a border that crosses
+ * itself (left out, all else is 0), 32 not plane (cut into triangles).
  * and field data:
  *   - PairsExamined = PairsBackFacing (also those in one plane) + PairsFacing; PairsNotSending were
  * not examined (vtkRadiosity only).
@@ -158,6 +160,18 @@ public:
 
   ///@{
   /**
+   * Whether each polygon is two faces that exchange: thin sheets are one polygon in most models.
+   * Backs count as n + i in GetViewFactor, with n the number of polygons; each output array has a
+   * second one for the backs, with the suffix "Back"; groups hold both sides, unless there is an
+   * array "GroupBack". Default off: backs block and absorb.
+   */
+  vtkSetMacro(TwoSided, bool);
+  vtkGetMacro(TwoSided, bool);
+  vtkBooleanMacro(TwoSided, bool);
+  ///@}
+
+  ///@{
+  /**
    * Save the view factors that the last update computed, with the fingerprint of the geometry. Load
    * takes them from a file: updates then compute nothing, and fail for any other geometry, until
    * Load(nullptr) or another file. One process only, and no hierarchical links. Both return false
@@ -172,7 +186,8 @@ public:
   vtkTable* GetGroupTable();
 
   /// F_ij after Update, patches counted as the input's polygons (all blocks, all ranks, ghosts left
-  /// out). 0 where out of range and, on several ranks, where another rank holds the pair.
+  /// out), and with TwoSided their backs after them. 0 where out of range; on several ranks what
+  /// other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j);
 
 protected:
@@ -199,6 +214,7 @@ private:
   double Tolerance = 1e-4;
   bool EnforceClosure = false;
   bool Hierarchical = false;
+  bool TwoSided = false;
   double LinkTolerance = 1e-2;
   int ClusterTree = CLUSTER_TREE_AUTO;
 };

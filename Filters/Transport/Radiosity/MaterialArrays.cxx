@@ -62,6 +62,10 @@ Outcome MaterialArrays::Read(const CellArrays& source, const PatchScene& scene,
   const std::vector<std::string>& names)
 {
   Outcome good = this->Gather(source, names);
+  if (good && scene.GetFaces().GetNumberOfSides() == 2)
+  {
+    this->LookAtBacks(scene);
+  }
   good = good ? this->CheckSettings() : good;
   good = good ? this->CheckBands() : good;
   good = good ? this->CheckCombination() : good;
@@ -80,14 +84,44 @@ Outcome MaterialArrays::Gather(const CellArrays& source, const std::vector<std::
     // Where there are no temperatures, arrays of these names belong to something else.
     const bool ignored =
       (k == BOUNDARY_CONDITION || k == PRESCRIBED_NET_FLUX) && !this->IsThermal();
-    Outcome read =
-      ignored ? Outcome::Done() : source.Read(array.Name, false, array.Values, array.Components);
+    Outcome read = ignored
+      ? Outcome::Done()
+      : source.Read(array.Name, false, array.Values, array.Components, &array.HasBack);
     if (!read)
     {
       return read;
     }
   }
   return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// Materials of both sides may well be the same; lamps seldom are, and light that falls on one side
+// never is.
+void MaterialArrays::LookAtBacks(const PatchScene& scene)
+{
+  const BandArray& emission = this->Arrays[EMISSION];
+  const bool emits = std::any_of(emission.Values.begin(), emission.Values.end(),
+    [](double value) { return value > 0.0; });
+  if (emits && !emission.HasBack)
+  {
+    this->Warnings.push_back("Lamps shine from both sides: there is " + this->Quote(EMISSION) +
+      " and no \"" + emission.Name + ArrayNames::BackSuffix +
+      "\". Add that cell array, with 0 where a back emits nothing.");
+  }
+  BandArray& direct = this->Arrays[DIRECT_IRRADIANCE];
+  if (!direct.IsThere() || direct.HasBack)
+  {
+    return;
+  }
+  for (std::size_t k = 0; k < direct.Values.size(); ++k)
+  {
+    const vtkIdType face = scene.GetFaces().GetFace(static_cast<vtkIdType>(k) / direct.Components);
+    direct.Values[k] = scene.GetFaces().GetSide(face) == 0 ? direct.Values[k] : 0.0;
+  }
+  this->Warnings.push_back("No direct light falls on backs: there is " +
+    this->Quote(DIRECT_IRRADIANCE) + " and no \"" + direct.Name + ArrayNames::BackSuffix +
+    "\". Switch TwoSided of vtkDirectIrradiance on.");
 }
 
 //------------------------------------------------------------------------------

@@ -69,6 +69,9 @@ public:
     return this->IsThere(array) ? this->Arrays[array].Get(patch, band) : 0.0;
   }
 
+  /// What users should know of arrays that are right, a line each.
+  const std::vector<std::string>& GetWarnings() const { return this->Warnings; }
+
 private:
   struct BandArray
   {
@@ -82,6 +85,7 @@ private:
     std::string Name;
     std::vector<double> Values;
     int Components = 0;
+    bool HasBack = false; ///< whether backs have an array of their own
   };
 
   bool IsThere(int array) const { return this->Arrays[array].IsThere(); }
@@ -89,6 +93,7 @@ private:
   bool HasLimits() const { return !this->Settings.BandLimits.empty(); }
 
   Outcome Gather(const CellArrays& source, const std::vector<std::string>& names);
+  void LookAtBacks(const PatchScene& scene);
   Outcome CheckSettings() const;
   Outcome CheckBands();
   Outcome CheckBandCount(const std::string& name, int count);
@@ -101,6 +106,7 @@ private:
   const MaterialSettings& Settings;
   BandArray Arrays[NUMBER_OF_ARRAYS];
   int Bands = 1;
+  std::vector<std::string> Warnings;
 };
 } // namespace LightTransport
 

@@ -20,6 +20,7 @@ Outcome RadiosityMaterials::Read(const CellArrays& source, const PatchScene& sce
     return read;
   }
   this->NumberOfBands = arrays.GetNumberOfBands();
+  this->Warnings = arrays.GetWarnings();
   for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
   {
     for (int band = 0; band < this->NumberOfBands; ++band)

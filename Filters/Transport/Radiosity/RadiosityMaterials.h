@@ -26,6 +26,8 @@ struct RadiosityMaterials
   ///@}
   std::vector<double> Background; ///< irradiance of a patch that sees nothing else, of each band
 
+  std::vector<std::string> Warnings; ///< what users should know of the arrays, a line each
+
   ///@{ One per patch; empty in a scene without temperatures.
   std::vector<double> Temperature; ///< as given
   std::vector<double> Emissivity;  ///< of the first band

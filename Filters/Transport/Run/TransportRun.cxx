@@ -28,10 +28,7 @@ Outcome TransportRun::Go()
     outcome = outcome ? (this->*step)() : outcome;
     if (outcome && step == &TransportRun::Gather)
     {
-      for (const std::string& warning : this->Scene.GetWarnings())
-      {
-        this->Warn(warning);
-      }
+      this->WarnOfScene();
     }
   }
   if (outcome)
@@ -46,9 +43,23 @@ Outcome TransportRun::Go()
 }
 
 //------------------------------------------------------------------------------
+// What all ranks know one of them tells.
+void TransportRun::WarnOfScene() const
+{
+  for (const std::string& warning : this->Scene.GetWarnings())
+  {
+    if (this->AllRanks.GetMine() == 0)
+    {
+      this->Warn(warning);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 Outcome TransportRun::Gather()
 {
-  return this->Scene.Build(this->Input, this->AllRanks);
+  return this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Spatial,
+    this->NumberOfSides);
 }
 
 //------------------------------------------------------------------------------
@@ -58,7 +69,7 @@ Outcome TransportRun::GatherForClusters(int clusterTree)
     (clusterTree == vtkTransportAlgorithm::CLUSTER_TREE_AUTO &&
       PolygonGathering::HasAtlas(this->Input, this->AllRanks));
   return this->Scene.Build(this->Input, this->AllRanks,
-    usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial);
+    usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial, this->NumberOfSides);
 }
 
 //------------------------------------------------------------------------------

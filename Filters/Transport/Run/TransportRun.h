@@ -66,6 +66,9 @@ protected:
   /// The square of the scene's unit of length in that of the input.
   double GetAreaUnit() const { return this->Scene.GetScale() * this->Scene.GetScale(); }
 
+  /// 2 where the backs of polygons count: to be set before Gather.
+  int NumberOfSides = 1;
+
   vtkTransportAlgorithm* Filter;
   vtkDataObject* Input;
   vtkDataObject* Output;
@@ -73,6 +76,9 @@ protected:
   Ranks AllRanks;
   FilterProgress Progress;
   PatchScene Scene;
+
+private:
+  void WarnOfScene() const;
 };
 } // namespace LightTransport
 

@@ -4,6 +4,7 @@
 
 #include "Scene/Leaves.h"
 #include "Scene/PatchScene.h"
+#include "Shared/ArrayNames.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -45,6 +46,45 @@ Outcome FailUneven(const std::string& name)
 
 //------------------------------------------------------------------------------
 Outcome CellArrays::Read(const std::string& name, bool required, std::vector<double>& values,
+  int& components, bool* hasBack) const
+{
+  std::vector<double> fronts;
+  std::vector<double> backs;
+  int componentsOfBacks = 0;
+  Outcome read = this->ReadPolygons(name, fronts, components);
+  if (read && this->Scene.GetFaces().GetNumberOfSides() == 2)
+  {
+    read = this->ReadPolygons(name + ArrayNames::BackSuffix, backs, componentsOfBacks);
+  }
+  if (!read)
+  {
+    return read;
+  }
+  if (hasBack)
+  {
+    *hasBack = componentsOfBacks > 0;
+  }
+  if (components == 0)
+  {
+    values.clear();
+    return required || componentsOfBacks > 0
+      ? Outcome::Failed("The input has no cell array \"" + name + "\"" +
+          (componentsOfBacks > 0 ? ", but one for the backs: add it with the values of the fronts."
+                                 : "."))
+      : Outcome::Done();
+  }
+  if (componentsOfBacks > 0 && componentsOfBacks != components)
+  {
+    return Outcome::Failed("The cell array \"" + name + ArrayNames::BackSuffix + "\" has " +
+      std::to_string(componentsOfBacks) + " components where \"" + name + "\" has " +
+      std::to_string(components) + ": give both the same number.");
+  }
+  values = this->Spread(fronts, componentsOfBacks > 0 ? backs : fronts, components);
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome CellArrays::ReadPolygons(const std::string& name, std::vector<double>& values,
   int& components) const
 {
   std::vector<double> mine;
@@ -64,15 +104,13 @@ Outcome CellArrays::Read(const std::string& name, bool required, std::vector<dou
   }
   if (missing && components == 0)
   {
-    values.clear();
-    return required ? Outcome::Failed("The input has no cell array \"" + name + "\".")
-                    : Outcome::Done();
+    return Outcome::Done();
   }
   if (missing || !even)
   {
     return FailUneven(name);
   }
-  values = this->Gather(mine, components);
+  values = this->AllRanks.Gather(mine);
   return Outcome::Done();
 }
 
@@ -84,17 +122,21 @@ std::vector<double> CellArrays::SpreadBlockValues(const std::vector<double>& blo
   {
     mine.push_back(blockValues[local.Block]);
   }
-  return this->Gather(mine, 1);
+  const std::vector<double> all = this->AllRanks.Gather(mine);
+  return this->Spread(all, all, 1);
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> CellArrays::Gather(const std::vector<double>& mine, int components) const
+std::vector<double> CellArrays::Spread(const std::vector<double>& fronts,
+  const std::vector<double>& backs, int components) const
 {
-  const std::vector<double> all = this->AllRanks.Gather(mine);
+  const SceneFaces& faces = this->Scene.GetFaces();
   std::vector<double> values(this->Scene.GetNumberOfPatches() * components);
   for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
-    std::copy_n(all.begin() + this->Scene.GetPolygon(patch) * components, components,
+    const vtkIdType face = faces.GetFace(patch);
+    const std::vector<double>& source = faces.GetSide(face) == 0 ? fronts : backs;
+    std::copy_n(source.begin() + faces.GetPolygon(face) * components, components,
       values.begin() + patch * components);
   }
   return values;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Cell arrays of the input as numbers of the patches of a scene.
+/// Cell arrays of the input as numbers of the patches of a scene. Those of backs have the suffix
+/// "Back"; where there is none of that name the fronts' holds for both sides.
 #ifndef CellArrays_h
 #define CellArrays_h
 
@@ -29,10 +30,12 @@ public:
    * An array as doubles, for all patches of all ranks: values[patch * components + component].
    * `required` decides whether an array that is missing everywhere is an error or leaves `values`
    * empty. Fails, on all ranks alike, where the array is missing in some block, is not numeric, is
-   * a point array, has different component counts, or holds a value that is not finite. Collective.
+   * a point array, has different component counts, or holds a value that is not finite, and where
+   * there is an array of the backs but none of the fronts. `hasBack`, where it is not null, tells
+   * whether backs have an array of their own. Collective.
    */
-  Outcome Read(const std::string& name, bool required, std::vector<double>& values,
-    int& components) const;
+  Outcome Read(const std::string& name, bool required, std::vector<double>& values, int& components,
+    bool* hasBack = nullptr) const;
 
   /**
    * A value per block of this rank's input, spread over the patches: one value for all patches of
@@ -41,10 +44,13 @@ public:
   std::vector<double> SpreadBlockValues(const std::vector<double>& blockValues) const;
 
 private:
+  /// Values of polygons; `components` is 0 where there is no such array.
+  Outcome ReadPolygons(const std::string& name, std::vector<double>& values, int& components) const;
   /// `components` is 0 where this rank has no patches, -1 where the array is missing.
   Outcome ReadLocal(const std::string& name, std::vector<double>& values, int& components) const;
-  /// Tuples of this rank's polygons in, those of all patches out.
-  std::vector<double> Gather(const std::vector<double>& mine, int components) const;
+  /// Tuples of polygons in, those of all patches out; of each side those of its own.
+  std::vector<double> Spread(const std::vector<double>& fronts, const std::vector<double>& backs,
+    int components) const;
 
   const PatchScene& Scene;
   vtkDataObject* Input;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/PatchScene.h"
 
+#include "Scene/CoincidentFaces.h"
 #include "Scene/ScenePieces.h"
 
 #include <Eigen/Geometry>
@@ -95,7 +96,7 @@ void AddSurfaces(const std::vector<Vector>& centers, const std::vector<vtkIdType
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order)
+Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order, int numberOfSides)
 {
   *this = PatchScene();
   this->OrderOfPatches = order;
@@ -109,10 +110,11 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order)
   {
     return Outcome::Failed("The input has no polygons: give a surface with at least one polygon.");
   }
-  if (std::set<vtkIdType>(polygons.Surfaces.begin(), polygons.Surfaces.end()).size() >
-    MaximumSurfaces)
+  const std::set<vtkIdType> surfaces(polygons.Surfaces.begin(), polygons.Surfaces.end());
+  if (surfaces.size() * numberOfSides > MaximumSurfaces)
   {
-    return Outcome::Failed("The input has more than " + std::to_string(MaximumSurfaces) +
+    return Outcome::Failed("The input has more than " +
+      std::to_string(MaximumSurfaces / numberOfSides) +
       " blocks, too many for the cluster tree of their atlases: set ClusterTree to Spatial.");
   }
   if (Outcome normalized = this->Normalize(polygons); !normalized)
@@ -121,6 +123,27 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order)
   }
   this->LocalCells = polygons.LocalCells;
   this->FirstLocal = polygons.FirstLocal;
+  const std::vector<Vector> corners = this->MakeCorners(polygons);
+  ScenePieces pieces(this->PlaceOffsets, corners, this->CoordinateRounding.norm());
+  this->Warnings = pieces.GetWarnings();
+  if (pieces.GetNumber() == 0)
+  {
+    return FailWithoutArea(this->Warnings);
+  }
+  if (numberOfSides == 2)
+  {
+    pieces.AddBacks();
+  }
+  this->Problems = pieces.Problems;
+  this->Arrange(polygons, corners, pieces);
+  this->Prune(polygons, corners, pieces);
+  this->WarnOfSpacing();
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+std::vector<Vector> PatchScene::MakeCorners(const GatheredPolygons& polygons)
+{
   this->PlaceOffsets.assign(polygons.Counts.size() + 1, 0);
   std::partial_sum(polygons.Counts.begin(), polygons.Counts.end(), this->PlaceOffsets.begin() + 1);
   std::vector<Vector> corners;
@@ -129,16 +152,30 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order)
   {
     corners.push_back((Vector(&polygons.Coordinates[corner]) - this->Center) / this->Scale);
   }
-  ScenePieces pieces(this->PlaceOffsets, corners, this->CoordinateRounding.norm());
-  if (pieces.GetNumber() == 0)
+  return corners;
+}
+
+//------------------------------------------------------------------------------
+// What is there twice is found in a scene that is whole, and then left out of it.
+void PatchScene::Prune(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
+  ScenePieces& pieces)
+{
+  const CoincidentFaces coincident(*this);
+  for (const std::vector<vtkIdType>& faces :
+    { coincident.GetCovered(), coincident.GetOverlapping() })
   {
-    return FailWithoutArea(pieces.GetWarnings());
+    for (const vtkIdType face : faces)
+    {
+      this->Problems[face] |= SceneFaces::COINCIDENT;
+    }
   }
-  this->Problems = pieces.Problems;
-  this->Warnings = pieces.GetWarnings();
-  this->Arrange(polygons, corners, pieces);
-  this->WarnOfSpacing();
-  return Outcome::Done();
+  const std::vector<std::string> warnings = coincident.GetWarnings();
+  this->Warnings.insert(this->Warnings.end(), warnings.begin(), warnings.end());
+  if (!coincident.GetCovered().empty())
+  {
+    pieces.Remove(coincident.GetCovered());
+    this->Arrange(polygons, corners, pieces);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -206,8 +243,9 @@ void PatchScene::Arrange(const GatheredPolygons& polygons, const std::vector<Vec
     this->ComputePatch(static_cast<vtkIdType>(patch), plane.isZero() ? nullptr : &plane);
     faces.push_back(pieces.Faces[order[patch]]);
   }
-  this->Faces =
-    SceneFaces(static_cast<vtkIdType>(polygons.Counts.size()), 1, faces, this->GetAreas());
+  const std::size_t count = polygons.Counts.size();
+  this->Faces = SceneFaces(static_cast<vtkIdType>(count),
+    static_cast<int>(pieces.Problems.size() / count), faces, this->GetAreas());
   this->Tree.FillNodes(*this);
 }
 
@@ -238,10 +276,15 @@ std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
   }
   std::vector<std::uint64_t> codes;
   std::vector<vtkIdType> surfaces;
+  // The backs of a surface are a surface of their own.
+  const vtkIdType behind =
+    1 + *std::max_element(polygons.Surfaces.begin(), polygons.Surfaces.end());
+  const auto numberOfPolygons = static_cast<vtkIdType>(polygons.Counts.size());
   for (const vtkIdType face : pieces.Faces)
   {
-    codes.push_back(polygons.Codes[face]);
-    surfaces.push_back(polygons.Surfaces[face]);
+    codes.push_back(polygons.Codes[face % numberOfPolygons]);
+    surfaces.push_back(
+      polygons.Surfaces[face % numberOfPolygons] + (face < numberOfPolygons ? 0 : behind));
   }
   AddSurfaces(centers, surfaces, codes);
   return this->Tree.Sort(codes);

@@ -52,9 +52,11 @@ public:
   /**
    * Gather the patches of `input`. Fails, on every rank alike, with nothing to work on (no polygon
    * that has an area), coordinates that are not finite; in the order of an atlas for a surface
-   * without "AtlasCoordinates", or more surfaces than MaximumSurfaces.
+   * without "AtlasCoordinates", or more surfaces than MaximumSurfaces. `numberOfSides` is 2 where
+   * the backs of polygons are faces, too.
    */
-  Outcome Build(vtkDataObject* input, const Ranks& ranks, Order order = Order::Spatial);
+  Outcome Build(vtkDataObject* input, const Ranks& ranks, Order order = Order::Spatial,
+    int numberOfSides = 1);
 
   const SceneFaces& GetFaces() const { return this->Faces; }
   /// Of each face, flags of SceneFaces::Problem.
@@ -98,6 +100,9 @@ public:
 
 private:
   Outcome Normalize(const GatheredPolygons& polygons);
+  std::vector<Vector> MakeCorners(const GatheredPolygons& polygons);
+  void Prune(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
+    ScenePieces& pieces);
   void WarnOfSpacing();
   void Arrange(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
     const ScenePieces& pieces);

@@ -6,6 +6,9 @@
 #include "Scene/PolygonList.h"
 #include "Scene/SceneFaces.h"
 
+#include <set>
+#include <utility>
+
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
@@ -53,6 +56,50 @@ void ScenePieces::Add(vtkIdType polygon, vtkIdType start, const PolygonCutting::
     this->Offsets.push_back(static_cast<vtkIdType>(this->Corners.size()));
     this->Planes.push_back(inOnePlane ? pieces.Normal : Vector(0.0, 0.0, 0.0));
   }
+}
+
+//------------------------------------------------------------------------------
+void ScenePieces::AddBacks()
+{
+  const auto polygons = static_cast<vtkIdType>(this->Problems.size());
+  const vtkIdType fronts = this->GetNumber();
+  for (vtkIdType piece = 0; piece < fronts; ++piece)
+  {
+    this->Faces.push_back(polygons + this->Faces[piece]);
+    for (vtkIdType corner = this->Offsets[piece + 1]; corner-- > this->Offsets[piece];)
+    {
+      this->Corners.push_back(this->Corners[corner]);
+    }
+    this->Offsets.push_back(static_cast<vtkIdType>(this->Corners.size()));
+    this->Planes.emplace_back(-this->Planes[piece]);
+  }
+  for (vtkIdType polygon = 0; polygon < polygons; ++polygon)
+  {
+    this->Problems.push_back(this->Problems[polygon]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ScenePieces::Remove(const std::vector<vtkIdType>& faces)
+{
+  const std::set<vtkIdType> removed(faces.begin(), faces.end());
+  ScenePieces kept = *this;
+  kept.Faces.clear();
+  kept.Offsets.assign(1, 0);
+  kept.Corners.clear();
+  kept.Planes.clear();
+  for (vtkIdType piece = 0; piece < this->GetNumber(); ++piece)
+  {
+    if (removed.count(this->Faces[piece]) == 0)
+    {
+      kept.Faces.push_back(this->Faces[piece]);
+      kept.Corners.insert(kept.Corners.end(), this->Corners.begin() + this->Offsets[piece],
+        this->Corners.begin() + this->Offsets[piece + 1]);
+      kept.Offsets.push_back(static_cast<vtkIdType>(kept.Corners.size()));
+      kept.Planes.push_back(this->Planes[piece]);
+    }
+  }
+  *this = std::move(kept);
 }
 
 //------------------------------------------------------------------------------

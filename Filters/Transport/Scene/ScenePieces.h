@@ -26,6 +26,10 @@ struct ScenePieces
   {
     return this->Offsets[piece + 1] - this->Offsets[piece];
   }
+  /// The same pieces seen from behind, as faces of their own.
+  void AddBacks();
+  /// Leave out the pieces of some faces.
+  void Remove(const std::vector<vtkIdType>& faces);
   /// A line for each kind of polygon that users should know of.
   std::vector<std::string> GetWarnings() const;
 
@@ -33,7 +37,7 @@ struct ScenePieces
   std::vector<vtkIdType> Offsets{ 0 }; ///< of each piece, in Corners
   std::vector<vtkIdType> Corners;      ///< among those of all polygons
   std::vector<Vector> Planes;          ///< normal of each piece; 0 where its corners tell it
-  std::vector<int> Problems;           ///< of each polygon (SceneFaces::Problem)
+  std::vector<int> Problems;           ///< of each face (SceneFaces::Problem)
 
 private:
   void Add(vtkIdType polygon, vtkIdType start, const PolygonCutting::Pieces& pieces);

@@ -14,6 +14,8 @@ ENCLOSURE = (
            "relative error of the irradiance that hierarchical links are allowed"),
     Switch("--by-brightness", "RefineByBrightness", True,
            "refine hierarchical links where light is"),
+    Switch("--two-sided", "TwoSided", True,
+           "each polygon is two faces, the back with arrays of its own (ReflectanceBack, ...)"),
     Switch("--closure", "EnforceClosure", True,
            "make the view factors of each patch sum to 1 with what it sees of the sky"),
     NumberList("--band-limits", "BandLimit",

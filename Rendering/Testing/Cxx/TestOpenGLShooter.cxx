@@ -261,6 +261,45 @@ void TestGivenFlux()
 }
 
 //------------------------------------------------------------------------------
+// Three sheets above each other, the middle one shines to both sides: each of the others gets what
+// faces it (two unit squares at distance 1: Howell C-11), and nothing on its far side.
+void TestTwoSides()
+{
+  constexpr int patches = 16;
+  Surface surface;
+  for (const double z : { 0.0, 1.0, 2.0 })
+  {
+    surface.AddGrid({ 0, 0, z }, { 1, 0, 0 }, { 0, 1, 0 }, 4, 4);
+  }
+  auto sheets = surface.Get();
+  AddArray(sheets, "Reflectance", { 0.0 });
+  vtkDoubleArray* fronts = AddArray(sheets, "Emission", { 0.0 });
+  vtkDoubleArray* backs = AddArray(sheets, "EmissionBack", { 0.0 });
+  for (int patch = patches; patch < 2 * patches; ++patch)
+  {
+    fronts->SetValue(patch, 1.0);
+    backs->SetValue(patch, 2.0);
+  }
+  auto radiosity = MakeSolver(sheets);
+  radiosity->TwoSidedOn();
+  radiosity->Update();
+  const auto getMean = [&](const char* name, int sheet)
+  {
+    const Vector values = GetCells(radiosity, name);
+    const auto first = values.begin() + sheet * patches;
+    return std::accumulate(first, first + patches, 0.0) / patches;
+  };
+  const double factor = 0.199824895698387;
+  CheckClose(getMean("Irradiance", 0), 2.0 * factor, 1e-2, "the lower sheet's front");
+  CheckClose(getMean("IrradianceBack", 2), factor, 1e-2, "the upper sheet's back");
+  for (const auto& [name, sheet] : { std::pair{ "IrradianceBack", 0 }, { "Irradiance", 1 },
+         { "IrradianceBack", 1 }, { "Irradiance", 2 } })
+  {
+    CheckClose(getMean(name, sheet), 0.0, 1e-6, "a side that no light reaches");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestOnePatch()
 {
   Surface surface;
@@ -357,6 +396,7 @@ int TestOpenGLShooter(int, char*[])
     return Result();
   }
   TestShooter();
+  TestTwoSides();
   TestOnePatch();
   TestPairs();
   TestSheets();

@@ -366,6 +366,11 @@ void TestBlocks()
   for (int k = 0; k < 3; ++k)
   {
     auto room = Shuffle(MakeRoom(3 + k), k);
+    for (vtkIdType point = 0; point < room->GetNumberOfPoints(); ++point)
+    {
+      const double* place = room->GetPoint(point);
+      room->GetPoints()->SetPoint(point, place[0] + 2.0 * k, place[1], place[2]);
+    }
     AddTags(room);
     input->SetBlock(k, room);
     blocks.push_back(room);
