@@ -34,6 +34,7 @@ constexpr const char* RefractiveIndex = "RefractiveIndex";
 ///@{ Cell and point arrays, flux per unit area: what falls on a surface, directly or in all, what
 /// has entered it, and what leaves it after scattering inside.
 constexpr const char* DirectIrradiance = "DirectIrradiance";
+constexpr const char* DirectIrradianceError = "DirectIrradianceError";
 constexpr const char* Irradiance = "Irradiance";
 constexpr const char* TransmittedIrradiance = "TransmittedIrradiance";
 constexpr const char* ScatteredIrradiance = "ScatteredIrradiance";

@@ -4,6 +4,7 @@
 
 #include "Geometry/SceneRayCaster.h"
 #include "Lighting/Environment.h"
+#include "Lighting/LitParts.h"
 #include "Lighting/PunctualLight.h"
 #include "Run/TransportRun.h"
 #include "Scene/SceneOutput.h"
@@ -30,8 +31,10 @@ vtkStandardNewMacro(vtkDirectIrradiance);
 
 namespace
 {
-/// Calls of the progress function; the same on all ranks.
-constexpr int NumberOfBatches = 50;
+/// Calls of the progress function, at least, and rays at most between two of them, by which a user
+/// who aborts does not wait. The same on all ranks.
+constexpr double LeastBatches = 50.0;
+constexpr double RaysOfBatch = 4e6;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -58,7 +61,13 @@ protected:
 
 private:
   Outcome ReadLights();
+  LightEffort GetEffort() const;
+  vtkIdType GetNumberOfBatches() const;
   void ComputePatch(vtkIdType patch);
+  void WriteErrors();
+  void WarnOfErrors(vtkIdType count, vtkIdType worst) const;
+  double GetRelativeError(vtkIdType patch) const;
+  double GetTotalError() const;
 
   vtkDirectIrradiance* Owner;
   double StartTime;
@@ -67,8 +76,12 @@ private:
   ///@{ patches x bands
   std::vector<double> Incident;
   std::vector<double> Transmitted;
+  std::vector<double> Error;
   ///@}
-  std::vector<double> Rays; ///< of each patch
+  ///@{ of each patch
+  std::vector<double> Rays;
+  std::vector<double> Unshadowed;
+  ///@}
 };
 
 //------------------------------------------------------------------------------
@@ -90,8 +103,7 @@ Outcome vtkDirectIrradiance::Run::Read()
   Outcome read = this->ReadLights();
   if (read && this->Owner->Environment)
   {
-    auto environment =
-      std::make_unique<LightTransport::Environment>(this->Owner->EnvironmentSamples);
+    auto environment = std::make_unique<LightTransport::Environment>(this->GetEffort());
     read = environment->Read(this->Owner->Environment);
     this->Sources.push_back(std::move(environment));
   }
@@ -115,12 +127,12 @@ Outcome vtkDirectIrradiance::Run::ReadLights()
         " is a headlight or camera light, which follows a camera, and a filter has none: call "
         "SetLightTypeToSceneLight().");
     }
-    auto light = std::make_unique<PunctualLight>(this->Owner->ShadowSamples);
-    if (Outcome read = light->Read(object, this->Scene); !read)
+    PunctualLight light;
+    if (Outcome read = light.Read(object, this->Scene); !read)
     {
       return Outcome::Failed(name + read.GetMessage());
     }
-    this->Sources.push_back(std::move(light));
+    this->Sources.push_back(light.MakeSource(this->GetEffort(), this->Owner->LightAngularDiameter));
   }
   if (this->Sources.empty() && !this->Owner->Environment)
   {
@@ -128,6 +140,25 @@ Outcome vtkDirectIrradiance::Run::ReadLights()
                "AddLight or SetEnvironment.");
   }
   return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+LightEffort vtkDirectIrradiance::Run::GetEffort() const
+{
+  return { this->Owner->Tolerance, this->Owner->EnvironmentSamples, this->Owner->ShadowSamples };
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkDirectIrradiance::Run::GetNumberOfBatches() const
+{
+  const auto patches = static_cast<double>(this->Scene.GetAreas().size());
+  // A direction of a light costs about as much as ten rays.
+  const double rays = this->Owner->Environment
+    ? 2.0 * this->Owner->EnvironmentSamples * LightTransport::Environment::MostRefined
+    : (this->Owner->LightAngularDiameter > 0.0 ? 10.0 : 1.0) * this->Owner->ShadowSamples *
+      LitParts::MostRefined;
+  return static_cast<vtkIdType>(
+    std::max(LeastBatches, std::min(patches, std::ceil(patches * rays / RaysOfBatch))));
 }
 
 //------------------------------------------------------------------------------
@@ -142,7 +173,9 @@ Outcome vtkDirectIrradiance::Run::Compute()
   const std::size_t patches = this->Scene.GetAreas().size();
   this->Incident.assign(patches * LightBands, 0.0);
   this->Transmitted.assign(patches * LightBands, 0.0);
+  this->Error.assign(patches * LightBands, 0.0);
   this->Rays.assign(patches, 0.0);
+  this->Unshadowed.assign(patches, 0.0);
   const std::vector<vtkIdType> locals = this->Scene.GetLocalPatches();
   const auto count = static_cast<vtkIdType>(locals.size());
   auto compute = [this, &locals](vtkIdType first, vtkIdType last)
@@ -153,16 +186,19 @@ Outcome vtkDirectIrradiance::Run::Compute()
     }
   };
   const Monitor monitor = this->Progress.GetMonitor();
-  for (int batch = 0; batch < NumberOfBatches; ++batch)
+  const vtkIdType batches = this->GetNumberOfBatches();
+  for (vtkIdType batch = 0; batch < batches; ++batch)
   {
-    Threads::For(count * batch / NumberOfBatches, count * (batch + 1) / NumberOfBatches, 16,
-      compute);
-    if (!monitor.Report(static_cast<double>(batch + 1) / NumberOfBatches))
+    const vtkIdType first = count * batch / batches;
+    const vtkIdType last = count * (batch + 1) / batches;
+    Threads::For(first, last, std::min<vtkIdType>(16, 1 + (last - first) / 16), compute);
+    if (!monitor.Report(static_cast<double>(batch + 1) / static_cast<double>(batches)))
     {
       return Outcome::Aborted();
     }
   }
-  for (std::vector<double>* values : { &this->Incident, &this->Transmitted, &this->Rays })
+  for (std::vector<double>* values :
+    { &this->Incident, &this->Transmitted, &this->Error, &this->Rays, &this->Unshadowed })
   {
     this->AllRanks.Sum(*values);
   }
@@ -179,8 +215,11 @@ void vtkDirectIrradiance::Run::ComputePatch(vtkIdType patch)
   {
     this->Rays[patch] += source->Light(lit, sum);
   }
+  this->Unshadowed[patch] = sum.GetLargestUnshadowed();
   std::copy_n(sum.Incident, LightBands, &this->Incident[patch * LightBands]);
   std::copy_n(sum.Transmitted, LightBands, &this->Transmitted[patch * LightBands]);
+  std::transform(sum.Variance, sum.Variance + LightBands, &this->Error[patch * LightBands],
+    [](double variance) { return std::sqrt(variance); });
 }
 
 //------------------------------------------------------------------------------
@@ -208,8 +247,78 @@ void vtkDirectIrradiance::Run::Write()
   }
   FieldValues::Add(fields, "DirectFlux", flux, LightBands);
   FieldValues::Add(fields, "DirectIrradianceRays", this->Owner->Shadows ? rays : 0.0);
+  output.AddArray(ArrayNames::DirectIrradianceError, this->Error, LightBands);
+  this->WriteErrors();
   FieldValues::Add(fields, "DirectIrradianceSeconds",
     vtkTimerLog::GetUniversalTime() - this->StartTime);
+}
+
+//------------------------------------------------------------------------------
+// As Tolerance has it.
+double vtkDirectIrradiance::Run::GetRelativeError(vtkIdType patch) const
+{
+  const double* error = &this->Error[patch * LightBands];
+  const double largest = *std::max_element(error, error + LightBands);
+  return largest > 0.0 ? largest / this->Unshadowed[patch] : 0.0;
+}
+
+//------------------------------------------------------------------------------
+// Of all patches together: root mean squares, of the band where it is largest.
+double vtkDirectIrradiance::Run::GetTotalError() const
+{
+  double total = 0.0;
+  for (int band = 0; band < LightBands; ++band)
+  {
+    double squares = 0.0;
+    double errors = 0.0;
+    for (std::size_t patch = 0; patch < this->Rays.size(); ++patch)
+    {
+      const double area = this->Scene.GetAreas()[patch];
+      squares += area * std::pow(this->Incident[patch * LightBands + band], 2);
+      errors += area * std::pow(this->Error[patch * LightBands + band], 2);
+    }
+    total = std::max(total, squares > 0.0 ? std::sqrt(errors / squares) : 0.0);
+  }
+  return total;
+}
+
+//------------------------------------------------------------------------------
+void vtkDirectIrradiance::Run::WriteErrors()
+{
+  vtkIdType worst = 0;
+  vtkIdType count = 0;
+  for (vtkIdType patch = 0; patch < static_cast<vtkIdType>(this->Rays.size()); ++patch)
+  {
+    const double error = this->GetRelativeError(patch);
+    worst = error > this->GetRelativeError(worst) ? patch : worst;
+    count += error > this->Owner->Tolerance ? 1 : 0;
+  }
+  vtkFieldData* fields = this->GetOutputFields();
+  FieldValues::Add(fields, "DirectIrradianceError", this->GetTotalError());
+  FieldValues::Add(fields, "LargestDirectIrradianceError", this->GetRelativeError(worst));
+  if (count > 0)
+  {
+    this->WarnOfErrors(count, worst);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkDirectIrradiance::Run::WarnOfErrors(vtkIdType count, vtkIdType worst) const
+{
+  const LitPatch::Vector place =
+    this->Scene.GetCenter() + this->Scene.GetScale() * this->Scene.GetCentroid(worst);
+  const double* incident = &this->Incident[worst * LightBands];
+  const double* error = &this->Error[worst * LightBands];
+  const auto band = std::max_element(error, error + LightBands) - error;
+  std::ostringstream text;
+  text << "Tolerance " << this->Owner->Tolerance << " was not reached on " << count << " of "
+       << this->Rays.size() << " polygons. It is worst at polygon " << this->Scene.GetPolygon(worst)
+       << " near (" << place.x() << ", " << place.y() << ", " << place.z()
+       << "): the irradiance there is " << incident[band] << ", give or take " << error[band]
+       << ", and " << this->Unshadowed[worst] << " without shadows. Raise "
+       << (this->Owner->Environment ? "EnvironmentSamples" : "ShadowSamples")
+       << " or Tolerance; the cell array \"DirectIrradianceError\" tells the error everywhere.";
+  this->Warn(text.str());
 }
 
 //------------------------------------------------------------------------------
@@ -297,8 +406,10 @@ void vtkDirectIrradiance::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfLights: " << this->GetNumberOfLights() << "\n";
   os << indent << "Environment: " << this->Environment << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnvironmentSamples: " << this->EnvironmentSamples << "\n";
   os << indent << "ShadowSamples: " << this->ShadowSamples << "\n";
+  os << indent << "LightAngularDiameter: " << this->LightAngularDiameter << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
   os << indent << "TwoSided: " << this->TwoSided << "\n";
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";

@@ -8,7 +8,10 @@
  * - "DirectIrradiance": incident flux per unit area, the mean over the patch, with shadows;
  * - "TransmittedIrradiance", only with a RefractiveIndex above 1: the part that enters the surface
  *   by Fresnel's equations for unpolarised light, each direction by its own angle. The index is
- *   recorded in the field data array "RefractiveIndex", for vtkSubsurfaceScattering.
+ *   recorded in the field data array "RefractiveIndex", for vtkSubsurfaceScattering;
+ * - "DirectIrradianceError": what "DirectIrradiance" may be off by, one standard error, in its
+ *   unit. It is an estimate; it does not know of things that all rays to an environment have
+ *   missed.
  *
  * Lights are vtkLight objects of type scene light. Irradiance on a surface facing the light is
  * Intensity x DiffuseColor / attenuation(d), with d the distance in the input's length unit
@@ -18,8 +21,17 @@
  * incidence weighs it; back faces get nothing. A light that touches a surface is in front of it.
  * Lights that are switched off are left out.
  *
- * Output field data: "DirectIrradianceRays" (shadow rays cast), "DirectIrradianceSeconds",
+ * Shadows of lights are cut out of the patches exactly, however thin light or shadow are; rays
+ * decide only where more lies before a patch than it may be cut for (ShadowSamples). An environment
+ * is looked at by rays: over the sky, and straight to what is much brighter than the rest (a sun,
+ * lamps, windows).
+ *
+ * Output field data: "DirectIrradianceError" (of all patches together: root mean square over the
+ * area, as a part of that of the irradiance), "LargestDirectIrradianceError" (of one patch, as
+ * Tolerance counts it), "DirectIrradianceRays" (shadow rays cast), "DirectIrradianceSeconds",
  * "DirectFlux" (3 components: irradiance times area, in the input's length unit squared).
+ *
+ * A warning tells on how many polygons Tolerance was not reached, and how far the worst is off.
  *
  * Errors: a headlight or camera light (they follow a camera, and a filter has none), a negative or
  * non-finite attenuation or intensity, attenuation that is zero, a refractive index below 1, an
@@ -66,8 +78,21 @@ public:
 
   ///@{
   /**
-   * Rays per patch for the environment, stratified over the cosine-weighted hemisphere and over the
-   * patch. Default 256, range 1 to 65536; powers of two spread best.
+   * What the irradiance of a patch may be off by, one standard error, as a part of what the patch
+   * would get with nothing in the way (or of a quarter of that on a patch that faces the light,
+   * where that is more). The work for a patch grows until that holds: to at most 16 times the rays
+   * of EnvironmentSamples, 64 times the directions and 256 times the pieces of ShadowSamples. A
+   * warning tells where it does not hold even then. Default 1e-2, range 1e-6 to 1.
+   */
+  vtkSetClampMacro(Tolerance, double, 1e-6, 1.0);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Rays of a patch to the environment at first, stratified over the cosine-weighted hemisphere and
+   * over the patch; a quarter as many go to what is much brighter than the rest of the picture. At
+   * least 8 are taken. Default 256, range 1 to 65536; powers of two spread best.
    */
   vtkSetClampMacro(EnvironmentSamples, int, 1, 65536);
   vtkGetMacro(EnvironmentSamples, int);
@@ -75,12 +100,23 @@ public:
 
   ///@{
   /**
-   * Points on a patch that look at each light, stratified; its corners look, too. Where not all of
-   * them see it, or some get less than three quarters of others, 16 times as many are taken.
-   * Default 16, range 1 to 4096; powers of two spread best.
+   * How finely shadows of lights are looked at, at first, where a patch is partly lit: pieces of a
+   * patch with more than 32 others before them are divided down to 1/16 of the patch over this
+   * number, and this many directions (at least 8) go to a light with an angular diameter. Default
+   * 16, range 1 to 4096; powers of two spread best.
    */
   vtkSetClampMacro(ShadowSamples, int, 1, 4096);
   vtkGetMacro(ShadowSamples, int);
+  ///@}
+
+  ///@{
+  /**
+   * Angle that directional lights take in the sky, in degrees: their shadows get soft edges. The
+   * sun's is 0.53. Each light is a disc then, evenly bright. Default 0 (sharp shadows), range 0 to
+   * 180.
+   */
+  vtkSetClampMacro(LightAngularDiameter, double, 0.0, 180.0);
+  vtkGetMacro(LightAngularDiameter, double);
   ///@}
 
   ///@{
@@ -129,8 +165,10 @@ private:
 
   std::unique_ptr<LightList> Lights;
   vtkImageData* Environment = nullptr;
+  double Tolerance = 1e-2;
   int EnvironmentSamples = 256;
   int ShadowSamples = 16;
+  double LightAngularDiameter = 0.0;
   bool Shadows = true;
   bool TwoSided = false;
   double RefractiveIndex = 1.0;

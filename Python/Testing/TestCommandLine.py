@@ -177,7 +177,7 @@ class TestCommandLine(unittest.TestCase):
         # Ten millimetres to the unit: a face is some 20 mean free paths of marble wide.
         result = self.run_command(
             "scatter", source, self.path("out.vtp"), "--material", "marble", "--mm-per-unit", "10",
-            "--light", "-1,0,0,2", "--device", "cpu")
+            "--light", "-1,0,0,2", "--light-diameter", "0.53", "--device", "cpu")
         self.assertEqual(result.returncode, 0, result.stderr)
         surface = self.load("out.vtp")
         direct = get_values(surface, "DirectIrradiance")

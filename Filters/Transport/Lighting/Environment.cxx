@@ -2,93 +2,84 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Lighting/Environment.h"
 
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
+#include "Lighting/SampleMean.h"
 #include "vtkMath.h"
-#include "vtkPointData.h"
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-#include <string>
 
 namespace LightTransport
 {
-//------------------------------------------------------------------------------
-Outcome Environment::Read(vtkImageData* picture)
+namespace
 {
-  const int* size = picture->GetDimensions();
-  vtkDataArray* scalars = picture->GetPointData()->GetScalars();
-  const int components = scalars ? scalars->GetNumberOfComponents() : 0;
-  if (size[0] < 1 || size[1] < 1 || size[2] != 1 || (components != 1 && components != LightBands))
+/// Peaks are small and mostly seen as a whole: they begin with this part of the rays.
+constexpr int PeakPart = 4;
+} // namespace
+
+//------------------------------------------------------------------------------
+// Directions are even in projected solid angle.
+void Environment::AddBackground(const LitPatch& patch, const double* unshadowed, bool isFree, int k,
+  LightSum& sum) const
+{
+  const LitPatch::Vector direction = patch.GetDirection(k);
+  if (!isFree)
   {
-    std::ostringstream text;
-    text << "The environment must be a two-dimensional image with point scalars of 1 or 3 "
-            "components, but its size is "
-         << size[0] << " x " << size[1] << " x " << size[2] << " with " << components
-         << " components.";
-    return Outcome::Failed(text.str());
-  }
-  this->Width = size[0];
-  this->Height = size[1];
-  this->Values.reserve(static_cast<std::size_t>(size[0]) * size[1] * LightBands);
-  for (vtkIdType pixel = 0; pixel < scalars->GetNumberOfTuples(); ++pixel)
-  {
-    for (int band = 0; band < LightBands; ++band)
+    const LitPatch::Vector point = patch.GetPoint(k);
+    if (patch.IsBlocked(point, point + OutOfScene * direction))
     {
-      const double value = scalars->GetComponent(pixel, components == 1 ? 0 : band);
-      if (!std::isfinite(value))
-      {
-        return Outcome::Failed("The environment has a value that is not finite at pixel " +
-          std::to_string(pixel) + ": replace such values.");
-      }
-      this->Values.push_back(value);
+      sum.Add(unshadowed, 1.0, 0.0, true);
+      return;
     }
   }
-  return Outcome::Done();
+  double radiance[LightBands];
+  this->Picture.GetBackground(direction, radiance);
+  sum.Add(radiance, vtkMath::Pi(), patch.GetTransmittance(direction.dot(patch.GetNormal())));
 }
 
 //------------------------------------------------------------------------------
-// Bilinear between the centres of pixels.
-void Environment::Evaluate(const LitPatch::Vector& direction, double radiance[LightBands]) const
+void Environment::AddPeak(const LitPatch& patch, bool isFree, int k, LightSum& sum) const
 {
-  const double longitude = std::atan2(direction.y(), direction.x()) / (2.0 * vtkMath::Pi());
-  const double latitude =
-    std::asin(std::min(1.0, std::max(-1.0, direction.z()))) / vtkMath::Pi() + 0.5;
-  const double x = (longitude < 0.0 ? longitude + 1.0 : longitude) * this->Width - 0.5;
-  const double y = std::min(std::max(latitude * this->Height - 0.5, 0.0), this->Height - 1.0);
-  const int column = static_cast<int>(std::floor(x));
-  const int row = std::min(static_cast<int>(y), std::max(0, this->Height - 2));
-  const double right = x - column;
-  const double up = y - row;
-  const int columns[2] = { (column + this->Width) % this->Width,
-    (column + 1 + this->Width) % this->Width };
-  const int rows[2] = { row, std::min(row + 1, this->Height - 1) };
-  for (int band = 0; band < LightBands; ++band)
+  double weights[LightBands];
+  const PatchSampler& sampler = patch.GetSampler();
+  const LitPatch::Vector direction =
+    this->Picture.GetPeak(sampler.Get(k, 2), sampler.Get(k, 3), weights);
+  const double cosine = direction.dot(patch.GetNormal());
+  if (cosine > 0.0)
   {
-    const auto at = [&](int i, int j)
-    { return this->Values[(rows[j] * this->Width + columns[i]) * LightBands + band]; };
-    radiance[band] = (1.0 - up) * ((1.0 - right) * at(0, 0) + right * at(1, 0)) +
-      up * ((1.0 - right) * at(0, 1) + right * at(1, 1));
+    const LitPatch::Vector point = patch.GetPoint(k);
+    sum.Add(weights, cosine, patch.GetTransmittance(cosine),
+      !isFree && patch.IsBlocked(point, point + OutOfScene * direction));
   }
 }
 
 //------------------------------------------------------------------------------
+// The part whose error is larger gets as many rays again.
 double Environment::Light(const LitPatch& patch, LightSum& sum) const
 {
-  const double weight = vtkMath::Pi() / this->Samples;
-  for (int k = 0; k < this->Samples; ++k)
+  const int samples = this->Effort.EnvironmentSamples;
+  const bool isFree = !patch.HasBlockers();
+  double unshadowed[LightBands];
+  this->Picture.GetIrradiance(patch.GetNormal(), unshadowed);
+  SampleMean background(samples, !this->Picture.HasBackground());
+  SampleMean peaks(samples / PeakPart, !this->Picture.HasPeaks());
+  for (;;)
   {
-    const LitPatch::Vector direction = patch.GetDirection(k);
-    const double cosine = direction.dot(patch.GetNormal());
-    const LitPatch::Vector point = patch.GetPoint(k);
-    if (!patch.IsBlocked(point, point + OutOfScene * direction))
+    background.Fill(
+      [&](int k, LightSum& part) { this->AddBackground(patch, unshadowed, isFree, k, part); });
+    peaks.Fill([&](int k, LightSum& part) { this->AddPeak(patch, isFree, k, part); });
+    const LightSum even = background.GetMean();
+    const LightSum sharp = peaks.GetMean();
+    LightSum both = even;
+    both.Add(sharp);
+    both.RaiseUnshadowed(this->Picture.GetMeanIrradiance(), 1.0);
+    const double allowed =
+      this->Effort.Tolerance * (sum.GetLargestUnshadowed() + both.GetLargestUnshadowed());
+    const bool isPeak = sharp.GetLargestError() > even.GetLargestError();
+    SampleMean& worse = isPeak ? peaks : background;
+    if (both.GetLargestError() <= allowed ||
+      worse.GetCount() * 2 > std::max(samples, 8) * MostRefined)
     {
-      double radiance[LightBands];
-      this->Evaluate(direction, radiance);
-      sum.Add(radiance, weight, patch.GetTransmittance(cosine));
+      sum.Add(both);
+      return isFree ? 0.0 : background.GetCount() + peaks.GetCount();
     }
+    worse.Double();
   }
-  return this->Samples;
 }
 } // namespace LightTransport

@@ -1,46 +1,40 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// A vtkLight, directional, positional or a spot, in a scene's coordinates.
+/// A vtkLight in a scene's coordinates, and the source that it becomes: a PointLight where it is
+/// positional, else a DistantLight.
 #ifndef PunctualLight_h
 #define PunctualLight_h
 
 #include "Lighting/LightSource.h"
 #include "Shared/Outcome.h"
 
+#include <memory>
+
 class vtkLight;
 
 namespace LightTransport
 {
-class PunctualLight : public LightSource
+struct PunctualLight
 {
-public:
   using Vector = LitPatch::Vector;
 
-  /// Points on a patch that look at the light; where not all of them see it alike 16 times as many
-  /// are taken.
-  explicit PunctualLight(int shadowSamples) : ShadowSamples(shadowSamples) {}
+  /// By which part of what it would get if it faced the light a patch's errors are measured, where
+  /// it gets less.
+  static constexpr double Facing = 0.25;
+
+  bool IsPositional = false;
+  Vector Position = Vector::Zero();
+  Vector Axis = Vector::Zero(); ///< unit vector from the light to its focal point
+  double Color[LightBands] = {};
+  double Attenuation[3] = {};
+  double ConeCosine = 0.0; ///< 0 where there is no cone
+  double Exponent = 0.0;   ///< counts within a cone
 
   /// Take over a light that is on. A failure's message begins after the light's name.
   Outcome Read(vtkLight* object, const PatchScene& scene);
 
-  double Light(const LitPatch& patch, LightSum& sum) const override;
-
-private:
-  /// Irradiance at normal incidence over Color, cosine and shadow included; 0 in the shadow or
-  /// behind.
-  double LookFrom(const Vector& point, const LitPatch& patch, double& cosine) const;
-  /// Returns false where the points disagree.
-  bool LookFromPoints(const LitPatch& patch, bool refined, LightSum& sum) const;
-
-  int ShadowSamples;
-  bool Positional = false;
-  Vector Position = Vector::Zero();
-  /// Unit vector from the light to its focal point.
-  Vector Axis = Vector::Zero();
-  double Color[LightBands] = {};
-  double Attenuation[3] = {};
-  double ConeCosine = 0.0;
-  double Exponent = 0.0;
+  /// `angularDiameter`, in degrees, is that of directional lights.
+  std::unique_ptr<LightSource> MakeSource(const LightEffort& effort, double angularDiameter) const;
 };
 } // namespace LightTransport
 

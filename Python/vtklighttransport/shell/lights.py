@@ -3,10 +3,12 @@
 """Lights in place of an array of irradiance."""
 
 from vtklighttransport.shell.arguments import parse_light
-from vtklighttransport.shell.properties import Switch, add_properties, make_filter
+from vtklighttransport.shell.properties import Number, Switch, add_properties, make_filter
 from vtklighttransport.shell.stages import Stage
 
 IRRADIANCE = (
+    Number("--light-diameter", "LightAngularDiameter", float,
+           "angle that each --light takes in the sky, in degrees; the sun's is 0.53"),
     Switch("--no-shadows", "Shadows", False, "let lights shine through patches"),
 )
 
