@@ -80,8 +80,8 @@ public:
 
 private:
   static constexpr int Blocks = 8;
-  // Errors over spreads, root mean squares over the patches of several scenes under even and uneven
-  // skies: 0.6 to 0.75.
+  // Errors over spreads, root mean squares over the patches of scenes with little and with much in
+  // the way: 0.6 to 0.8.
   static constexpr double Evenness = 0.75;
 
   int PerBlock;

@@ -192,6 +192,36 @@ void TestPointLight()
 }
 
 //------------------------------------------------------------------------------
+/// The other side of a sheet, meshed differently, does not shade it, whatever rounding makes of
+/// their coordinates; a wall that stands on a patch shades it from its foot on.
+void TestSheetAndWall()
+{
+  for (int turn = 0; turn < 20; ++turn)
+  {
+    for (const Place& place : { Place{ 0.31 * turn, 1.0, 0.0, true },
+           Place{ 0.31 * turn, 1.0, 6e5, false }, Place{ 0.31 * turn, 1.0, 6e6, false } })
+    {
+      Surface surface;
+      AddRectangle(surface, place, 0.0, 1.0, 0.0, 1.0, 0.0);
+      for (int k = 0; k < 9; ++k)
+      {
+        AddRectangle(surface, place, k % 3 / 3.0, (k % 3 + 1) / 3.0, k / 3 / 3.0, (k / 3 + 1) / 3.0,
+          0.0, false);
+      }
+      vtkNew<vtkDirectIrradiance> filter;
+      filter->SetInputData(GetData(surface, place));
+      filter->AddLight(MakeLight(place.Get({ -1, 0, 1 }), place.Get({ 0, 0, 0 }), false));
+      CheckClose(GetValue(filter), std::sqrt(0.5), 1e-6, "the front of a sheet" + place.GetName());
+      surface.AddPolygon({ place.Get({ 0.3, -1, 0 }), place.Get({ 0.3, 2, 0 }),
+        place.Get({ 0.3, 2, 0.2 }), place.Get({ 0.3, -1, 0.2 }) });
+      filter->SetInputData(GetData(surface, place));
+      CheckClose(GetValue(filter), 0.8 * std::sqrt(0.5), 1e-5,
+        "a wall on a sheet" + place.GetName());
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// A lamp close to a large patch lights a small part of it very well.
 void TestCloseLight()
 {
@@ -470,6 +500,36 @@ void TestSunInPicture()
 }
 
 //------------------------------------------------------------------------------
+/// Each band of a coloured sun has its own irradiance.
+void TestColoredSun()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(720, 360, 1);
+  image->AllocateScalars(VTK_DOUBLE, 3);
+  std::fill_n(static_cast<double*>(image->GetScalarPointer()), 720 * 360 * 3, 0.0);
+  const double colors[] = { 1e7, 2e6, 0.0 };
+  for (int band = 0; band < 3; ++band)
+  {
+    image->SetScalarComponentFromDouble(100, 300, 0, band, colors[band]);
+  }
+  Surface surface;
+  AddRectangle(surface, Place(), 0.0, 1.0, 0.0, 1.0, 0.0);
+  vtkNew<vtkDirectIrradiance> filter;
+  filter->SetInputData(surface.Get());
+  filter->SetEnvironment(image);
+  filter->Update();
+  const double flux = GetPixelFlux(720, 360, 100, 300)[2];
+  for (int band = 0; band < 3; ++band)
+  {
+    CheckClose(filter->GetPolyDataOutput()
+                 ->GetCellData()
+                 ->GetArray("DirectIrradiance")
+                 ->GetComponent(0, band),
+      colors[band] * flux, 1e-3, "band " + std::to_string(band) + " of a coloured sun");
+  }
+}
+
+//------------------------------------------------------------------------------
 /// A patch that a picture's sun lights in part, and one below a large plate: what is seen of an
 /// even sky is pi less the solid angle of the plate, weighed by cosines.
 void TestSkyInPart()
@@ -591,12 +651,14 @@ int TestSmallLight(int, char*[])
 {
   TestStrips();
   TestPointLight();
+  TestSheetAndWall();
   TestCloseLight();
   TestManyBlockers();
   TestAgainstRays();
   TestPenumbra();
   TestDisc();
   TestSunInPicture();
+  TestColoredSun();
   TestSkyInPart();
   TestComposite();
   TestWarning();
