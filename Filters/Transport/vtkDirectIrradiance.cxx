@@ -4,6 +4,7 @@
 
 #include "Geometry/SceneRayCaster.h"
 #include "Lighting/Environment.h"
+#include "Lighting/LightErrors.h"
 #include "Lighting/LitParts.h"
 #include "Lighting/PunctualLight.h"
 #include "Run/TransportRun.h"
@@ -65,9 +66,6 @@ private:
   vtkIdType GetNumberOfBatches() const;
   void ComputePatch(vtkIdType patch);
   void WriteErrors();
-  void WarnOfErrors(vtkIdType count, vtkIdType worst) const;
-  double GetRelativeError(vtkIdType patch) const;
-  double GetTotalError() const;
 
   vtkDirectIrradiance* Owner;
   double StartTime;
@@ -254,71 +252,18 @@ void vtkDirectIrradiance::Run::Write()
 }
 
 //------------------------------------------------------------------------------
-// As Tolerance has it.
-double vtkDirectIrradiance::Run::GetRelativeError(vtkIdType patch) const
-{
-  const double* error = &this->Error[patch * LightBands];
-  const double largest = *std::max_element(error, error + LightBands);
-  return largest > 0.0 ? largest / this->Unshadowed[patch] : 0.0;
-}
-
-//------------------------------------------------------------------------------
-// Of all patches together: root mean squares, of the band where it is largest.
-double vtkDirectIrradiance::Run::GetTotalError() const
-{
-  double total = 0.0;
-  for (int band = 0; band < LightBands; ++band)
-  {
-    double squares = 0.0;
-    double errors = 0.0;
-    for (std::size_t patch = 0; patch < this->Rays.size(); ++patch)
-    {
-      const double area = this->Scene.GetAreas()[patch];
-      squares += area * std::pow(this->Incident[patch * LightBands + band], 2);
-      errors += area * std::pow(this->Error[patch * LightBands + band], 2);
-    }
-    total = std::max(total, squares > 0.0 ? std::sqrt(errors / squares) : 0.0);
-  }
-  return total;
-}
-
-//------------------------------------------------------------------------------
 void vtkDirectIrradiance::Run::WriteErrors()
 {
-  vtkIdType worst = 0;
-  vtkIdType count = 0;
-  for (vtkIdType patch = 0; patch < static_cast<vtkIdType>(this->Rays.size()); ++patch)
-  {
-    const double error = this->GetRelativeError(patch);
-    worst = error > this->GetRelativeError(worst) ? patch : worst;
-    count += error > this->Owner->Tolerance ? 1 : 0;
-  }
+  const LightErrors errors(this->Scene, this->Incident, this->Error, this->Unshadowed);
   vtkFieldData* fields = this->GetOutputFields();
-  FieldValues::Add(fields, "DirectIrradianceError", this->GetTotalError());
-  FieldValues::Add(fields, "LargestDirectIrradianceError", this->GetRelativeError(worst));
-  if (count > 0)
+  FieldValues::Add(fields, ArrayNames::DirectIrradianceError, errors.GetTotal());
+  FieldValues::Add(fields, "LargestDirectIrradianceError", errors.GetLargest());
+  const std::string warning = errors.Describe(this->Owner->Tolerance,
+    this->Owner->Environment ? "EnvironmentSamples" : "ShadowSamples");
+  if (!warning.empty())
   {
-    this->WarnOfErrors(count, worst);
+    this->Warn(warning);
   }
-}
-
-//------------------------------------------------------------------------------
-void vtkDirectIrradiance::Run::WarnOfErrors(vtkIdType count, vtkIdType worst) const
-{
-  const LitPatch::Vector place =
-    this->Scene.GetCenter() + this->Scene.GetScale() * this->Scene.GetCentroid(worst);
-  const double* incident = &this->Incident[worst * LightBands];
-  const double* error = &this->Error[worst * LightBands];
-  const auto band = std::max_element(error, error + LightBands) - error;
-  std::ostringstream text;
-  text << "Tolerance " << this->Owner->Tolerance << " was not reached on " << count << " of "
-       << this->Rays.size() << " polygons. It is worst at polygon " << this->Scene.GetPolygon(worst)
-       << " near (" << place.x() << ", " << place.y() << ", " << place.z()
-       << "): the irradiance there is " << incident[band] << ", give or take " << error[band]
-       << ", and " << this->Unshadowed[worst] << " without shadows. Raise "
-       << (this->Owner->Environment ? "EnvironmentSamples" : "ShadowSamples")
-       << " or Tolerance; the cell array \"DirectIrradianceError\" tells the error everywhere.";
-  this->Warn(text.str());
 }
 
 //------------------------------------------------------------------------------

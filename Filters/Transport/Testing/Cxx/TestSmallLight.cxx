@@ -584,6 +584,20 @@ void TestComposite()
 }
 
 //------------------------------------------------------------------------------
+/// A floor with a corner inside is one polygon to the user: all of its parts are cut.
+void TestConcave()
+{
+  Surface surface;
+  surface.AddPolygon(
+    { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 1, 0 }, { 1, 2, 0 }, { 0, 2, 0 } });
+  AddRectangle(surface, Place(), 0.5, 1.5, 0.5, 0.75, 0.3);
+  vtkNew<vtkDirectIrradiance> filter;
+  filter->SetInputData(surface.Get());
+  filter->AddLight(MakeLight({ 0, 0, 1 }, { 0, 0, 0 }, false));
+  CheckClose(GetValue(filter), 1.0 - 0.25 / 3.0, 1e-12, "a plate over a concave floor");
+}
+
+//------------------------------------------------------------------------------
 /// Where the tolerance cannot be reached that is said, once, with the place and the remedy.
 void TestWarning()
 {
@@ -661,6 +675,7 @@ int TestSmallLight(int, char*[])
   TestColoredSun();
   TestSkyInPart();
   TestComposite();
+  TestConcave();
   TestWarning();
   TestProgress();
   return Result();
