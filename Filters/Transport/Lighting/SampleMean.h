@@ -28,9 +28,7 @@ public:
 
   /// Samples that there are or, after Double, will be.
   int GetCount() const { return this->IsEmpty ? 0 : Blocks * this->PerBlock; }
-  /// Those of them that there are not yet: the first one.
-  int GetFirst() const { return this->First; }
-  /// Add all from GetFirst() on: `sample(k, sum)` adds sample k to a sum.
+  /// Add those that there are not yet: `sample(k, sum)` adds sample k to a sum.
   template <typename Sample>
   void Fill(const Sample& sample)
   {
@@ -86,7 +84,7 @@ private:
 
   int PerBlock;
   bool IsEmpty;
-  int First = 0;
+  int First = 0; ///< of those that there are not yet
   std::array<LightSum, Blocks> Sums;
 };
 } // namespace LightTransport
