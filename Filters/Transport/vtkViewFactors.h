@@ -78,7 +78,7 @@ public:
 
   ///@{
   /**
-   * Bounds the sum over j of the absolute errors of F_ij of each row. Default 1e-4, range 1e-12 to
+   * Bounds the sum over j of the absolute errors of F_ij of each row. Default 1e-3, range 1e-12 to
    * 0.1. Unoccluded pairs reach any of it, but for the storage in single precision (6e-8 of each
    * F_ij); what partly visible pairs have reached when their work is used up "ViewFactorError"
    * tells.
@@ -211,7 +211,7 @@ private:
 
   std::unique_ptr<LightTransport::ViewFactorStore> Store;
 
-  double Tolerance = 1e-4;
+  double Tolerance = 1e-3;
   bool EnforceClosure = false;
   bool Hierarchical = false;
   bool TwoSided = false;

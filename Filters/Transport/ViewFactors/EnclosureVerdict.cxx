@@ -5,6 +5,7 @@
 #include "Links/Links.h"
 #include "Scene/PatchScene.h"
 #include "Shared/FieldValues.h"
+#include "ViewFactors/ViewFactorClosure.h"
 
 #include <algorithm>
 #include <map>
@@ -183,7 +184,7 @@ void EnclosureVerdict::JudgeErrors()
   vtkIdType count = 0;
   for (std::size_t patch = 0; patch < errors.size(); ++patch)
   {
-    if (errors[patch] > links.Tolerance)
+    if (errors[patch] > links.Tolerance + ViewFactorClosure::SinglePrecision)
     {
       ++count;
       this->Flag(static_cast<vtkIdType>(patch), TOLERANCE_NOT_REACHED);
