@@ -5,6 +5,7 @@
 #ifndef RadiosityTesting_h
 #define RadiosityTesting_h
 
+#include "MessageLog.h"
 #include "ViewFactorTesting.h"
 #include "vtkExecutive.h"
 #include "vtkRadiosity.h"
@@ -42,7 +43,7 @@ struct Run
 {
   Run(vtkPolyData* data, vtkViewFactors* factors, int solver, double tolerance, bool closed = false)
   {
-    vtkNew<vtkTest::ErrorObserver> observer;
+    vtkNew<MessageLog> observer;
     vtkNew<vtkTest::ErrorObserver> pipelineObserver;
     this->Filter->AddObserver(vtkCommand::ErrorEvent, observer);
     this->Filter->AddObserver(vtkCommand::WarningEvent, observer);
@@ -53,7 +54,7 @@ struct Run
     this->Filter->SetSolver(solver);
     this->Filter->SetTolerance(tolerance);
     this->Filter->Update();
-    this->Messages = observer->GetErrorMessage() + observer->GetWarningMessage();
+    this->Messages = observer->GetAllButOpenings();
     this->Radiosity = this->Get("Radiosity");
     this->Irradiance = this->Get("Irradiance");
     this->NetFlux = this->Get("NetFlux");
@@ -84,7 +85,7 @@ struct Run
   }
 
   vtkNew<vtkRadiosity> Filter;
-  std::string Messages; ///< errors and warnings
+  std::string Messages; ///< errors and warnings, but for what is said of openings
   std::string Status;
   std::string Explanation;
   int Iterations = -1;

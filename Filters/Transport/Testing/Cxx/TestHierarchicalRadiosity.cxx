@@ -22,14 +22,14 @@ struct Solved
 
   Solved(vtkRadiosity* filter, vtkPolyData* data) : Filter(filter)
   {
-    vtkNew<vtkTest::ErrorObserver> observer;
+    vtkNew<MessageLog> observer;
     vtkNew<vtkTest::ErrorObserver> pipelineObserver;
     filter->AddObserver(vtkCommand::ErrorEvent, observer);
     filter->AddObserver(vtkCommand::WarningEvent, observer);
     filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipelineObserver);
     filter->SetInputData(data);
     filter->Update();
-    this->Messages = observer->GetErrorMessage() + observer->GetWarningMessage();
+    this->Messages = observer->GetAllButOpenings();
     vtkDataArray* array = filter->GetPolyDataOutput()->GetCellData()->GetArray("Radiosity");
     this->Radiosity.resize(array ? array->GetNumberOfValues() : 0);
     for (vtkIdType k = 0; k < this->Radiosity.size(); ++k)
