@@ -65,6 +65,7 @@ struct Openings::Row
 {
   bool MayBeOpen = false;
   bool IsSumBetter = false; ///< than any rays
+  bool IsCertain = false;   ///< that it is open, though no ray found how
   Estimate Open;
   Estimate Sky; ///< of what is open
   double Gap = 0.0;
@@ -81,6 +82,14 @@ struct Openings::Row
     {
       this->Open = Combine(missing, found);
       this->Sky = outlook.GetSky();
+    }
+    else if (missing.Value > WorseThanSums * error)
+    {
+      // Too small for rays to meet, but certain: the sum knows it.
+      this->IsCertain = true;
+      this->Open = missing;
+      this->Sky = { 1.0, 0.0 };
+      this->Gap = 0.0;
     }
   }
 
@@ -99,7 +108,7 @@ struct Openings::Row
     const int rays = outlook.GetNumberOfRays();
     if (!outlook.SeesSky() && !outlook.SeesBackFaces())
     {
-      return rays >= (this->MayBeOpen ? MostRaysForMissing : fewest);
+      return rays >= (this->MayBeOpen && !this->IsCertain ? MostRaysForMissing : fewest);
     }
     const bool knowsKinds = outlook.SeesSky() && outlook.SeesBackFaces();
     const double left =

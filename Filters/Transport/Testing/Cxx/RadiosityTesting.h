@@ -38,6 +38,16 @@ inline std::vector<int> GetSolvers()
 }
 
 //------------------------------------------------------------------------------
+inline vtkSmartPointer<vtkViewFactors> MakeFactors(vtkPolyData* data, double tolerance)
+{
+  auto factors = vtkSmartPointer<vtkViewFactors>::New();
+  factors->SetInputData(data);
+  factors->SetTolerance(tolerance);
+  factors->Update();
+  return factors;
+}
+
+//------------------------------------------------------------------------------
 /// One run of the filter; the vectors are empty after an error.
 struct Run
 {
@@ -54,7 +64,7 @@ struct Run
     this->Filter->SetSolver(solver);
     this->Filter->SetTolerance(tolerance);
     this->Filter->Update();
-    this->Messages = observer->GetAllButOpenings();
+    this->Messages = observer->GetAllButVerdict();
     this->Radiosity = this->Get("Radiosity");
     this->Irradiance = this->Get("Irradiance");
     this->NetFlux = this->Get("NetFlux");
@@ -85,7 +95,7 @@ struct Run
   }
 
   vtkNew<vtkRadiosity> Filter;
-  std::string Messages; ///< errors and warnings, but for what is said of openings
+  std::string Messages; ///< errors and warnings, but for the verdict on the scene
   std::string Status;
   std::string Explanation;
   int Iterations = -1;

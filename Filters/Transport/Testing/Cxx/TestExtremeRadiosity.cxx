@@ -29,16 +29,6 @@ double CompareExactly(const Run& run, vtkPolyData* data, vtkViewFactors* factors
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkViewFactors> MakeFactors(vtkPolyData* data, double tolerance)
-{
-  auto factors = vtkSmartPointer<vtkViewFactors>::New();
-  factors->SetInputData(data);
-  factors->SetTolerance(tolerance);
-  factors->Update();
-  return factors;
-}
-
-//------------------------------------------------------------------------------
 // Emissions of 1 and 1e12 in one room: the tolerance is that of the largest B, and everything is
 // within the error bound. Where the dim part does not see the bright one it has its own digits.
 void TestEmissions()
@@ -208,8 +198,7 @@ void TestCrossing()
 }
 
 //------------------------------------------------------------------------------
-// The floor is there twice: solved with a warning that names a polygon while less than everything
-// returns, refused beyond.
+// The floor is there twice: what lies on it exchanges nothing, and a warning says so.
 void TestDuplicates()
 {
   auto room = MakeRoom(2);
@@ -223,16 +212,34 @@ void TestDuplicates()
   AddMaterial(room, 0.5, 0.5);
   const Run solved(room, nullptr, vtkRadiosity::SOLVER_AUTO, 1e-8);
   Check(solved.Status == "Converged" &&
+      solved.Messages.find("others of lower numbers that face the same way") != std::string::npos,
+    "a floor that is there twice: " + solved.Messages);
+  CheckClose((solved.Radiosity.head(24).array() - 1.0).abs().maxCoeff(), 0.0, 1e-6, "the room");
+  CheckClose(solved.Radiosity.tail(4).cwiseAbs().maxCoeff(), 0.0, 0.0, "the second floor");
+}
+
+//------------------------------------------------------------------------------
+// A rug that comes before the floor on which it lies covers it in part: solved with a warning that
+// names a polygon while less than everything returns, refused beyond.
+void TestOverlap()
+{
+  Surface surface;
+  surface.AddGrid({ 0.05, 0.05, 0 }, { 0.9, 0, 0 }, { 0, 0.9, 0 }, 1, 1);
+  AddBox(surface, { 0, 0, 0 }, { 1, 1, 1 }, 0.5, true);
+  auto room = surface.Get();
+  AddMaterial(room, 0.5, 0.5);
+  const Run solved(room, nullptr, vtkRadiosity::SOLVER_AUTO, 1e-8);
+  Check(solved.Status == "Converged" &&
       solved.Messages.find("patches that it sees overlap or lie on each other") !=
         std::string::npos &&
       solved.Messages.find("What leaves polygon ") != std::string::npos,
-    "a floor that is there twice: " + solved.Messages);
+    "a rug: " + solved.Messages);
   AddArray(room, "Reflectance", { 0.95 });
   const Run refused(room, nullptr, vtkRadiosity::SOLVER_AUTO, 1e-8);
   Check(refused.Messages.find("no unique solution: polygon ") != std::string::npos &&
       refused.Messages.find("Remove patches that overlap") != std::string::npos &&
       refused.Radiosity.size() == 0,
-    "a floor that is there twice and reflects more than all: " + refused.Messages);
+    "a rug, and a room that reflects more than all: " + refused.Messages);
 }
 
 //------------------------------------------------------------------------------
@@ -310,6 +317,7 @@ int TestExtremeRadiosity(int, char*[])
   TestAreas();
   TestCrossing();
   TestDuplicates();
+  TestOverlap();
   TestCrack();
   TestFewPatches();
   return Result();

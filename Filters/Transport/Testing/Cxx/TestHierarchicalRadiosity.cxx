@@ -29,7 +29,7 @@ struct Solved
     filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipelineObserver);
     filter->SetInputData(data);
     filter->Update();
-    this->Messages = observer->GetAllButOpenings();
+    this->Messages = observer->GetAllButVerdict();
     vtkDataArray* array = filter->GetPolyDataOutput()->GetCellData()->GetArray("Radiosity");
     this->Radiosity.resize(array ? array->GetNumberOfValues() : 0);
     for (vtkIdType k = 0; k < this->Radiosity.size(); ++k)

@@ -70,7 +70,8 @@ void TestDiagnosis()
   auto cube = MakeRoom(4);
   AddArray(cube, "Reflectance", { 0.999999 });
   AddArray(cube, "Emission", { 1e-6 });
-  const Run doubtful(cube, nullptr, vtkRadiosity::SOLVER_AUTO, 1e-4);
+  auto factors = MakeFactors(cube, 1e-4);
+  const Run doubtful(cube, factors, vtkRadiosity::SOLVER_AUTO, 1e-4);
   const std::size_t place = doubtful.Messages.find("B may be wrong by ");
   const double percent =
     place == std::string::npos ? 0.0 : std::atof(doubtful.Messages.c_str() + place + 18);
