@@ -190,8 +190,11 @@ void TestCopy(const Pose& pose, int links)
   Solve(data, true, links, one);
   Solve(copy, false, links, other);
   const vtkIdType polygons = data->GetNumberOfCells();
-  // Rounding may cut the L in another way when it is seen from behind.
-  const double tolerance = pose.Type == VTK_FLOAT ? 1e-5 : 1e-9;
+  // Rounding may cut the L in another way when it is seen from behind, which moves view factors
+  // within their tolerance, and links between clusters, which follow the order of pieces, within
+  // theirs.
+  const bool isDense = links == vtkRadiosity::LINK_METHOD_DENSE;
+  const double tolerance = isDense ? (pose.Type == VTK_FLOAT ? 1e-5 : 1e-9) : 1e-2;
   for (const std::string name : { "Radiosity", "Irradiance", "NetFlux", "SceneProblems" })
   {
     for (vtkIdType cell = 0; cell < polygons; ++cell)
