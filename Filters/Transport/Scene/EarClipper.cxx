@@ -60,12 +60,45 @@ bool EarClipper::IsConvex(int a, int b, int c) const
 }
 
 //------------------------------------------------------------------------------
-// A corner on the border of the triangle is not inside.
-bool EarClipper::IsInside(int corner, int a, int b, int c) const
+// Whether a corner is inside of a triangle, or on its rim with an edge that goes inside.
+bool EarClipper::Blocks(int corner, int a, int b, int c) const
 {
-  const auto isLeftOf = [&](int from, int to)
-  { return this->GetTurn(from, to, corner) > this->GetFlatness(from, to, corner); };
-  return isLeftOf(c, a) && isLeftOf(a, b) && isLeftOf(b, c);
+  const std::pair<int, int> rim[] = { { c, a }, { a, b }, { b, c } };
+  bool isOn[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    const double turn = this->GetTurn(rim[k].first, rim[k].second, corner);
+    const double flat = this->GetFlatness(rim[k].first, rim[k].second, corner);
+    if (turn < -flat)
+    {
+      return false;
+    }
+    isOn[k] = turn <= flat;
+  }
+  const auto goesInside = [&](int neighbor)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto [from, to] = rim[k];
+      if (isOn[k] && this->GetTurn(from, to, neighbor) <= this->GetFlatness(from, to, neighbor))
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  return goesInside(this->Previous[corner]) || goesInside(this->Next[corner]);
+}
+
+//------------------------------------------------------------------------------
+// On the line from a to b, and at neither end.
+bool EarClipper::IsBetween(int corner, int a, int b) const
+{
+  const Vector along = this->Corners[b] - this->Corners[a];
+  const Vector place = this->Corners[corner] - this->Corners[a];
+  const double margin = this->GetFlatness(a, b, corner);
+  return std::abs(this->GetTurn(a, b, corner)) <= margin && along.dot(place) > margin &&
+    along.dot(along - place) > margin;
 }
 
 //------------------------------------------------------------------------------
@@ -83,18 +116,25 @@ EarClipper::Kind EarClipper::Classify(int corner) const
   {
     return Kind::Reflex;
   }
+  const double margin = this->GetFlatness(a, corner, c) / this->GetLength({ a, c });
   const Vector lower = this->Corners[a].cwiseMin(this->Corners[corner]).cwiseMin(this->Corners[c]);
   const Vector upper = this->Corners[a].cwiseMax(this->Corners[corner]).cwiseMax(this->Corners[c]);
+  Kind kind = Kind::Ear;
   for (int other = this->Next[c]; other != a; other = this->Next[other])
   {
     const Vector& place = this->Corners[other];
-    if ((place.array() > lower.array()).all() && (place.array() < upper.array()).all() &&
-      this->IsInside(other, a, corner, c))
+    if ((place.array() < lower.array() - margin).any() ||
+      (place.array() > upper.array() + margin).any())
+    {
+      continue;
+    }
+    if (this->Blocks(other, a, corner, c))
     {
       return Kind::Blocked;
     }
+    kind = this->IsBetween(other, c, a) ? Kind::Touching : kind;
   }
-  return Kind::Ear;
+  return kind;
 }
 
 //------------------------------------------------------------------------------
@@ -109,12 +149,13 @@ void EarClipper::ClassifyAll()
 }
 
 //------------------------------------------------------------------------------
-// Spikes go first, then the ear that is cut off by the shortest line, and what is flat last, so
-// that lines may end there; -1 where there is none of them.
+// Spikes go first, then the ear that is cut off by the shortest line. What is flat comes later, so
+// that lines may end there, and lines through other corners last; -1 where there is none of them.
 int EarClipper::FindNext() const
 {
   int ear = -1;
   int flat = -1;
+  int touching = -1;
   double shortest = std::numeric_limits<double>::max();
   int corner = this->First;
   for (int k = 0; k < this->Count; ++k)
@@ -132,11 +173,14 @@ int EarClipper::FindNext() const
       case Kind::Flat:
         flat = corner;
         break;
+      case Kind::Touching:
+        touching = corner;
+        break;
       default:
         break;
     }
   }
-  return ear >= 0 ? ear : flat;
+  return ear >= 0 ? ear : (flat >= 0 ? flat : touching);
 }
 
 //------------------------------------------------------------------------------

@@ -44,17 +44,19 @@ public:
 private:
   enum class Kind : char
   {
-    Spike,   ///< straight back, or a corner that repeats
-    Flat,    ///< straight on
-    Ear,     ///< can be cut off
-    Blocked, ///< something is inside of the triangle
+    Spike,    ///< straight back, or a corner that repeats
+    Flat,     ///< straight on
+    Ear,      ///< can be cut off
+    Touching, ///< can, but along a line that another corner is on
+    Blocked,  ///< something is inside of the triangle
     Reflex
   };
 
   double GetTurn(int a, int b, int c) const;
   /// Turns that are no larger may be rounding.
   double GetFlatness(int a, int b, int c) const;
-  bool IsInside(int corner, int a, int b, int c) const;
+  bool Blocks(int corner, int a, int b, int c) const;
+  bool IsBetween(int corner, int a, int b) const;
   bool CrossesItself() const;
   bool Cross(int a, int b) const;
   Kind Classify(int corner) const;

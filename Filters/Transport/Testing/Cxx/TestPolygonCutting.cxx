@@ -170,6 +170,24 @@ void TestShapes()
   CheckShape({ { 0, 0 }, { 0.5, 1 }, { 0.5, 2 }, { 1, 1 }, { 0, 0 }, { 1, 0.5 }, { 2, 1 },
                { 2, 0.5 }, { 0, 0 }, { 3, 0 }, { 3, 3 }, { 0, 3 } },
     12, "two holes at a corner");
+  // Corners on the lines between others, on a grid.
+  const auto scale = [](Flat corners)
+  {
+    for (auto& corner : corners)
+    {
+      corner = { 0.25 * corner[0], 0.25 * corner[1] };
+    }
+    return corners;
+  };
+  CheckShape(scale({ { 10, 1 }, { 9, 2 }, { 10, 3 }, { 9, 5 }, { 8, 6 }, { 1, 11 }, { 0, 8 },
+               { 1, 3 }, { 8, 4 }, { 1, 7 }, { 3, 8 }, { 9, 4 }, { 4, 3 } }),
+    13, "lines through one corner");
+  CheckShape(scale({ { 8, 11 }, { 1, 5 }, { 7, 9 }, { 7, 8 }, { 4, 6 }, { 6, 8 }, { 0, 4 },
+               { 0, 3 }, { 0, 1 }, { 8, 2 }, { 10, 1 }, { 9, 4 }, { 5, 4 }, { 8, 8 }, { 9, 5 },
+               { 11, 1 }, { 11, 8 }, { 10, 7 }, { 9, 7 } }),
+    19, "lines through many corners");
+  CheckShape({ { 0, 0 }, { 2, 0 }, { 1, 1 }, { 2, 2 }, { 0, 2 }, { 1, 1 } }, 4,
+    "two pieces that meet at a corner");
   CheckShape(MakeRing(64, 1.0, true), 4, "a disc");
   CheckShape(MakeRing(1000, 1.0, true), 40, "a smooth disc");
   CheckShape(Bridge(MakeRing(32, 1.0, true), MakeRing(32, 0.5, false)), 34, "a ring");
