@@ -141,7 +141,7 @@ bool ShaftCuller::IsOccluder(vtkIdType patch) const
       (plane.Normal.array() > 0.0).select(node.Lower.array(), node.Upper.array()).matrix();
     const double nearest =
       (node.Lower - plane.Origin).cwiseMax(plane.Origin - node.Upper).cwiseMax(0.0).norm();
-    if (plane.GetHeight(lowest) >= -plane.GetTolerance(nearest))
+    if (plane.GetHeight(lowest) >= -plane.GetLeastTolerance(nearest))
     {
       continue;
     }

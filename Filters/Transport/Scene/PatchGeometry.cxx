@@ -4,6 +4,8 @@
 
 #include "Scene/PolygonMeasures.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,6 +32,8 @@ void PatchGeometry::AllocatePatches()
   this->Radii.resize(patches);
   this->Roundings.resize(patches);
   this->Slopes.resize(patches);
+  this->SlopesAlong.resize(patches);
+  this->NarrowAxes.resize(patches);
   this->EdgeRoundings.resize(patches);
 }
 
@@ -57,16 +61,20 @@ void PatchGeometry::ComputeWorth(vtkIdType patch)
 {
   const Vector& normal = this->Normals[patch];
   double unevenness = 0.0;
+  Vector furthest = Vector::Zero();
   for (int corner = 0; corner < this->GetNumberOfCorners(patch); ++corner)
   {
-    const double height = (this->GetCorner(patch, corner) - this->Centroids[patch]).dot(normal);
-    unevenness = std::max(unevenness, std::abs(height));
+    const Vector offset = this->GetCorner(patch, corner) - this->Centroids[patch];
+    unevenness = std::max(unevenness, std::abs(offset.dot(normal)));
+    furthest = offset.squaredNorm() > furthest.squaredNorm() ? offset : furthest;
   }
   const double width = this->Areas[patch] / (2.0 * this->Radii[patch]);
   const double most = LargestPart * width;
   const double lost = std::min(2.0 * normal.cwiseAbs().dot(this->CoordinateRounding), most);
   this->Roundings[patch] = lost + 2.0 * unevenness + HeightRounding;
   this->Slopes[patch] = std::min(this->Roundings[patch] / width, LargestPart);
+  this->SlopesAlong[patch] = 0.5 * this->Slopes[patch] * width / this->Radii[patch];
+  this->NarrowAxes[patch] = normal.cross(furthest).normalized();
   this->EdgeRoundings[patch] = std::min(this->CoordinateRounding.norm(), most);
 }
 

@@ -51,7 +51,7 @@ public:
   PatchPlane GetPlane(vtkIdType patch) const
   {
     return { this->Centroids[patch], this->Normals[patch], this->Roundings[patch],
-      this->Slopes[patch] };
+      this->Slopes[patch], this->SlopesAlong[patch], this->NarrowAxes[patch] };
   }
   /// How far edges of a patch may be from where they should be.
   double GetEdgeRounding(vtkIdType patch) const { return this->EdgeRoundings[patch]; }
@@ -80,6 +80,8 @@ private:
   ///@{ What the coordinates are worth, see PatchPlane.
   std::vector<double> Roundings;
   std::vector<double> Slopes;
+  std::vector<double> SlopesAlong;
+  std::vector<Vector> NarrowAxes;
   std::vector<double> EdgeRoundings;
   ///@}
 };

@@ -16,11 +16,13 @@ namespace
 {
 using Vector = Polygon::Vector;
 
-// Simpson's rule. Places are moved inwards a little, since at an edge that two polygons share there
-// is nothing to cut planes through.
-constexpr double Inset = 1e-9;
-constexpr double Nodes[] = { Inset, 0.5, 1.0 - Inset };
+// Simpson's rule.
+constexpr double Nodes[] = { 0.0, 0.5, 1.0 };
 constexpr double Weights[] = { 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0 };
+// By how much the outer polygon shrinks, in parts of itself, and in roundings of its coordinates.
+constexpr double LeastInset = 1e-9;
+constexpr double InsetRoundings = 100.0;
+constexpr double LargestInset = 1e-3;
 // Shadows that have met parts after which no piece is cut any more: some ten milliseconds.
 constexpr double MaximumWork = 1e5;
 // What a piece may be off by before anything is known of it, over its area; and how much of that,
@@ -83,13 +85,30 @@ double GetFactor(const Polygon& polygon, const Vector& point, const Vector& norm
 } // namespace
 
 //------------------------------------------------------------------------------
-void ExactVisibility::Set(const Polygon& a, const Polygon& b, double open)
+void ExactVisibility::Set(const Polygon& a, const Polygon& b, double open, double rounding)
 {
   this->Open = open;
   const bool swap = a.GetArea() > b.GetArea();
   this->Outer = swap ? b : a;
   this->Inner = swap ? a : b;
   this->Occluders.clear();
+  this->ShrinkOuter(rounding);
+}
+
+//------------------------------------------------------------------------------
+// At an edge that two polygons share there is nothing to cut planes through, and beside a wall
+// rounding decides on which side of it a place is: the rim is looked from a little further inside.
+void ExactVisibility::ShrinkOuter(double rounding)
+{
+  const Vector middle = this->Outer.GetMiddle();
+  const double extent = std::sqrt(this->Outer.GetArea());
+  const double part =
+    std::min(std::max(InsetRoundings * rounding / extent, LeastInset), LargestInset);
+  for (int corner = 0; corner < this->Outer.Count; ++corner)
+  {
+    this->Outer.Corners[corner] += part * (middle - this->Outer.Corners[corner]);
+  }
+  this->Stretch = 1.0 / ((1.0 - part) * (1.0 - part));
 }
 
 //------------------------------------------------------------------------------
@@ -107,7 +126,7 @@ ExactVisibility::Estimate ExactVisibility::Integrate(double tolerance)
   {
     this->CutWorst();
   }
-  return { sum([](const Piece& piece) { return piece.Value; }), sum(getError) };
+  return { this->Stretch * sum([](const Piece& piece) { return piece.Value; }), sum(getError) };
 }
 
 //------------------------------------------------------------------------------

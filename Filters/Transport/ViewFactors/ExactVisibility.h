@@ -29,11 +29,12 @@ public:
   ///@{
   /**
    * The visible exchange of two polygons, each in front of the plane of the other, past convex
-   * polygons that lie in front of both planes. `open` is the exchange with nothing in between.
+   * polygons that lie in front of both planes. `open` is the exchange with nothing in between,
+   * `rounding` what coordinates are known to.
    * `tolerance` is absolute, in units of area; the work is bounded, the error says what was
    * reached.
    */
-  void Set(const Polygon& a, const Polygon& b, double open);
+  void Set(const Polygon& a, const Polygon& b, double open, double rounding);
   void AddOccluder(const Polygon& occluder) { this->Occluders.push_back(occluder); }
   Estimate Integrate(double tolerance);
   ///@}
@@ -58,6 +59,7 @@ private:
     void Integrate();
   };
 
+  void ShrinkOuter(double rounding);
   void AddPieces();
   void CutWorst();
   void LookAlong(Piece& piece, int direction, int line);
@@ -67,6 +69,7 @@ private:
 
   Polygon Outer, Inner; ///< the smaller and the larger one
   double Open = 0.0;
+  double Stretch = 1.0; ///< from what is left of the outer polygon to all of it
   std::vector<Polygon> Occluders;
   std::vector<Piece> Pieces; ///< a heap, the largest error first
   double Work = 0.0;         ///< shadows on parts

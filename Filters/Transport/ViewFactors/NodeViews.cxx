@@ -32,12 +32,12 @@ NodeViews::Slab NodeViews::MakeSlab(const Node& node) const
   slab.Low = node.ConeAxis.dot(this->Scene.GetCorner(node.First, 0));
   slab.High = slab.Low;
   slab.Rounding = this->Scene.GetPlane(node.First).Rounding;
-  slab.Slope = this->Scene.GetPlane(node.First).Slope;
+  slab.Slope = this->Scene.GetPlane(node.First).SlopeAlong;
   for (vtkIdType patch = node.First; patch < node.Last; ++patch)
   {
     const PatchPlane plane = this->Scene.GetPlane(patch);
     slab.Rounding = std::min(slab.Rounding, plane.Rounding);
-    slab.Slope = std::min(slab.Slope, plane.Slope);
+    slab.Slope = std::min(slab.Slope, plane.SlopeAlong);
     slab.Chord = std::max(slab.Chord, (this->Scene.GetNormal(patch) - node.ConeAxis).norm());
     for (int corner = 0; corner < this->Scene.GetNumberOfCorners(patch); ++corner)
     {
