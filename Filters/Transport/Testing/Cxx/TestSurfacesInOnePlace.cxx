@@ -348,6 +348,29 @@ void TestNearPlates()
     CheckClose(table.Get(0, 1), 0.0, 1e-6 + table.Errors[0], "hidden by the middle one, " + what);
   }
 }
+
+//------------------------------------------------------------------------------
+// Of surfaces in one place that face the same way the first exchanges, the others do not, even
+// where they are meshed in another way.
+void TestTwice()
+{
+  const Corners ceiling = Reversed(Moved(Floor, { 0, 0, 1 }));
+  const std::vector<Corners> scene = { Floor, ceiling, ceiling,
+    { ceiling[0], ceiling[1], ceiling[2] }, { ceiling[0], ceiling[2], ceiling[3] } };
+  for (const Placement& placement : MakePlacements(3))
+  {
+    const std::string what = "surfaces that are there twice, " + placement.Name;
+    const auto polygons = Place(scene, placement);
+    const FactorTable table = MakeFactorTable(polygons, placement.Single, 1e-3);
+    const double allowed = 1e-6 + GetLoss(polygons, placement) + table.Errors[0];
+    CheckClose(table.Get(0, 1) - Parallel, 0.0, allowed, what);
+    CheckClose(table.Get(1, 0) - Parallel, 0.0, allowed, what);
+    for (std::size_t copy = 2; copy < scene.size(); ++copy)
+    {
+      Check(table.Get(0, copy) == 0.0 && table.Sums[copy] == 0.0, what + ": a copy exchanges");
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -359,5 +382,6 @@ int TestSurfacesInOnePlace(int, char*[])
   TestOnOneEdge();
   TestPartyWall();
   TestNearPlates();
+  TestTwice();
   return Result();
 }
