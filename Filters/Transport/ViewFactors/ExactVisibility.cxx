@@ -19,9 +19,10 @@ using Vector = Polygon::Vector;
 // Simpson's rule.
 constexpr double Nodes[] = { 0.0, 0.5, 1.0 };
 constexpr double Weights[] = { 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0 };
-// By how much the outer polygon shrinks, in parts of itself, and in roundings of its coordinates.
+// At an edge that two polygons share there is nothing to cut planes through, and beside a wall
+// rounding decides on which side of it a place is: the rim is looked from a little further inside.
 constexpr double LeastInset = 1e-9;
-constexpr double InsetRoundings = 100.0;
+constexpr double InsetRoundings = 20.0;
 constexpr double LargestInset = 1e-3;
 // Shadows that have met parts after which no piece is cut any more: some ten milliseconds.
 constexpr double MaximumWork = 1e5;
@@ -92,23 +93,9 @@ void ExactVisibility::Set(const Polygon& a, const Polygon& b, double open, doubl
   this->Outer = swap ? b : a;
   this->Inner = swap ? a : b;
   this->Occluders.clear();
-  this->ShrinkOuter(rounding);
-}
-
-//------------------------------------------------------------------------------
-// At an edge that two polygons share there is nothing to cut planes through, and beside a wall
-// rounding decides on which side of it a place is: the rim is looked from a little further inside.
-void ExactVisibility::ShrinkOuter(double rounding)
-{
-  const Vector middle = this->Outer.GetMiddle();
-  const double extent = std::sqrt(this->Outer.GetArea());
-  const double part =
-    std::min(std::max(InsetRoundings * rounding / extent, LeastInset), LargestInset);
-  for (int corner = 0; corner < this->Outer.Count; ++corner)
-  {
-    this->Outer.Corners[corner] += part * (middle - this->Outer.Corners[corner]);
-  }
-  this->Stretch = 1.0 / ((1.0 - part) * (1.0 - part));
+  this->Inset =
+    std::min(std::max(InsetRoundings * rounding / std::sqrt(this->Outer.GetArea()), LeastInset),
+      LargestInset);
 }
 
 //------------------------------------------------------------------------------
@@ -126,28 +113,32 @@ ExactVisibility::Estimate ExactVisibility::Integrate(double tolerance)
   {
     this->CutWorst();
   }
-  return { this->Stretch * sum([](const Piece& piece) { return piece.Value; }), sum(getError) };
+  return { sum([](const Piece& piece) { return piece.Value; }), sum(getError) };
 }
 
 //------------------------------------------------------------------------------
-// Quadrilaterals of the polygon's fan, the last of which may be a triangle.
+// Those of the polygon's fan, the last of which may be a triangle.
 void ExactVisibility::AddPieces()
 {
   this->Pieces.clear();
+  this->Quadrilaterals.clear();
   const double pieces = std::ceil(0.5 * (this->Outer.Count - 2));
   for (int corner = 1; corner + 1 < this->Outer.Count; corner += 2)
   {
-    Piece piece;
-    piece.Corners[0] = this->Outer.Corners[0];
+    Quadrilateral whole;
+    whole.Corners[0] = this->Outer.Corners[0];
     for (int k = 0; k < 3; ++k)
     {
-      piece.Corners[k + 1] = this->Outer.Corners[std::min(corner + k, this->Outer.Count - 1)];
+      whole.Corners[k + 1] = this->Outer.Corners[std::min(corner + k, this->Outer.Count - 1)];
     }
+    Piece piece{ static_cast<int>(this->Quadrilaterals.size()), { 0.0, 0.0 }, { 1.0, 1.0 }, {}, 0.0,
+      {} };
+    this->Quadrilaterals.push_back(whole);
     for (int line = 0; line < Points; ++line)
     {
       this->LookAlong(piece, 0, line);
     }
-    piece.Integrate();
+    piece.Value = this->IntegrateViews(piece);
     // Nothing is known yet: what is visible is between nothing and all.
     piece.Errors[0] = piece.Errors[1] = this->Open / pieces;
     this->Pieces.push_back(piece);
@@ -155,39 +146,56 @@ void ExactVisibility::AddPieces()
 }
 
 //------------------------------------------------------------------------------
-// The views of places on one of the lines across a direction.
-void ExactVisibility::LookAlong(Piece& piece, int direction, int line)
-{
-  for (int k = 0; k < Points; ++k)
-  {
-    const int i = direction == 0 ? line : k;
-    const int j = direction == 0 ? k : line;
-    piece.Views[i][j] = this->GetView(piece.GetPlace(Nodes[i], Nodes[j]));
-  }
-}
-
-//------------------------------------------------------------------------------
-Vector ExactVisibility::Piece::GetPlace(double s, double t) const
+Vector ExactVisibility::Quadrilateral::GetPlace(double s, double t) const
 {
   return (1.0 - t) * ((1.0 - s) * this->Corners[0] + s * this->Corners[1]) +
     t * ((1.0 - s) * this->Corners[3] + s * this->Corners[2]);
 }
 
 //------------------------------------------------------------------------------
-void ExactVisibility::Piece::Integrate()
+double ExactVisibility::Quadrilateral::GetDensity(double s, double t) const
 {
   const Vector u = this->Corners[1] - this->Corners[0];
   const Vector v = this->Corners[3] - this->Corners[0];
   const Vector twist = this->Corners[2] - this->Corners[1] - v;
-  this->Value = 0.0;
+  return (u + t * twist).cross(v + s * twist).norm();
+}
+
+//------------------------------------------------------------------------------
+double ExactVisibility::Piece::GetNode(int direction, int line) const
+{
+  return this->Begin[direction] + Nodes[line] * (this->End[direction] - this->Begin[direction]);
+}
+
+//------------------------------------------------------------------------------
+// The views of places on one of the lines across a direction.
+void ExactVisibility::LookAlong(Piece& piece, int direction, int line)
+{
+  const auto getInside = [this](double place)
+  { return std::min(std::max(place, this->Inset), 1.0 - this->Inset); };
+  for (int k = 0; k < Points; ++k)
+  {
+    const int i = direction == 0 ? line : k;
+    const int j = direction == 0 ? k : line;
+    piece.Views[i][j] = this->GetView(this->Quadrilaterals[piece.Whole].GetPlace(
+      getInside(piece.GetNode(0, i)), getInside(piece.GetNode(1, j))));
+  }
+}
+
+//------------------------------------------------------------------------------
+double ExactVisibility::IntegrateViews(const Piece& piece) const
+{
+  double sum = 0.0;
   for (int i = 0; i < Points; ++i)
   {
     for (int j = 0; j < Points; ++j)
     {
-      const double jacobian = (u + Nodes[j] * twist).cross(v + Nodes[i] * twist).norm();
-      this->Value += Weights[i] * Weights[j] * jacobian * this->Views[i][j];
+      const double density =
+        this->Quadrilaterals[piece.Whole].GetDensity(piece.GetNode(0, i), piece.GetNode(1, j));
+      sum += Weights[i] * Weights[j] * density * piece.Views[i][j];
     }
   }
+  return sum * (piece.End[0] - piece.Begin[0]) * (piece.End[1] - piece.Begin[1]);
 }
 
 //------------------------------------------------------------------------------
@@ -200,27 +208,21 @@ void ExactVisibility::CutWorst()
   this->Pieces.pop_back();
   const int direction = whole.Errors[1] > whole.Errors[0] ? 1 : 0;
   Piece halves[2] = { whole, whole };
-  for (int k = 0; k < 2; ++k)
-  {
-    // Edges along the direction: from corner 0 to 1 and 3 to 2, or from 0 to 3 and 1 to 2.
-    const int from = k == 0 ? 0 : (direction == 0 ? 3 : 1);
-    const int to = k == 0 ? (direction == 0 ? 1 : 3) : 2;
-    const Vector middle = 0.5 * (whole.Corners[from] + whole.Corners[to]);
-    halves[0].Corners[to] = middle;
-    halves[1].Corners[from] = middle;
-  }
+  halves[0].End[direction] = halves[1].Begin[direction] = whole.GetNode(direction, 1);
   double change = -whole.Value;
   for (int half = 0; half < 2; ++half)
   {
     for (int k = 0; k < Points; ++k)
     {
-      const auto at = [direction, k](Piece const& piece, int line)
-      { return direction == 0 ? piece.Views[line][k] : piece.Views[k][line]; };
-      (direction == 0 ? halves[half].Views[0][k] : halves[half].Views[k][0]) = at(whole, half);
-      (direction == 0 ? halves[half].Views[2][k] : halves[half].Views[k][2]) = at(whole, half + 1);
+      const auto getView = [ direction, k ](auto& piece, int line) -> auto&
+      {
+        return direction == 0 ? piece.Views[line][k] : piece.Views[k][line];
+      };
+      getView(halves[half], 0) = getView(whole, half);
+      getView(halves[half], 2) = getView(whole, half + 1);
     }
     this->LookAlong(halves[half], direction, 1);
-    halves[half].Integrate();
+    halves[half].Value = this->IntegrateViews(halves[half]);
     change += halves[half].Value;
   }
   for (Piece& half : halves)

@@ -44,32 +44,42 @@ private:
 
   static constexpr int Points = 3; ///< in each direction
 
-  /// A part of the outer polygon, with four corners, of which two may be the same. From corner 0,
-  /// the first direction is towards corner 1, the second towards corner 3.
-  struct Piece
+  /// A quadrilateral of the outer polygon, whose last two corners may be the same. From corner 0,
+  /// the first direction is towards corner 1, the second towards corner 3; places go from 0 to 1.
+  struct Quadrilateral
   {
     Vector Corners[4];
+    Vector GetPlace(double s, double t) const;
+    /// Area for a unit of s and t.
+    double GetDensity(double s, double t) const;
+  };
+
+  /// A part of a quadrilateral.
+  struct Piece
+  {
+    int Whole; ///< its number
+    double Begin[2];
+    double End[2];
     double Views[Points][Points];
     double Value;     ///< their integral
     double Errors[2]; ///< estimates, by the directions
     double GetError() const { return this->Errors[0] + this->Errors[1]; }
     bool operator<(const Piece& other) const { return this->GetError() < other.GetError(); }
-
-    Vector GetPlace(double s, double t) const;
-    void Integrate();
+    double GetNode(int direction, int line) const;
   };
 
-  void ShrinkOuter(double rounding);
   void AddPieces();
   void CutWorst();
   void LookAlong(Piece& piece, int direction, int line);
+  double IntegrateViews(const Piece& piece) const;
   double GetView(const Vector& point);
   void TakeShadow(const Polygon& occluder, const Vector& point);
   void Split(const Polygon& part, const Vector& point);
 
   Polygon Outer, Inner; ///< the smaller and the larger one
   double Open = 0.0;
-  double Stretch = 1.0; ///< from what is left of the outer polygon to all of it
+  double Inset = 0.0; ///< of places on the rim
+  std::vector<Quadrilateral> Quadrilaterals;
   std::vector<Polygon> Occluders;
   std::vector<Piece> Pieces; ///< a heap, the largest error first
   double Work = 0.0;         ///< shadows on parts
