@@ -257,8 +257,8 @@ public:
   /**
    * Tolerance and closure of the filter's own view factors (see vtkViewFactors); they are not used
    * when SetViewFactors gave others. Hierarchical links have LinkTolerance instead, and always
-   * close rows. Defaults 1e-2 (the errors of many factors average out in B, which is then off by some tenths of
-   * a thousandth to two, see the measurements) and off.
+   * close rows. Defaults 1e-2 (the errors of many factors average out in B, which is then off by
+   * some tenths of a thousandth to two, see the measurements) and off.
    */
   vtkSetClampMacro(ViewFactorTolerance, double, 1e-12, 0.1);
   vtkGetMacro(ViewFactorTolerance, double);
