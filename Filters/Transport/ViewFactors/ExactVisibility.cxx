@@ -22,7 +22,7 @@ constexpr double Weights[] = { 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0 };
 // At an edge that two polygons share there is nothing to cut planes through, and beside a wall
 // rounding decides on which side of it a place is: the rim is looked from a little further inside.
 constexpr double LeastInset = 1e-9;
-constexpr double InsetRoundings = 20.0;
+constexpr double InsetRoundings = 8.0;
 constexpr double LargestInset = 1e-3;
 // Shadows that have met parts after which no piece is cut any more: some ten milliseconds.
 constexpr double MaximumWork = 1e5;

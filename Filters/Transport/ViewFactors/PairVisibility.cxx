@@ -441,6 +441,11 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
       break;
     }
   }
+  if (share.Error > tolerance && this->Open > 0.0)
+  {
+    const Share exact = this->IntegrateExactly(tolerance);
+    return exact.Error < share.Error ? exact : share;
+  }
   return share;
 }
 } // namespace LightTransport

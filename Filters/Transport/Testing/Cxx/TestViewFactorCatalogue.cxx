@@ -660,7 +660,9 @@ void TestInvariance()
     {
       for (int j = 0; j < 4; ++j)
       {
-        CheckClose(factors->GetViewFactor(i, j), reference->GetViewFactor(i, j), Single,
+        // Beside what far coordinates have lost.
+        const double lost = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(setting[1]);
+        CheckClose(factors->GetViewFactor(i, j), reference->GetViewFactor(i, j), Single + lost,
           Text("factor ", i, ", ", j, ", scale ", setting[0], ", place ", setting[1]));
       }
     }
