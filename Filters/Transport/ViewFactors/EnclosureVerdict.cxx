@@ -29,7 +29,7 @@ constexpr double Mostly = 0.5;
 constexpr double FewestHits = 32.0;
 // Patches that see a leak at least this much, relative to the one that sees most of it, are beside
 // it.
-constexpr double BesideLeak = 0.5;
+constexpr double BesideLeak = 0.8;
 
 //------------------------------------------------------------------------------
 std::string FormatPercent(double share)

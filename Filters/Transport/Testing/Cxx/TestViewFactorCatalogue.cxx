@@ -9,6 +9,8 @@
 #include "ViewFactorTesting.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 using namespace LightTransport;
