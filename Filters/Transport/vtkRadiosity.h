@@ -34,13 +34,14 @@
  * given, T with q = emissivity (sigma T^4 - H), and 0 with a warning where more is taken out than
  * any temperature allows; for an adiabatic patch of emissivity 0 the limit for small emissivities,
  * sigma T^4 = H) and in several bands "TotalNetFlux" (W/m2, their sum); the cell array
- * "SceneProblems" as vtkViewFactors writes it; in field data SolverUsed,
- * SolverExplanation (why this one), SolverStatus, DeviceUsed, NumberOfIterations, ErrorBound,
- * Converged, SolverSeconds, the summaries of vtkViewFactors, and with temperatures NetPower: all
- * net fluxes times areas (W where lengths are in metres), which should be 0 in a closed scene and
- * tells what errors of the view factors do to the balance (EnforceClosure mends it). Output port 1:
- * vtkTable "Convergence" with a row per iteration: Iteration, Seconds (since the solver began),
- * Residual (largest |E + rho H - B|) and ErrorBound (largest |error of B|).
+ * "SceneProblems" as vtkViewFactors writes it, with its EnclosureVerdict, IsClosed and LeakArea
+ * (not where Southwell shoots on OpenGL); in field data SolverUsed, SolverExplanation (why this
+ * one), SolverStatus, DeviceUsed, NumberOfIterations, ErrorBound, Converged, SolverSeconds, the
+ * summaries of vtkViewFactors, and with temperatures NetPower: all net fluxes times areas (W where
+ * lengths are in metres), which should be 0 in a closed scene and tells what errors of the view
+ * factors do to the balance (EnforceClosure mends it). Output port 1: vtkTable "Convergence" with a
+ * row per iteration: Iteration, Seconds (since the solver began), Residual (largest |E + rho H -
+ * B|) and ErrorBound (largest |error of B|).
  *
  * The error bound is algebraic: with w > 0 such that d = (I - rho F) w > 0, |error_i| <= w_i max_j
  * |r_j| / d_j. w = 1 gives the row-sum bound; where that is infinite (rho times row sum reaches 1)
@@ -69,8 +70,10 @@
  * "Stagnated" (rounding lets the residual fall no further), "Diverged" (it grows). Where the
  * equation has no unique solution (a closed part reflects all that it receives, view factors of a
  * row sum to more than 1 / rho) or errors of the view factors decide what it is, an error names the
- * polygon where that is so. A warning tells where they may change B by more than a tenth, and where
- * row sums say that patches overlap.
+ * polygon where that is so. Warnings tell of what vtkViewFactors warns of, and with temperatures of
+ * a sky at 0 K behind an open scene, a warmest temperature below 100 K (degrees Celsius?), and
+ * power that a closed scene loses. A warning tells where they may change B by more than a tenth,
+ * and where row sums say that patches overlap.
  */
 #ifndef vtkRadiosity_h
 #define vtkRadiosity_h
@@ -257,8 +260,15 @@ public:
   /**
    * Tolerance and closure of the filter's own view factors (see vtkViewFactors); they are not used
    * when SetViewFactors gave others. Hierarchical links have LinkTolerance instead, and always
-   * close rows. Defaults 1e-2 (the errors of many factors average out in B, which is then off by
-   * some tenths of a thousandth to two, see the measurements) and off.
+   * close rows. Defaults 1e-2 and off. The errors of many factors average out in B: measured
+   * without what is emitted, root mean square over all patches, relative to B,
+   *
+   * | ViewFactorTolerance            |          1e-1 |          1e-2 |          1e-3 |
+   * |--------------------------------|--------------:|--------------:|--------------:|
+   * | Cornell box, 1930, lamp        | 7e-4 in 2.1 s | 4e-4 in 2.3 s | 4e-5 in 4.8 s |
+   * | furnished room, 768, lamp      | 8e-4 in 0.4 s | 3e-4 in 0.8 s | 3e-5 in 3.9 s |
+   * | city of boxes, 864, lit window | 5e-4 in 0.4 s | 3e-4 in 0.6 s | 3e-5 in 2.5 s |
+   * | the same, even sky             | 1e-2 in 0.4 s | 1e-3 in 0.6 s | 8e-6 in 2.6 s |
    */
   vtkSetClampMacro(ViewFactorTolerance, double, 1e-12, 0.1);
   vtkGetMacro(ViewFactorTolerance, double);

@@ -13,7 +13,15 @@
  * and with a border that crosses itself, are left out, with results of 0. Of faces that lie on each
  * other and face the same way the first counts, and those of which nothing is left beside it are
  * left out, too. A warning counts each kind and names the first of it, and an error tells where
- * nothing is left. In a parallel run (a
+ * nothing is left.
+ *
+ * Points may be float or double, at any place: what is in front of what is decided by what the
+ * coordinates are worth (their type and size, and how far polygons are from plane). Two surfaces
+ * nearer to each other than that, however they are meshed, are one place: they neither hide nor see
+ * each other, and of two sides the one counts that faces what looks. A warning tells where points
+ * are stored in steps of more than 1 % of the size of the median patch.
+ *
+ * In a parallel run (a
  * controller with several processes) the scene is gathered to every rank first, because a rank that
  * sees only its own piece gets wrong visibility; each rank then writes the results of its own
  * patches. The output has the structure of the input, all its arrays, and the results. Points are

@@ -31,14 +31,20 @@
  * 1 - ViewFactorSum by the variances of both, until they keep the Tolerance too, or 100 / Tolerance
  * rays of a patch (32,768 at most) are used up. A row that misses no more than its error, and where
  * 128 rays find no opening, has none. Under a closure they are what is applied.
- *   - "SceneProblems" (1, int): flags, 0 where all is well: 4 on a polygon of a lower number that
- * faces the same way (left out where all of it is), 8 without area or with a border that crosses
- * itself (left out, all else is 0), 32 not plane (cut into triangles).
- * and field data:
+ *   - "SceneProblems" (1, int): flags, 0 where all is well: 1 more than half of what leaves it
+ * meets back faces, or of the rays that meet it more than half its back; 2 sees most of a leak; 4
+ * on a polygon of a lower number that faces the same way (left out where all of it is); 8 without
+ * area or with a border that crosses itself (left out, all else is 0); 16 Tolerance not reached; 32
+ * not plane (cut into triangles). and field data:
+ *   - EnclosureVerdict (string): "Closed"; "Leaking" where up to 1 % of what leaves the surfaces
+ * gets out; "Open"; "InsideOut" where more than 5 % meets back faces, or where no polygon sees any
+ * other but their backs enclose a space. IsClosed (0 or 1). LeakArea (input unit squared): the area
+ * of a hole in a closed scene through which as much would leave; that of the hole, where the scene
+ * is convex.
  *   - PairsExamined = PairsBackFacing (also those in one plane) + PairsFacing; PairsNotSending were
  * not examined (vtkRadiosity only).
- *   - of the facing ones PairsUnobstructed (nothing reaches into the shaft between them),
- * PairsHidden and PairsPartlyVisible; the rest has something near that hides nothing.
+ *   - of the facing ones PairsUnobstructed (nothing is between them), PairsHidden and
+ * PairsPartlyVisible (all others).
  *   - RowGap: how much what the rays found and what row sums miss differ at most, beyond what their
  * errors explain. 0 where all agrees.
  *   - RaysCast, ViewFactorSeconds, MatrixBytes (tiles of 256 x 256 pairs that are all zero are not
@@ -50,7 +56,8 @@
  * squared), one per receiving group, "Sky" and "BackFace".
  *
  * Errors: see vtkTransportAlgorithm; in addition the memory for the tiles that may be needed, at
- * most n (n + 1) / 2 values of 4 bytes, must be there; "Group" must have integers.
+ * most n (n + 1) / 2 values of 4 bytes, must be there; "Group" must have integers. Warnings tell of
+ * back faces, leaks and a tolerance that was not reached: how much, where, and the remedy.
  */
 #ifndef vtkViewFactors_h
 #define vtkViewFactors_h
