@@ -471,10 +471,7 @@ void vtkRadiosity::Run::WriteVerdict(const SceneOutput& output) const
   {
     ThermalDoubts::Add(this->Materials, this->Scene, verdict, this->NetPower, warnings);
   }
-  for (const std::string& warning : warnings)
-  {
-    this->Warn(warning);
-  }
+  this->WarnOnce(warnings);
 }
 
 //------------------------------------------------------------------------------

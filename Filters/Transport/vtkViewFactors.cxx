@@ -63,10 +63,7 @@ protected:
     output.AddFlags(ArrayNames::SceneProblems, verdict.GetProblems());
     verdict.AddTo(this->GetOutputFields());
     links.AddSummaries(this->GetOutputFields());
-    for (const std::string& warning : verdict.GetWarnings())
-    {
-      this->Warn(warning);
-    }
+    this->WarnOnce(verdict.GetWarnings());
   }
 
 private:

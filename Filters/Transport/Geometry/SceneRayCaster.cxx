@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace LightTransport
@@ -56,13 +57,16 @@ struct Hit
   double Fraction = std::numeric_limits<double>::infinity();
   double Rounding = 0.0; // of the fraction
   vtkIdType Patch = -1;
+  bool IsBeside = false; // met within the rounding of its edges only
 
-  // Of two in one place the first one counts.
+  // Of two in one place the one counts that is really met, and else the first one.
   void Add(const Hit& other)
   {
     const double rounding = std::max(this->Rounding, other.Rounding);
     const bool isSame = std::abs(other.Fraction - this->Fraction) <= rounding;
-    if (isSame ? other.Patch < this->Patch : other.Fraction < this->Fraction)
+    const bool isBetter =
+      std::tie(other.IsBeside, other.Patch) < std::tie(this->IsBeside, this->Patch);
+    if (isSame ? isBetter : other.Fraction < this->Fraction)
     {
       *this = other;
     }
@@ -103,12 +107,12 @@ struct Segment
 
   // Whether the segment's line meets a patch or its border. Triangles of a fan, because corners
   // within the tolerance of PatchScene may be a little concave.
-  bool Meets(const Candidate& candidate) const
+  bool Meets(const Candidate& candidate, double edgeRounding) const
   {
     const vtkIdType* corners = this->Scene->GetCorners(candidate.Patch);
     const int count = this->Scene->GetNumberOfCorners(candidate.Patch);
     const double rounding =
-      SideRounding * this->Direction.lpNorm<1>() + candidate.EdgeRounding * this->Length;
+      SideRounding * this->Direction.lpNorm<1>() + edgeRounding * this->Length;
     const Vector* points = this->Scene->GetPoints().data();
     const Vector& first = points[corners[0]];
     double begin = this->GetSide(first, points[corners[1]], rounding);
@@ -137,7 +141,8 @@ struct Segment
     from = candidate.GetHeight(this->Origin);
     to = candidate.GetHeight(this->Target);
     return (from > 0.0) != (to > 0.0) && this->IsThrough(candidate, from, to) &&
-      candidate.Patch != this->From && candidate.Patch != this->To && this->Meets(candidate);
+      candidate.Patch != this->From && candidate.Patch != this->To &&
+      this->Meets(candidate, candidate.EdgeRounding);
   }
 
   // What an end lies on, or continues in the same plane, is not between the ends.
@@ -154,7 +159,8 @@ struct Segment
   {
     const double height = std::abs(from - to);
     (from > 0.0 ? this->Front : this->Back)
-      .Add({ from / (from - to), candidate.Rounding / height, candidate.Patch });
+      .Add({ from / (from - to), candidate.Rounding / height, candidate.Patch,
+        !this->Meets(candidate, 0.0) });
   }
 
   // Of two sides in one place the one that faces the ray is first.

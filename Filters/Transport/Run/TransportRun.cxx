@@ -28,7 +28,7 @@ Outcome TransportRun::Go()
     outcome = outcome ? (this->*step)() : outcome;
     if (outcome && step == &TransportRun::Gather)
     {
-      this->WarnOfScene();
+      this->WarnOnce(this->Scene.GetWarnings());
     }
   }
   if (outcome)
@@ -44,9 +44,9 @@ Outcome TransportRun::Go()
 
 //------------------------------------------------------------------------------
 // What all ranks know one of them tells.
-void TransportRun::WarnOfScene() const
+void TransportRun::WarnOnce(const std::vector<std::string>& warnings) const
 {
-  for (const std::string& warning : this->Scene.GetWarnings())
+  for (const std::string& warning : warnings)
   {
     if (this->AllRanks.GetMine() == 0)
     {

@@ -60,6 +60,8 @@ protected:
   Outcome GatherForClusters(int clusterTree);
 
   void Warn(const std::string& text) const;
+  /// What is the same on all ranks, by the first of them.
+  void WarnOnce(const std::vector<std::string>& warnings) const;
   /// The name of the array that a user chose for an input of the filter, else `defaultName`.
   std::string GetArrayName(int index, const char* defaultName) const;
   vtkFieldData* GetOutputFields() const;
@@ -76,9 +78,6 @@ protected:
   Ranks AllRanks;
   FilterProgress Progress;
   PatchScene Scene;
-
-private:
-  void WarnOfScene() const;
 };
 } // namespace LightTransport
 
