@@ -42,23 +42,23 @@ void CopyCorners(const Polygon& from, Polygon& to)
 //------------------------------------------------------------------------------
 // What of a polygon is on the inner side of a plane through a point. More corners than there is
 // room for come only of shadows on shadows that hardly differ: the last of them count for nothing.
-void CutAtPlane(const Polygon& polygon, const Vector& point, const Vector& inward, Polygon& inside)
+void CutAtPlane(const Polygon& polygon, const Vector& point, const Vector& inward, Polygon& kept)
 {
   constexpr int most = Polygon::MaximumCorners + 2;
-  inside.Count = 0;
+  kept.Count = 0;
   double from = (polygon.Corners[0] - point).dot(inward);
   for (int corner = 0; corner < polygon.Count; ++corner)
   {
     const Vector& a = polygon.Corners[corner];
     const Vector& b = polygon.Corners[(corner + 1) % polygon.Count];
     const double to = (b - point).dot(inward);
-    if (from >= 0.0 && inside.Count < most)
+    if (from >= 0.0 && kept.Count < most)
     {
-      inside.Corners[inside.Count++] = a;
+      kept.Corners[kept.Count++] = a;
     }
-    if (from * to < 0.0 && inside.Count < most)
+    if (from * to < 0.0 && kept.Count < most)
     {
-      inside.Corners[inside.Count++] = a + from / (from - to) * (b - a);
+      kept.Corners[kept.Count++] = a + from / (from - to) * (b - a);
     }
     from = to;
   }
@@ -291,23 +291,23 @@ void ExactVisibility::Split(const Polygon& part, const Vector& point)
     return;
   }
   const std::size_t before = this->Left.Count;
-  Polygon inside, next;
-  CopyCorners(part, inside);
+  Polygon rest, cut;
+  CopyCorners(part, rest);
   for (const Vector& side : this->Sides)
   {
-    CutAtPlane(inside, point, -side, next);
-    if (next.Count > 2)
+    CutAtPlane(rest, point, -side, cut);
+    if (cut.Count > 2)
     {
-      this->Left.Add(next);
+      this->Left.Add(cut);
     }
-    CutAtPlane(inside, point, side, next);
-    if (next.Count < 3)
+    CutAtPlane(rest, point, side, cut);
+    if (cut.Count < 3)
     {
       this->Left.Count = before;
       this->Left.Add(part);
       return;
     }
-    CopyCorners(next, inside);
+    CopyCorners(cut, rest);
   }
 }
 

@@ -31,16 +31,13 @@ constexpr double RasterError = 0.004;
 constexpr double Slant = 0.38;
 // The largest error of the first look's rule for one shadow edge across the pair, and the part of
 // the exchange that belongs to the rim.
-constexpr double FirstError = 0.04;
+constexpr double FirstError = 0.05;
 constexpr double RimPart = 0.5;
 // Of the first look's error what a grid is usually off by, times the square of its cuts.
-constexpr double UsualPart = 0.6;
+constexpr double UsualPart = 0.35;
 // Two polygons closer than this part of the larger one's extent: the raster does not resolve there
 // what one sees of the other.
 constexpr double CloseDistance = 0.125;
-// Points of which one counts no more samples than this see a small part of the inner polygon, which
-// the raster does not resolve.
-constexpr double FewestSamples = 0.4 * ShadowRaster::Bits;
 // Of heights over the planes of a hull in double precision (the scene is 1 large).
 constexpr double HeightRounding = 1e-14;
 // Edges of the target that leave the raster's lines by less than this part are along them.
@@ -77,6 +74,17 @@ enum class Side
 };
 Side FindSide(const PatchScene& scene, vtkIdType patch, const PatchPlane& plane)
 {
+  const Vector& centroid = scene.GetCentroid(patch);
+  const double middle = plane.GetHeight(centroid);
+  const double radius = scene.GetRadius(patch);
+  if (middle < -radius)
+  {
+    return Side::Behind;
+  }
+  if (middle > radius + plane.GetTolerance((centroid - plane.Origin).norm() + radius))
+  {
+    return Side::Front;
+  }
   bool front = false;
   bool behind = false;
   for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
@@ -132,7 +140,6 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     return false;
   }
   this->AreClose = open > 0.0 && AreCloseTogether(this->Outer, this->Inner);
-  this->Samples = ShadowRaster::Lines * ShadowRaster::Bits;
   this->IsExactReady = false;
   this->Scene = &scene;
   this->ChooseOuter(scene);
@@ -311,9 +318,7 @@ Flux PairVisibility::See(const Vector& place)
   const double point[3] = { offset.dot(this->AxisU), offset.dot(this->AxisW),
     offset.dot(this->AxisH) };
   const double shift[2] = { sampler.Get(index, 0), sampler.Get(index, 1) };
-  const Flux flux = ShadowRaster::See(this->Target, this->Triangles, point, this->Normal, shift);
-  this->Samples = std::min(this->Samples, flux.Samples);
-  return flux;
+  return ShadowRaster::See(this->Target, this->Triangles, point, this->Normal, shift);
 }
 
 //------------------------------------------------------------------------------
@@ -361,7 +366,7 @@ PairVisibility::Share PairVisibility::Look()
 {
   Share share;
   share.Value = this->SeeFromGrid(Cuts[0]);
-  if (this->NeedsExactViews() && share.Value > 0.0)
+  if (this->AreClose && share.Value > 0.0)
   {
     return this->IntegrateExactly(1.0);
   }
@@ -369,12 +374,6 @@ PairVisibility::Share PairVisibility::Look()
   const bool isHidden = share.Value <= 0.0 && rim <= 0.0;
   share.Error = isHidden ? 0.0 : std::max(FirstError, RimPart * rim);
   return share;
-}
-
-//------------------------------------------------------------------------------
-bool PairVisibility::NeedsExactViews() const
-{
-  return this->AreClose || (this->Open > 0.0 && this->Samples < FewestSamples);
 }
 
 //------------------------------------------------------------------------------
@@ -414,10 +413,6 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
   for (const int cuts : Cuts)
   {
     const double latest = this->SeeFromGrid(cuts);
-    if (this->NeedsExactViews())
-    {
-      return this->IntegrateExactly(tolerance);
-    }
     const double weight = cuts * cuts;
     const double change = weights > 0.0 ? std::abs(latest - sum / weights) : 1.0;
     sum += weight * latest;

@@ -44,9 +44,8 @@ public:
   /**
    * Begin with a pair of patches and those that may come between them. Returns false where none of
    * these has a part in front of both planes: nothing is between. Equal keys give equal samples.
-   * `open` is the exchange with nothing in between; with it what the raster does not resolve
-   * (polygons that are close together, or of which one sees a small part of the other) is found by
-   * ExactVisibility. Scene and occluders must outlive the pair.
+   * `open` is the exchange with nothing in between; with it what the raster does not resolve is
+   * found by ExactVisibility. The scene must outlive the pair.
    */
   bool SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     const std::vector<vtkIdType>& occluders, std::uint64_t key, double open = 0.0);
@@ -85,7 +84,6 @@ private:
   ShadowRaster::Flux See(const Vector& point);
   double SeeFromGrid(int cuts);
   bool ShapeOccluder(const Occluder& occluder, Polygon& shape) const;
-  bool NeedsExactViews() const;
   Share IntegrateExactly(double tolerance);
   double GetRimDifference(double share);
 
@@ -94,7 +92,6 @@ private:
   std::uint64_t Key = 0;
   double Open = 0.0;
   bool AreClose = false;
-  double Samples = 0.0; ///< of the raster that count, from the point where they are fewest
   const PatchScene* Scene = nullptr;
   int NumberOfPoints = 0;
 

@@ -180,7 +180,6 @@ LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const doubl
   const auto nh = static_cast<float>(normal[2]);
   float open[Lines] = {};
   float seen[Lines] = {};
-  float squares[Lines] = {};
   for (int first = 0; first < Bits; first += group)
   {
     for (int k = 0; k < Lines; ++k)
@@ -198,23 +197,17 @@ LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const doubl
       const std::int32_t low = bits & 1;
       const std::int32_t high = bits >> 1 & 1;
       open[k] += weight * group;
-      squares[k] += weight * weight * group;
       seen[k] += weight * static_cast<float>(low + high) +
         std::max(-most, std::min(most, slope)) * static_cast<float>(high - low);
     }
   }
   // The cosine at the target is the height over the distance: the height is the same everywhere.
   Flux flux;
-  double sum = 0.0;
-  double squared = 0.0;
   for (int k = 0; k < Lines; ++k)
   {
-    sum += open[k];
-    squared += squares[k];
     flux.Open += point[2] * open[k];
     flux.Visible += point[2] * seen[k];
   }
-  flux.Samples = squared > 0.0 ? sum * sum / squared : Lines * Bits;
   return flux;
 }
 } // namespace

@@ -49,9 +49,6 @@ struct Flux
 {
   double Visible = 0.0;
   double Open = 0.0;
-  /// The samples that would do if all of them counted alike: few where the flux comes from a small
-  /// part of the target.
-  double Samples = 0.0;
 
   /// The visible part; `other` where there is no flux at all.
   double GetShare(double other = 1.0) const
