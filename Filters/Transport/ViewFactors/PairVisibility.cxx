@@ -40,6 +40,10 @@ constexpr double UsualPart = 0.35;
 constexpr double CloseDistance = 0.125;
 // Of heights over the planes of a hull in double precision (the scene is 1 large).
 constexpr double HeightRounding = 1e-14;
+// By how much the points of grids turn, at most, to either side of where they are symmetric; grids
+// one after the other by multiples of the golden ratio.
+constexpr double GoldenRatio = 0.6180339887498949;
+constexpr double LargestTurn = 0.25 * vtkMath::Pi();
 // Edges of the target that leave the raster's lines by less than this part are along them.
 constexpr double AlongLines = 1e-12;
 
@@ -97,26 +101,34 @@ Side FindSide(const PatchScene& scene, vtkIdType patch, const PatchPlane& plane)
 }
 
 //------------------------------------------------------------------------------
-// A point of a grid of similar triangles: three symmetric points of each (degree 2).
+// Points of a grid of similar triangles, three of each: those that turn into each other by a third
+// of a turn and are on a certain circle (degree 2, whatever the angle at which they begin). Rows of
+// points would lie along the edges of shadows, which often run along the polygon's own, and be
+// wrong all alike: each grid begins at another angle.
 template <typename Visit>
 void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts, const Visit& visit)
 {
-  constexpr double near = 1.0 / 6.0;
-  constexpr double far = 2.0 / 3.0;
+  const double turns = GoldenRatio * cuts;
+  const double angle = LargestTurn * (2.0 * (turns - std::floor(turns)) - 1.0);
+  double shares[3]; // of the corners, for one of the points
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    shares[corner] = (1.0 + std::cos(angle + 2.0 * vtkMath::Pi() / 3.0 * corner)) / 3.0;
+  }
   for (int i = 0; i < cuts; ++i)
   {
     for (int j = 0; j < cuts - i; ++j)
     {
       const Vector corner = origin + i * u + j * v;
-      visit(Vector(corner + near * u + near * v));
-      visit(Vector(corner + far * u + near * v));
-      visit(Vector(corner + near * u + far * v));
-      if (i + j + 1 < cuts)
+      for (int point = 0; point < 3; ++point)
       {
-        const Vector opposite = corner + u + v;
-        visit(Vector(opposite - near * u - near * v));
-        visit(Vector(opposite - far * u - near * v));
-        visit(Vector(opposite - near * u - far * v));
+        const double alongU = shares[(point + 1) % 3];
+        const double alongV = shares[(point + 2) % 3];
+        visit(Vector(corner + alongU * u + alongV * v));
+        if (i + j + 1 < cuts)
+        {
+          visit(Vector(corner + (1.0 - alongU) * u + (1.0 - alongV) * v));
+        }
       }
     }
   }
