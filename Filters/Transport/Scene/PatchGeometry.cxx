@@ -77,12 +77,4 @@ void PatchGeometry::ComputeWorth(vtkIdType patch)
   this->NarrowAxes[patch] = normal.cross(furthest).normalized();
   this->EdgeRoundings[patch] = std::min(this->CoordinateRounding.norm(), most);
 }
-
-//------------------------------------------------------------------------------
-bool PatchGeometry::AreTouching(vtkIdType i, vtkIdType j) const
-{
-  const vtkIdType* const endI = this->GetCorners(i) + this->GetNumberOfCorners(i);
-  const vtkIdType* const endJ = this->GetCorners(j) + this->GetNumberOfCorners(j);
-  return std::find_first_of(this->GetCorners(i), endI, this->GetCorners(j), endJ) != endI;
-}
 } // namespace LightTransport

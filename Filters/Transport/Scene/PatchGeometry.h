@@ -40,8 +40,6 @@ public:
   {
     return this->Points[this->Corners[this->Offsets[patch] + corner]];
   }
-  /// Whether two patches have a corner in common.
-  bool AreTouching(vtkIdType i, vtkIdType j) const;
 
   const std::vector<double>& GetAreas() const { return this->Areas; }
   const Vector& GetNormal(vtkIdType patch) const { return this->Normals[patch]; }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactors/ExactVisibility.h"
 
-#include "vtkMath.h"
+#include "ViewFactors/PairIntegrals.h"
 
 #include <Eigen/Geometry>
 
@@ -62,26 +62,6 @@ void CutAtPlane(const Polygon& polygon, const Vector& point, const Vector& inwar
     }
     from = to;
   }
-}
-
-//------------------------------------------------------------------------------
-// Lambert's formula for the light of a polygon at a point with a normal.
-double GetFactor(const Polygon& polygon, const Vector& point, const Vector& normal)
-{
-  double sum = 0.0;
-  Vector from = polygon.Corners[polygon.Count - 1] - point;
-  for (int corner = 0; corner < polygon.Count; ++corner)
-  {
-    const Vector to = polygon.Corners[corner] - point;
-    const Vector across = from.cross(to);
-    const double sine = across.norm();
-    if (sine > 0.0)
-    {
-      sum -= std::atan2(sine, from.dot(to)) * across.dot(normal) / sine;
-    }
-    from = to;
-  }
-  return std::max(0.0, sum / (2.0 * vtkMath::Pi()));
 }
 } // namespace
 
@@ -246,7 +226,7 @@ double ExactVisibility::GetView(const Vector& point)
   double view = 0.0;
   for (std::size_t part = 0; part < this->Parts.Count; ++part)
   {
-    view += GetFactor(this->Parts.Polygons[part], point, this->Outer.Normal);
+    view += PairIntegrals::GetPointFactor(this->Parts.Polygons[part], point, this->Outer.Normal);
   }
   return view;
 }

@@ -271,24 +271,6 @@ public:
   }
 
 private:
-  double GetFactor(const Vector& x) const
-  {
-    double sum = 0.0;
-    Vector from = this->Inner.Corners[this->Inner.Count - 1] - x;
-    for (int corner = 0; corner < this->Inner.Count; ++corner)
-    {
-      const Vector to = this->Inner.Corners[corner] - x;
-      const Vector normal = from.cross(to);
-      const double sine = normal.norm();
-      if (sine > 0.0)
-      {
-        sum -= std::atan2(sine, from.dot(to)) * normal.dot(this->Outer.Normal) / sine;
-      }
-      from = to;
-    }
-    return std::max(0.0, sum / (2.0 * vtkMath::Pi()));
-  }
-
   double IntegrateTriangle(const Polygon& triangle) const
   {
     constexpr int rule = QuadratureRules::NumberOfRules - 1;
@@ -298,7 +280,8 @@ private:
     double sum = 0.0;
     for (int point = 0; point < QuadratureRules::GetNumberOfPoints(rule); ++point)
     {
-      sum += weights[point] * this->GetFactor(points[point]);
+      sum += weights[point] *
+        PairIntegrals::GetPointFactor(this->Inner, points[point], this->Outer.Normal);
     }
     return sum;
   }
@@ -361,6 +344,25 @@ private:
 
 namespace PairIntegrals
 {
+//------------------------------------------------------------------------------
+double GetPointFactor(const Polygon& polygon, const Vector& point, const Vector& normal)
+{
+  double sum = 0.0;
+  Vector from = polygon.Corners[polygon.Count - 1] - point;
+  for (int corner = 0; corner < polygon.Count; ++corner)
+  {
+    const Vector to = polygon.Corners[corner] - point;
+    const Vector across = from.cross(to);
+    const double sine = across.norm();
+    if (sine > 0.0)
+    {
+      sum -= std::atan2(sine, from.dot(to)) * across.dot(normal) / sine;
+    }
+    from = to;
+  }
+  return std::max(0.0, sum / (2.0 * vtkMath::Pi()));
+}
+
 //------------------------------------------------------------------------------
 double IntegrateRules(const QuadratureRules::Points& a, const Vector& normalA,
   const QuadratureRules::Points& b, const Vector& normalB)

@@ -28,6 +28,13 @@ struct Estimate
   double Error = 0.0; ///< absolute
 };
 
+/**
+ * The view factor from a point with a normal to a polygon, by Lambert's formula; the polygon must
+ * lie in front of (or on) the plane of the point.
+ */
+double GetPointFactor(const Polygon& polygon, const Polygon::Vector& point,
+  const Polygon::Vector& normal);
+
 /// The exchange by two rules.
 double IntegrateRules(const QuadratureRules::Points& a, const Polygon::Vector& normalA,
   const QuadratureRules::Points& b, const Polygon::Vector& normalB);
