@@ -5,6 +5,7 @@
 import importlib
 import os
 
+from vtklighttransport.shell.interrupts import tidying_up
 from vtklighttransport.shell.stages import Failure, Stage
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -72,6 +73,7 @@ def write_surface(file, surface):
     return writer.Write() == 1
 
 
+@tidying_up()
 def write(options, messages, data):
     """The result in its file, or what was there before."""
     unfinished = options.output + ".part"
