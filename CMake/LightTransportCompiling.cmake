@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
 # How the modules and their tests are compiled in a build of their own; a larger build that takes the modules in has its own choice.
 
 # Warnings, on for the code of the modules (not for what is generated to wrap it).

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The private sources of a module, those in the folders `ROOMS`, as one object library <library>Objects. The module and its tests both
 # link it, so that tests reach private classes although no symbol of theirs is exported. (A test's process then holds that code twice:
 # it must not keep static state.) A new file in a room needs no line here: ROOMS are looked through again before each build.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Labels of tests, for ctest -L and -LE: what a test needs (gl: OpenGL, python, paraview) is said where its folder ends; whether
 # it is slow (some ten seconds or more on two busy cores) or fast, here.
 set(LIGHTTRANSPORT_SLOW_TESTS

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Whole builds of other shapes: modules switched off, and the checkout inside a larger project. What is expensive to build is only
 # configured.
 set(configuration_options

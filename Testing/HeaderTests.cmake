@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Each public header alone, included twice: it must bring all that it needs, and be guarded. Compiled when the test runs, not by
 # the ordinary build.
 set(header_sources)

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Checks all that needs no build: the format of C and C++, shell and Python, spelling, links. Installs the Debian packages
+# Checks all that needs no build: the format of C and C++, shell and Python, spelling, links, licences. Installs the Debian packages
 # that it needs; for what is wrong it says what to run.
 set -euo pipefail
 # shellcheck source=Utilities/setup.sh
@@ -40,7 +40,7 @@ check()
 
 use_system_tools
 check_system
-linters=(python3 python3-flake8 shellcheck codespell)
+linters=(python3 python3-flake8 shellcheck codespell reuse)
 # Versions of clang-format differ in what they write: this one decides, and Debian 13 does not have it.
 if [ "$debian" = 12 ]; then
   linters+=(clang-format-14)
@@ -71,6 +71,11 @@ check 'shell' 'the messages above say what' shellcheck "${scripts[@]}"
 check 'Python' 'the messages above say what (.flake8 has the settings)' /usr/bin/python3 -m flake8 "${modules[@]}"
 check 'spelling' 'codespell -i 3 -w with the files above, or name a word that is meant in .codespellrc' codespell "${texts[@]}"
 check 'links' 'the messages above say what' /usr/bin/python3 Utilities/check_links.py
+if git rev-parse --git-dir >/dev/null 2>&1; then
+  check 'licences' 'SPDX lines at the top of the file as others have them, or a line in .reuse/dep5' reuse --root . lint
+else
+  say 'licences: not checked, only git can tell what is not the project'"'"'s'
+fi
 
 if [ ${#wrong[@]} -gt 0 ]; then
   stop 'some checks failed. What to run:' "${wrong[@]}"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // Samples an atlas at one point per texel: x, y in atlas coordinates and the level, and the blocks of their charts.
 uniform sampler2D atlas;
 uniform sampler2D points;

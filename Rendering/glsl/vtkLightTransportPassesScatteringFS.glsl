@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
   // What VTK's own shading has drawn is the light that the surface reflects at once.
   vec3 lightTransportDirect = gl_FragData[0].rgb;
   if (lightTransportShadingIsEncoded != 0)

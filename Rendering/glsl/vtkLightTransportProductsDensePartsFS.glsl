@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // One range of columns of the product of a matrix tile with a vector. Fragment (x, y) computes ROWS rows, which share what is fetched
 // of the vector, from row (y / splits) * WIDTH + x * ROWS on, over the (y % splits)-th range of columns.
 // MATRIX_GROUPS: 1 where all bands share one kernel (SHARED_KERNEL), else GROUPS.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // The sum of a row's partial products, and of the sum so far where the matrix has several tiles side by side.
 uniform sampler2D parts[ROWS * GROUPS];
 #if ACCUMULATE

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // The sum over a piece of a row of links. Fragment (x, y) takes column x of the lines that the y-th line of pieces has in the texture
 // of links, whose texels hold two links: texel of the slot, value, twice.
 uniform sampler2D links[1];

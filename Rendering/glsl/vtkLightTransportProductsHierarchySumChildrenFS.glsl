@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // What nodes send: the sum over their children.
 uniform sampler2D children[1];
 uniform sampler2D sent[GROUPS];

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // What slots receive: the sum over the pieces of their row, and what the parent received, which is kept behind the pieces: 16 textures
 // are all that OpenGL 3.2 promises. With PATCHES the result is theirs, weighted; their lines begin at firstLine.
 uniform sampler2D rows[1];

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // What patches send: weight x, into the lines of the patches, which begin at firstLine.
 uniform sampler2D rows[1];
 uniform sampler2D vector[GROUPS];

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // The power that the seen patch receives, in every band.
 uniform sampler2D unshot[GROUPS];
 flat in ivec2 shooter;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // The most power among the texels x, x + size.x, ... in both directions, and its patch: neighbours, which are alike, stay apart.
 #if FIRST_STEP
 uniform sampler2D unshot[GROUPS];

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // Reduces blocks of 16 x 16 texels to one: the sum of x y, the sum of x, or the largest |x|.
 uniform sampler2D x[GROUPS];
 uniform sampler2D y[GROUPS];

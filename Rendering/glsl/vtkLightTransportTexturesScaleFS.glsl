@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
 // x y, element by element
 uniform sampler2D x[GROUPS];
 uniform sampler2D y[GROUPS];

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Unpacks meshes for tests into FOLDER: some of those in ARCHIVE, the data of CGAL's demos, and DRAGON, a file that gzip made.
 file(MAKE_DIRECTORY "${FOLDER}")
 if (ARCHIVE)
