@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringIntegrals.h"
 
+#include "Scattering/EdgeNeighbours.h"
 #include "Shared/GaussLegendre.h"
 
 #include <algorithm>
@@ -25,6 +26,10 @@ constexpr int PlaceBits = MantissaBits - PieceBits;
 /// Cuts after which the rules have the last word: sides are 2^-8 of what they were. Patches wider
 /// than some 300 mean free paths then get a worse error estimate, but never endless work.
 constexpr int MaximumDepth = 16;
+
+/// A common edge longer than this many of the profile's smallest scales would be cut into as many
+/// parts, and more: exact along the radius is cheaper.
+constexpr double LongEdge = 16.0;
 
 /// Of the rough value of a pair of triangles that has to be cut.
 constexpr double RoughTolerance = 0.1;
@@ -293,7 +298,7 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
   goal.Relative = this->RelativeTolerance;
   goal.Absolute = tolerance;
   Sum sum;
-  if (!this->TryRules(a, b, goal, false, sum))
+  if (!this->TryRules(a, b, goal, false, sum) && !this->AddNeighbours(a, b, tolerance, sum))
   {
     // A rough value first. The errors of the many parts that a fine one takes differ in sign and
     // add up like random numbers: of a total error e, a part with the share s of the value may have
@@ -310,6 +315,39 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
   }
   result.Value += sum.Value;
   result.Error += std::sqrt(sum.SquaredError);
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringIntegrals::AddNeighbours(const Triangle& a, const Triangle& b, double tolerance,
+  Sum& sum) const
+{
+  EdgeNeighbours neighbours;
+  if (!neighbours.Set(a.Corners, b.Corners) ||
+    neighbours.GetSharedLength() < LongEdge * std::sqrt(this->SquaredScale))
+  {
+    return false;
+  }
+  static const GaussLegendre rules[] = { GaussLegendre(3), GaussLegendre(5), GaussLegendre(8),
+    GaussLegendre(12), GaussLegendre(18) };
+  Bands value = Bands::Zero();
+  Bands error;
+  for (const GaussLegendre& rule : rules)
+  {
+    const Bands before = value;
+    neighbours.Integrate(this->Profiles, rule, value.data());
+    for (int band = 0; band < NumberOfBands; ++band)
+    {
+      value[band] *= this->InverseTotals[band];
+    }
+    error = (value - before).abs();
+    if ((error <= this->RelativeTolerance * value + tolerance).all())
+    {
+      break;
+    }
+  }
+  sum.Value += value;
+  sum.SquaredError += error.maxCoeff() * error.maxCoeff();
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -9,7 +9,8 @@
  * by r in direction theta overlap in a similar triangle, of area A (1 - r gamma(theta))^2, which
  * leaves one integral, over theta;
  * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other;
- * where the largest is not enough the larger triangle is cut in four.
+ * where the largest is not enough the larger triangle is cut in four;
+ * - two with a long edge in common: exact along the radius (EdgeNeighbours).
  *
  * All values are divided by the profiles' totals, so that one tolerance serves all bands.
  */
@@ -104,6 +105,8 @@ private:
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
+  /// For a long edge in common; false where there is none.
+  bool AddNeighbours(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
   void Tabulate(double maximumDistance);
 
   const ScatteringProfiles& Profiles;

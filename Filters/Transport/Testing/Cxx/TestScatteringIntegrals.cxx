@@ -134,7 +134,7 @@ void TestPairs()
 void TestSelf()
 {
   const ScatteringProfiles profiles = MakeProfiles();
-  for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0 })
+  for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0, 300.0, 1e4, 1e6 })
   {
     const ScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
     const Vector a = size * Origin, b = size * Side, c = size * Vector(0.8, 0.3, 0.4);
@@ -194,6 +194,46 @@ void TestWidePatch()
       "crossing the edges, band " + std::to_string(band));
   }
 }
+
+//------------------------------------------------------------------------------
+/// Across an edge on which two wide patches lie: coplanar ones exchange 2 int R r^2 dr per length.
+/// Where one of them is cut through its far corner, each part has a piece of the edge: together
+/// they exchange the same, at any angle and width.
+void TestWideNeighbours()
+{
+  const ScatteringProfiles profiles = MakeProfiles();
+  for (const double size : { 10.0, 100.0, 1e3, 1e5 })
+  {
+    const ScatteringIntegrals integrals(profiles, 3.0 * size, Tolerance);
+    const Triangle first(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
+    for (const double tilt : { 0.0, 0.3, 2.0, -1.2 })
+    {
+      const Vector apex = size * Vector(0.6, -0.8 * std::cos(tilt), -0.8 * std::sin(tilt));
+      const Vector middle = size * Vector(0.35, 0.0, 0.0);
+      const double tolerance = 1e-9 * size;
+      Result3 whole;
+      Result3 parts;
+      integrals.AddPair(first, { size * Side, size * Origin, apex }, tolerance, whole);
+      integrals.AddPair(first, { size * Side, middle, apex }, tolerance, parts);
+      integrals.AddPair({ middle, size * Origin, apex }, first, tolerance, parts);
+      for (int band = 0; band < 3; ++band)
+      {
+        const std::string what = "size " + std::to_string(size) + ", tilt " + std::to_string(tilt) +
+          ", band " + std::to_string(band);
+        CheckClose(parts.Value[band], whole.Value[band], 4.0 * Tolerance, "parts, " + what);
+        double moments[3];
+        profiles[band]->GetMoments(1e5, moments);
+        const double crossing = 2.0 * size * moments[1] / profiles[band]->GetTotal();
+        if (tilt == 0.0)
+        {
+          CheckClose(whole.Value[band], crossing, 20.0 / size + 1e-3, "crossing, " + what);
+        }
+      }
+      Check(whole.Error <= 2.0 * Tolerance * whole.Value.maxCoeff(),
+        "error estimate within the tolerance, size " + std::to_string(size));
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -202,5 +242,6 @@ int TestScatteringIntegrals(int, char*[])
   TestPairs();
   TestSelf();
   TestWidePatch();
+  TestWideNeighbours();
   return Result();
 }
