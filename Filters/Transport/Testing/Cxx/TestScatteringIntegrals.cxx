@@ -5,6 +5,7 @@
 #include "LightTransportTesting.h"
 #include "Scattering/DipoleProfile.h"
 #include "Scattering/ScatteringIntegrals.h"
+#include "vtkMath.h"
 
 using namespace LightTransport;
 
@@ -234,6 +235,59 @@ void TestWideNeighbours()
     }
   }
 }
+
+//------------------------------------------------------------------------------
+/// Both sides of a sheet: against brute force where that can tell, and its parts make up the whole.
+/// A patch far wider than the distance gives what lies opposite all but what passes beside it.
+void TestSheets()
+{
+  const ScatteringProfiles profiles = MakeProfiles();
+  const double distance = 2.0;
+  const Vector across(0.0, 0.0, distance);
+  for (const double size : { 10.0, 1e3, 1e5 })
+  {
+    const ScatteringIntegrals integrals(profiles, 3.0 * size, Tolerance);
+    const Triangle first(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
+    for (const double turn : { 0.0, 0.5, vtkMath::Pi() })
+    {
+      const auto place = [&](double x, double y)
+      {
+        const double u = x - 0.5, v = y - 0.3;
+        return Vector(size *
+            Vector(0.5 + u * std::cos(turn) - v * std::sin(turn),
+              0.3 + u * std::sin(turn) + v * std::cos(turn), 0.0) +
+          across);
+      };
+      const Vector p = place(0.0, 0.0), q = place(0.4, 0.9), r = place(1.0, 0.0);
+      const Vector middle = 0.3 * p + 0.7 * r;
+      const double tolerance = 1e-9 * size * size;
+      Result3 whole;
+      Result3 parts;
+      integrals.AddPair(first, { p, q, r }, tolerance, whole);
+      integrals.AddPair(first, { p, q, middle }, tolerance, parts);
+      integrals.AddPair({ middle, q, r }, first, tolerance, parts);
+      for (int band = 0; band < 3; ++band)
+      {
+        const std::string what = "sheet, size " + std::to_string(size) + ", turn " +
+          std::to_string(turn) + ", band " + std::to_string(band);
+        CheckClose(parts.Value[band], whole.Value[band], 4.0 * Tolerance, "parts, " + what);
+        if (size < 20.0)
+        {
+          const double expected = BruteForce(*profiles[band], first, Triangle(p, q, r), 60);
+          CheckClose(whole.Value[band], expected, 1e-3, "brute force, " + what);
+        }
+        else if (turn == 0.0)
+        {
+          CheckClose(whole.Value[band],
+            first.Area * profiles[band]->GetTail(distance) / profiles[band]->GetTotal(),
+            60.0 / size, "opposite, " + what);
+        }
+      }
+      Check(whole.Error <= 2.0 * Tolerance * whole.Value.maxCoeff(),
+        "error estimate within the tolerance, size " + std::to_string(size));
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -243,5 +297,6 @@ int TestScatteringIntegrals(int, char*[])
   TestSelf();
   TestWidePatch();
   TestWideNeighbours();
+  TestSheets();
   return Result();
 }
