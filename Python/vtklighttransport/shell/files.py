@@ -7,6 +7,7 @@ import importlib
 import os
 
 from vtklighttransport.replacement import replace_file
+from vtklighttransport.shell.interrupts import tidying_up
 from vtklighttransport.shell.stages import Failure, Stage
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -79,6 +80,7 @@ def write_surface(file, surface):
     replace_file(file, writer.GetOutputString().encode())
 
 
+@tidying_up()
 def write(options, messages, data):
     """The result in its file, or what was there before."""
     try:
