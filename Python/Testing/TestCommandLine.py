@@ -5,6 +5,7 @@
 import math
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -46,10 +47,14 @@ class TestCommandLine(unittest.TestCase):
     def load(self, name):
         return read_surface(self.path(name))
 
-    def run_command(self, *arguments):
+    def run_command(self, *arguments, limit=None):
+        """`limit`: bytes that a file may have."""
+        def limit_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
         return subprocess.run(
             [sys.executable, "-m", "vtklighttransport", *arguments],
             capture_output=True, text=True, timeout=120, check=False,
+            preexec_fn=limit_files if limit else None,
             # Wide enough for argparse to break no word at a hyphen.
             env={**os.environ, "COLUMNS": "500"})
 
@@ -103,6 +108,18 @@ class TestCommandLine(unittest.TestCase):
             output, errors = process.communicate(timeout=100)
         self.assertEqual((process.returncode, output, errors), (130, "", "interrupted\n"))
         self.assertEqual(os.listdir(self.folder), ["in.vtp"])
+
+    def test_full_disk(self):
+        """The old result stays; a limit on the size of files stands in for a full disk."""
+        source = self.make_lit_cube()
+        with open(self.path("out.vtp"), "w", encoding="utf-8") as stream:
+            stream.write("old")
+        result = self.run_command("radiosity", source, self.path("out.vtp"), limit=1000)
+        self.check_failure(result, 1, "cannot write")
+        self.assertIn("have room for", result.stderr)
+        with open(self.path("out.vtp"), encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "old")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["in.vtp", "out.vtp"])
 
     def test_interrupted_while_loading(self):
         """Python tells of each module that it has loaded."""

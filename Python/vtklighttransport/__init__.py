@@ -17,7 +17,8 @@ import os
 import sys
 
 # Python's -m says so in the place of the program's name while it looks for the command's package.
-if sys.argv[:1] == ["-m"] and hasattr(os, "fork"):
+if (sys.argv[:1] == ["-m"] and {__name__, "-m" + __name__}.intersection(sys.orig_argv)
+        and hasattr(os, "fork")):
     from .shell.interrupts import work_in_another_process
     work_in_another_process()
 

@@ -4,27 +4,18 @@
 #ifndef MeshingRun_h
 #define MeshingRun_h
 
+#include "Shared/Attempt.h"
 #include "Shared/Outcome.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <exception>
-#include <new>
-#include <string>
-
 namespace LightTransport
 {
 namespace MeshingRun
 {
-/// What to say when memory runs out, and when a library gives up.
-struct Advice
-{
-  const char* WithoutMemory;
-  const char* Failure;
-  const char* Remedy;
-};
+using LightTransport::Advice;
 
 /// Takes the steps of a filter, each of which returns an Outcome, as long as all before are done.
 /// What CGAL, Eigen and a lack of memory throw ends here and becomes a failure.
@@ -38,32 +29,13 @@ public:
   {
     if (this->Result)
     {
-      this->Result = this->Try(step);
+      this->Result = Attempt(step, this->WhatToDo);
     }
   }
 
   const Outcome& GetOutcome() const { return this->Result; }
 
 private:
-  template <typename Step>
-  Outcome Try(const Step& step) const
-  {
-    try
-    {
-      return step();
-    }
-    catch (const std::bad_alloc&)
-    {
-      return Outcome::Failed(
-        std::string("Not enough memory: ") + this->WhatToDo.WithoutMemory + ".");
-    }
-    catch (const std::exception& problem)
-    {
-      return Outcome::Failed(std::string(this->WhatToDo.Failure) + " (" + problem.what() +
-        "): " + this->WhatToDo.Remedy + ".");
-    }
-  }
-
   Advice WhatToDo;
   Outcome Result = Outcome::Done();
 };

@@ -47,8 +47,6 @@ def run(options, messages, make_radiosity, surface):
     except OSError as error:
         name = error.filename or options.folder
         raise Failure(f"cannot write {name}: {error.strerror}") from error
-    finally:
-        record.close()
     if record.interrupted:
         raise KeyboardInterrupt
     return f"{os.path.join(options.folder, 'report.html')}: {len(record.rows)} rows"
