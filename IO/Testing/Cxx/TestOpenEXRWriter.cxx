@@ -125,8 +125,7 @@ bool TestNamedChannels(const std::string& path)
   for (int i = 0; i < points->GetNumberOfArrays(); ++i)
   {
     const std::string name = points->GetArrayName(i);
-    vtkDataArray* found =
-      result->GetPointData()->GetArray(name == "Scalars" ? "RGBA" : name.c_str());
+    vtkDataArray* found = result->GetPointData()->GetArray(name.c_str());
     good &= Check(Compare(points->GetArray(i), found) == 0.0, "array " + name + " is the same");
   }
   good &= Check(result->GetPointData()->GetArray("PatchId")->GetDataType() == VTK_UNSIGNED_INT,
@@ -198,7 +197,11 @@ bool ExpectOldFile(vtkOpenEXRWriter* writer, const std::string& path, const std:
   const std::string before = load();
   bool good = ExpectError(writer, message);
   good &= Check(!before.empty() && load() == before, "the older file is still there: " + message);
-  good &= Check(!std::filesystem::exists(path + ".part"), "nothing unfinished stays: " + message);
+  const std::filesystem::directory_iterator folder(std::filesystem::path(path).parent_path());
+  const bool clean = std::none_of(begin(folder), end(folder),
+    [](const auto& entry)
+    { return entry.path().filename().string().rfind(".unfinished-", 0) == 0; });
+  good &= Check(clean, "nothing unfinished stays: " + message);
   return good;
 }
 
@@ -230,8 +233,6 @@ bool TestFullDisk(const std::string& path)
         "room for " + std::to_string(room) + " bytes");
     }
   }
-  std::filesystem::create_symlink("/dev/full", path + ".part");
-  good &= ExpectOldFile(writer, path, "make room on the disk");
   writer->SetFileName("/dev/full");
   good &= ExpectError(writer, "the name is that of a folder or device");
   good &= Check(std::filesystem::is_character_file("/dev/full"), "a device stays one");
@@ -289,7 +290,8 @@ bool TestReplacement(const std::string& path)
   writer->SetFileName(link.c_str());
   good &= Check(writer->Write() == 1, "a file through a link");
   good &= Check(std::filesystem::is_symlink(link), "the link stays");
-  good &= Check(ReadFile(path)->GetPointData()->GetArray("RGB"), "what it leads to is replaced");
+  good &= Check(ReadFile(path)->GetPointData()->GetScalars()->GetNumberOfComponents() == 3,
+    "what it leads to is replaced");
   std::filesystem::remove(link);
   writer->SetFileName(std::filesystem::path(path).parent_path().c_str());
   good &= ExpectError(writer, "the name is that of a folder or device");
@@ -301,7 +303,8 @@ bool TestReplacement(const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetInputData(MakeImage(Extent, 4));
   good &= Check(writer->Write() == 0, "an aborted writer says so");
-  good &= Check(ReadFile(path)->GetPointData()->GetArray("RGB"), "and the older file stays");
+  good &= Check(ReadFile(path)->GetPointData()->GetScalars()->GetNumberOfComponents() == 3,
+    "and the older file stays");
   return good;
 }
 
