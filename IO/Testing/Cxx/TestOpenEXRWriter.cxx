@@ -13,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkOpenEXRReader.h"
 #include "vtkOpenEXRWriter.h"
+#include "vtkStringArray.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkUnsignedIntArray.h"
 
@@ -27,6 +28,7 @@
 #if defined(__linux__)
 #include <csignal>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -276,6 +278,87 @@ bool TestPermissions(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
+// Modes stay, the umask is heard, links of both kinds are treated with care, and what is no file is
+// left alone.
+bool TestTargets(const std::string& path)
+{
+  bool good = true;
+#if defined(__linux__)
+  namespace fs = std::filesystem;
+  const fs::path folder = path + ".targets";
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  const fs::path file = folder / "image.exr";
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(MakeImage(Extent, 1));
+  const auto write = [&](const fs::path& name)
+  {
+    writer->SetFileName(name.c_str());
+    return writer->Write() == 1;
+  };
+  const auto getMode = [](const fs::path& name)
+  { return static_cast<unsigned int>(fs::status(name).permissions()); };
+  const mode_t before = umask(0027);
+  good &= Check(write(file) && getMode(file) == 0640, "a new file has what the umask leaves");
+  umask(before);
+  fs::permissions(file, static_cast<fs::perms>(0604));
+  good &= Check(write(file) && getMode(file) == 0604, "an older file's mode stays");
+
+  // A chain of links, each relative to its own folder.
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("../image.exr", folder / "deep" / "near");
+  fs::create_symlink("deep/near", folder / "far");
+  good &= Check(write(folder / "far") && fs::is_symlink(folder / "far") &&
+      fs::is_symlink(folder / "deep" / "near") && getMode(file) == 0604,
+    "links stay");
+  fs::create_symlink("deep/new.exr", folder / "dangling");
+  good &= Check(write(folder / "dangling") && fs::is_symlink(folder / "dangling") &&
+      fs::is_regular_file(folder / "deep" / "new.exr"),
+    "a link to what is not there yet");
+  fs::create_symlink("loop", folder / "loop");
+  writer->SetFileName((folder / "loop").c_str());
+  good &= ExpectError(writer, "a symbolic link that leads nowhere");
+
+  fs::create_hard_link(file, folder / "twin.exr");
+  writer->SetFileName(file.c_str());
+  good &= ExpectOldFile(writer, file, "the file has 2 names (hard links)");
+  good &= Check(fs::hard_link_count(file) == 2, "hard links stay");
+  const fs::path pipe = folder / "pipe";
+  good &= Check(mkfifo(pipe.c_str(), 0600) == 0, "a pipe");
+  writer->SetFileName(pipe.c_str());
+  good &= ExpectError(writer, "the name is that of a folder or device");
+  good &= Check(fs::is_fifo(pipe), "a pipe stays one");
+  vtkNew<vtkOpenEXRReader> reader;
+  good &= Check(reader->CanReadFile(pipe.c_str()) == 0, "nobody waits for a pipe");
+  fs::remove_all(folder);
+#endif
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// Arrays that do not fit the image.
+bool TestArrays(const std::string& path)
+{
+  const vtkSmartPointer<vtkImageData> image = MakeImage(Extent, 1);
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(path.c_str());
+  bool good = true;
+  for (const vtkIdType count : { image->GetNumberOfPoints() - 1, image->GetNumberOfPoints() + 1 })
+  {
+    image->GetPointData()->AddArray(MakeValues("Short", 1, count));
+    good &= ExpectError(writer, "point array \"Short\" has " + std::to_string(count) + " values");
+  }
+  image->GetPointData()->RemoveArray("Short");
+  vtkNew<vtkStringArray> names;
+  names->SetName("Names");
+  names->SetNumberOfTuples(image->GetNumberOfPoints());
+  image->GetPointData()->AddArray(names);
+  good &= ExpectError(writer, "point array \"Names\" holds no numbers");
+  return good;
+}
+
+//------------------------------------------------------------------------------
 bool TestReplacement(const std::string& path)
 {
   std::filesystem::remove(path);
@@ -363,6 +446,8 @@ int TestOpenEXRWriter(int argc, char* argv[])
   good &= TestNamedChannels(path);
   good &= TestIntegers(path);
   good &= TestReplacement(path);
+  good &= TestTargets(path);
+  good &= TestArrays(path);
   good &= TestFullDisk(path);
   good &= TestPermissions(path);
   good &= TestErrors(GetPath(argc, argv, "TestOpenEXRWriterErrors.exr"));
