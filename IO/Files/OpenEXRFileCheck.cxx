@@ -61,10 +61,22 @@ public:
   std::int64_t GetPosition() const { return this->Position; }
   std::int64_t GetRemaining() const { return this->Length - this->Position; }
 
+  void Need(std::int64_t count)
+  {
+    if (count > this->GetRemaining())
+    {
+      throw Error{ Fault::Truncated,
+        "the file is truncated: it ends within its header or its table of offsets" };
+    }
+  }
+
   void Skip(std::int64_t count)
   {
     this->Need(count);
-    this->Seek(this->Position + count);
+    if (count > 0)
+    {
+      this->Seek(this->Position + count);
+    }
   }
 
   std::uint8_t ReadByte()
@@ -123,15 +135,6 @@ public:
   }
 
 private:
-  void Need(std::int64_t count)
-  {
-    if (count > this->GetRemaining())
-    {
-      throw Error{ Fault::Truncated,
-        "the file is truncated: it ends within its header or its table of offsets" };
-    }
-  }
-
   std::ifstream Stream;
   std::int64_t Length = 0;
   std::int64_t Position = 0;
@@ -253,7 +256,8 @@ const std::map<std::string, std::int64_t>& GetFixedSizes()
 }
 
 //------------------------------------------------------------------------------
-// Reads as much of a value as says how long the library will find it, at most up to its end.
+// Reads as much of a value as says how long the library will find it, at most up to its end: of
+// types that ReadValue does not look at.
 bool HasSizeOfType(Input& input, const std::string& type, std::int64_t size)
 {
   const auto fixed = GetFixedSizes().find(type);
@@ -293,9 +297,10 @@ bool HasSizeOfType(Input& input, const std::string& type, std::int64_t size)
 void ReadValue(Input& input, const std::string& name, const std::string& type, std::int64_t size,
   Part& part)
 {
-  if (name == "channels" && type == "chlist")
+  if (type == "chlist")
   {
-    ReadChannels(input, part);
+    Part other;
+    ReadChannels(input, name == "channels" ? part : other);
   }
   else if (name == "dataWindow" && type == "box2i")
   {
@@ -333,23 +338,20 @@ bool ReadHeader(Input& input, Part& part)
     {
       throw Error{ Fault::Damaged, "attribute \"" + name + "\" has a negative size" };
     }
-    const std::int64_t begin = input.GetPosition();
-    input.Skip(size);
-    input.Seek(begin);
+    input.Need(size);
+    const std::int64_t end = input.GetPosition() + size;
     bool good = HasSizeOfType(input, type, size);
     if (good)
     {
-      input.Seek(begin);
       ReadValue(input, name, type, size, part);
-      const std::int64_t length = input.GetPosition() - begin;
-      good = length <= size && (type != "chlist" || length == size);
+      good = input.GetPosition() <= end && (type != "chlist" || input.GetPosition() == end);
     }
     if (!good)
     {
       throw Error{ Fault::Damaged,
         "attribute \"" + name + "\" has another size than its type \"" + type + "\"" };
     }
-    input.Seek(begin + size);
+    input.Skip(end - input.GetPosition());
   }
   return any;
 }
