@@ -553,7 +553,15 @@ Outcome ViewFactorsFile::Write(const std::string& fileName, const Links& links)
       "\": the view factors are not complete, or negative, or not finite. Compute them again, in "
       "one process.");
   }
-  Outcome written = Writer().Write(fileName, links);
+  Outcome written = Outcome::Done();
+  try
+  {
+    written = Writer().Write(fileName, links);
+  }
+  catch (const std::bad_alloc&)
+  {
+    written = Outcome::Failed("there is not enough memory; save it on a machine with more");
+  }
   return written
     ? written
     : Outcome::Failed("\"" + fileName + "\" cannot be written: " + written.GetMessage() +
