@@ -4,8 +4,9 @@
 #ifndef MeshingRun_h
 #define MeshingRun_h
 
+#include "Common/Heartbeat.h"
 #include "Shared/Outcome.h"
-#include "vtkDataSet.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -52,6 +53,10 @@ private:
     {
       return step();
     }
+    catch (const Heartbeat::Stopped&)
+    {
+      return Outcome::Aborted();
+    }
     catch (const std::bad_alloc&)
     {
       return Outcome::Failed(
@@ -70,10 +75,11 @@ private:
 
 //------------------------------------------------------------------------------
 /// Of data distributed over several processes a piece may be empty, which is no error.
-inline bool IsEmptyPiece(vtkDataSet* input, vtkInformation* output)
+inline bool IsEmptyPiece(vtkDataObject* input, vtkInformation* output)
 {
   vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return input->GetNumberOfCells() == 0 && output->Has(pieces) && output->Get(pieces) > 1;
+  return input->GetNumberOfElements(vtkDataObject::CELL) == 0 && output->Has(pieces) &&
+    output->Get(pieces) > 1;
 }
 } // namespace MeshingRun
 } // namespace LightTransport

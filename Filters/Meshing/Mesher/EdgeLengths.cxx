@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/EdgeLengths.h"
 
+#include "Common/Heartbeat.h"
 #include "Mesher/PointVectors.h"
 
 #include <Eigen/Geometry>
@@ -46,8 +47,10 @@ double EdgeLengths::GetLengthForCurvature(double curvature, double error, double
 }
 
 //------------------------------------------------------------------------------
-void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths)
+void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths,
+  const Monitor& monitor)
 {
+  Heartbeat heart(monitor);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   for (std::size_t i = 0; i < lengths.size(); ++i)
@@ -67,6 +70,7 @@ void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vecto
     }
     for (const std::size_t triangle : surface.GetTrianglesAround(from))
     {
+      heart.Beat();
       const SourceSurface::Triangle& corners = surface.Triangles[triangle];
       for (int i = 0; i < 3; ++i)
       {
