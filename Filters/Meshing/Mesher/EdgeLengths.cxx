@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -42,8 +43,9 @@ double EdgeLengths::GetLengthForCurvature(double curvature, double error, double
   double longest)
 {
   // Written so that curvature 0 gives the longest length and a negative root the shortest.
-  const double length2 = 6.0 * error / curvature - 3.0 * error * error;
-  return std::sqrt(std::min(std::max(length2, shortest * shortest), longest * longest));
+  const double length2 = curvature > 0.0 ? 6.0 * error / curvature - 3.0 * error * error
+                                         : std::numeric_limits<double>::max();
+  return std::min(std::max(std::sqrt(std::max(length2, 0.0)), shortest), longest);
 }
 
 //------------------------------------------------------------------------------
