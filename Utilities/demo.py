@@ -39,7 +39,7 @@ def main(arguments):
     summary = Summary()
     try:
         show_all(folder, summary)
-    except DemoError as error:
+    except (DemoError, OSError) as error:
         print(f"demo.py: {error}", file=sys.stderr)
         return 1
     summary.add("all", "time", time.perf_counter() - begin, "s")

@@ -77,8 +77,7 @@ class Folder:
         return os.path.join(self.path, file)
 
     def write_surface(self, file, surface):
-        if not write_surface(self.name(file), surface):
-            raise DemoError(f"cannot write {file}")
+        write_surface(self.name(file), surface)
 
     def write_table(self, file, rows):
         with open(self.name(file), "w", newline="", encoding="utf-8") as stream:

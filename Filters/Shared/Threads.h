@@ -2,21 +2,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Threads for all filters, in one place. Debian's ParaView leaves vtkSMPTools sequential
- * unless told otherwise; where nobody told it (no VTK_SMP_BACKEND_IN_USE), the STDThread backend is
- * used within a local scope, so that the host's choice for everything else stays as it is.
+ * unless told otherwise; where nobody told it (no VTK_SMP_BACKEND_IN_USE), as many threads as its
+ * STDThread backend has are used within a local scope, so that the host's choice for everything
+ * else stays as it is.
+ *
+ * VTK's own threads end the process where work throws on one of them, and where the system refuses
+ * one more. Here what work throws is thrown again on the thread that called, once all others are
+ * done, and where threads are refused those that are there do the work.
  */
 #ifndef TransportThreads_h
 #define TransportThreads_h
 
+#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <new>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace LightTransport
 {
 namespace Threads
 {
+/// The first exception of several threads.
+class Failure
+{
+public:
+  /// Call `work`, and keep what it throws.
+  template <typename Work>
+  void Catch(Work&& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->First = this->First ? this->First : std::current_exception();
+      this->Happened = true;
+    }
+  }
+  bool HasHappened() const { return this->Happened; }
+  void Rethrow() const
+  {
+    if (this->First)
+    {
+      std::rethrow_exception(this->First);
+    }
+  }
+
+private:
+  std::mutex Mutex;
+  std::exception_ptr First;
+  std::atomic<bool> Happened{ false };
+};
+
 /// Call `work` in a scope where vtkSMPTools runs on threads.
 template <typename Work>
 void Run(Work&& work)
@@ -24,21 +74,96 @@ void Run(Work&& work)
   const char* backend = vtkSMPTools::GetBackend();
   const bool sequentialByDefault = backend && std::string(backend) == "Sequential" &&
     std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr;
-  if (sequentialByDefault)
-  {
-    vtkSMPTools::LocalScope(vtkSMPTools::Config(std::string("STDThread")), work);
-  }
-  else
+  if (!sequentialByDefault)
   {
     work();
+    return;
+  }
+  // An exception that passed through it would leave the host with this backend.
+  Failure failure;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(std::string("STDThread")),
+    [&]() { failure.Catch(work); });
+  failure.Rethrow();
+}
+
+/// Call `work` on this thread and on `others` more, or on fewer where the system refuses some.
+/// `work` must not throw.
+template <typename Work>
+void RunOn(int others, const Work& work)
+{
+  std::vector<std::thread> threads;
+  try
+  {
+    threads.reserve(std::max(others, 0));
+    for (int k = 0; k < others; ++k)
+    {
+      threads.emplace_back(work);
+    }
+  }
+  catch (const std::system_error&)
+  {
+  }
+  catch (const std::bad_alloc&)
+  {
+  }
+  work();
+  for (std::thread& thread : threads)
+  {
+    thread.join();
   }
 }
 
-/// vtkSMPTools::For on threads.
+/// Whether a functor has Initialize() and Reduce(), as vtkSMPTools::For knows them.
+template <typename Functor, typename = void>
+struct HasInitialize : std::false_type
+{
+};
+template <typename Functor>
+struct HasInitialize<Functor, std::void_t<decltype(std::declval<Functor&>().Initialize())>>
+  : std::true_type
+{
+};
+
+/// vtkSMPTools::For on threads: functor(from, to) for parts of [first, last) of `grain` numbers
+/// each, any (0) as seems good. Initialize() of the functor is called once on each thread that
+/// works, and Reduce() at the end, where it has them. Throws what the functor throws.
 template <typename Functor>
 void For(vtkIdType first, vtkIdType last, vtkIdType grain, Functor& functor)
 {
-  Run([&]() { vtkSMPTools::For(first, last, grain, functor); });
+  Failure failure;
+  std::atomic<vtkIdType> next{ first };
+  vtkSMPThreadLocal<unsigned char> isInitialized(0);
+  const auto work = [&](vtkIdType part)
+  {
+    for (vtkIdType from = next.fetch_add(part); from < last && !failure.HasHappened();
+         from = next.fetch_add(part))
+    {
+      if constexpr (HasInitialize<Functor>::value)
+      {
+        if (unsigned char& isReady = isInitialized.Local(); !isReady)
+        {
+          functor.Initialize();
+          isReady = 1;
+        }
+      }
+      functor(from, std::min(from + part, last));
+    }
+  };
+  Run(
+    [&]()
+    {
+      const int threads = std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1);
+      const vtkIdType part =
+        grain > 0 ? grain : std::max<vtkIdType>((last - first) / (4 * threads), 1);
+      const vtkIdType parts = (last - first + part - 1) / part;
+      RunOn(static_cast<int>(std::min<vtkIdType>(threads, parts)) - 1,
+        [&]() { failure.Catch([&]() { work(part); }); });
+      failure.Rethrow();
+      if constexpr (HasInitialize<Functor>::value)
+      {
+        functor.Reduce();
+      }
+    });
 }
 } // namespace Threads
 } // namespace LightTransport

@@ -78,11 +78,20 @@ int vtkTransportAlgorithm::RequestData(vtkInformation*, vtkInformationVector** i
   ports.Output = vtkDataObject::GetData(outputs, 0);
   ports.Table = this->GetNumberOfOutputPorts() > 1 ? vtkTable::GetData(outputs, 1) : nullptr;
   const Outcome outcome = this->MakeRun(ports)->Go();
+  if (!outcome)
+  {
+    ports.Output->Initialize();
+    if (ports.Table)
+    {
+      ports.Table->Initialize();
+    }
+  }
   if (!outcome.GetMessage().empty())
   {
     vtkErrorMacro(<< outcome.GetMessage());
   }
-  return outcome ? 1 : 0;
+  // VTK tells a failure as an error of its own; an abort is none.
+  return outcome.HasFailed() ? 0 : 1;
 }
 
 //------------------------------------------------------------------------------

@@ -5,10 +5,12 @@
 import math
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import vtklighttransport as lt
@@ -45,10 +47,14 @@ class TestCommandLine(unittest.TestCase):
     def load(self, name):
         return read_surface(self.path(name))
 
-    def run_command(self, *arguments):
+    def run_command(self, *arguments, limit=None):
+        """`limit`: bytes that a file may have."""
+        def limit_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
         return subprocess.run(
             [sys.executable, "-m", "vtklighttransport", *arguments],
             capture_output=True, text=True, timeout=120, check=False,
+            preexec_fn=limit_files if limit else None,
             # Wide enough for argparse to break no word at a hyphen.
             env={**os.environ, "COLUMNS": "500"})
 
@@ -102,6 +108,57 @@ class TestCommandLine(unittest.TestCase):
             output, errors = process.communicate(timeout=100)
         self.assertEqual((process.returncode, output, errors), (130, "", "interrupted\n"))
         self.assertEqual(os.listdir(self.folder), ["in.vtp"])
+
+    def test_full_disk(self):
+        """The old result stays; a limit on the size of files stands in for a full disk."""
+        source = self.make_lit_cube()
+        with open(self.path("out.vtp"), "w", encoding="utf-8") as stream:
+            stream.write("old")
+        result = self.run_command("radiosity", source, self.path("out.vtp"), limit=1000)
+        self.check_failure(result, 1, "cannot write")
+        self.assertIn("have room for", result.stderr)
+        with open(self.path("out.vtp"), encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "old")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["in.vtp", "out.vtp"])
+
+    def test_interrupted_while_loading(self):
+        """Python tells of each module that it has loaded."""
+        for module in ("vtkmodules.vtkCommonCore", "vtklighttransport.vtkLightTransportFilters",
+                       "argparse"):
+            command = [sys.executable, "-X", "importtime", "-m", "vtklighttransport",
+                       "radiosity", "--help"]
+            with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                  text=True) as process:
+                for line in process.stderr:
+                    if line.rpartition("|")[2].strip() == module:
+                        break
+                process.send_signal(signal.SIGINT)
+                errors = process.communicate(timeout=100)[1]
+            self.assertEqual(process.returncode, 130, module)
+            self.assertNotIn("Traceback", errors)
+
+    @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
+    def test_interrupted_at_any_moment(self):
+        """The result is there and whole, or not at all; and so is what was there before."""
+        source = self.make_lit_cube()
+        before = self.save("out.vtp", make_cube())
+        begin = time.monotonic()
+        self.run_command("radiosity", source, self.path("full.vtp"), "--mesh", "0.1")
+        duration = time.monotonic() - begin
+        whole = self.load("full.vtp").GetNumberOfCells()
+        os.remove(self.path("full.vtp"))
+        command = [sys.executable, "-m", "vtklighttransport", "radiosity", source, before,
+                   "--mesh", "0.1", "--quiet"]
+        for k in range(8):
+            with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+                # Not while Python itself begins.
+                time.sleep(duration * (0.3 + 0.1 * k))
+                process.send_signal(signal.SIGINT)
+                process.communicate(timeout=100)
+            self.assertIn(process.returncode, (0, 130))
+            self.assertEqual(sorted(os.listdir(self.folder)), ["in.vtp", "out.vtp"])
+            cells = self.load("out.vtp").GetNumberOfCells()
+            self.assertIn(cells, (whole,) if process.returncode == 0 else (6, whole))
 
     def test_radiosity(self):
         source = self.make_lit_cube()

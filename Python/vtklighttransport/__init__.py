@@ -13,6 +13,14 @@ and out of data sets. ``python3 -m vtklighttransport --help`` runs the filters f
 """
 
 import importlib
+import os
+import sys
+
+# Python's -m says so in the place of the program's name while it looks for the command's package.
+if (sys.argv[:1] == ["-m"] and {__name__, "-m" + __name__}.intersection(sys.orig_argv)
+        and hasattr(os, "fork")):
+    from .shell.interrupts import work_in_another_process
+    work_in_another_process()
 
 # The modules these bring in must be there before ours: a wrapped class needs its base class.
 import vtkmodules.vtkCommonCore

@@ -13,6 +13,7 @@ import vtklighttransport as lt
 import vtkmodules.vtkRenderingFreeType  # noqa: F401 (text is drawn by what registers here,
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 and surfaces by the mappers of OpenGL)
 from vtklighttransport.arrays import get_area_vectors, get_points
+from vtklighttransport.replacement import replace_file
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -41,9 +42,10 @@ def write_picture(window, file):
     grab.SetInputBufferTypeToRGB()
     grab.ReadFrontBufferOff()
     writer = vtkPNGWriter()
-    writer.SetFileName(file)
+    writer.WriteToMemoryOn()
     writer.SetInputConnection(grab.GetOutputPort())
     writer.Write()
+    replace_file(file, bytes(memoryview(writer.GetResult())))
 
 
 def find_direction(surface):

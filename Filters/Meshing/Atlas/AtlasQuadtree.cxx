@@ -9,7 +9,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
-#include <exception>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -38,33 +37,18 @@ constexpr double ShortestMeanNormal = 0.35;
 constexpr int LeastEulerCharacteristic = -2;
 
 //------------------------------------------------------------------------------
-// Call work(i) for all i < size on threads; what one of them throws is thrown when all are done.
+// Call work(i) for all i < size on threads.
 template <typename Work>
 void ForEach(std::size_t size, const Work& work)
 {
-  std::vector<std::exception_ptr> failures(size);
   const auto run = [&](vtkIdType first, vtkIdType last)
   {
     for (vtkIdType i = first; i < last; ++i)
     {
-      try
-      {
-        work(static_cast<std::size_t>(i));
-      }
-      catch (...)
-      {
-        failures[i] = std::current_exception();
-      }
+      work(static_cast<std::size_t>(i));
     }
   };
   Threads::For(0, static_cast<vtkIdType>(size), 1, run);
-  for (const std::exception_ptr& failure : failures)
-  {
-    if (failure)
-    {
-      std::rethrow_exception(failure);
-    }
-  }
 }
 } // namespace
 

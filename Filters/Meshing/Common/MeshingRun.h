@@ -5,27 +5,18 @@
 #define MeshingRun_h
 
 #include "Common/Heartbeat.h"
+#include "Shared/Attempt.h"
 #include "Shared/Outcome.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <exception>
-#include <new>
-#include <string>
-
 namespace LightTransport
 {
 namespace MeshingRun
 {
-/// What to say when memory runs out, and when a library gives up.
-struct Advice
-{
-  const char* WithoutMemory;
-  const char* Failure;
-  const char* Remedy;
-};
+using LightTransport::Advice;
 
 /// Takes the steps of a filter, each of which returns an Outcome, as long as all before are done.
 /// What CGAL, Eigen and a lack of memory throw ends here and becomes a failure.
@@ -39,15 +30,16 @@ public:
   {
     if (this->Result)
     {
-      this->Result = this->Try(step);
+      this->Result = Attempt([&step]() { return HearAbort(step); }, this->WhatToDo);
     }
   }
 
   const Outcome& GetOutcome() const { return this->Result; }
 
 private:
+  /// A job that nobody wants any more ends by an exception of its own.
   template <typename Step>
-  Outcome Try(const Step& step) const
+  static Outcome HearAbort(const Step& step)
   {
     try
     {
@@ -56,16 +48,6 @@ private:
     catch (const Heartbeat::Stopped&)
     {
       return Outcome::Aborted();
-    }
-    catch (const std::bad_alloc&)
-    {
-      return Outcome::Failed(
-        std::string("Not enough memory: ") + this->WhatToDo.WithoutMemory + ".");
-    }
-    catch (const std::exception& problem)
-    {
-      return Outcome::Failed(std::string(this->WhatToDo.Failure) + " (" + problem.what() +
-        "): " + this->WhatToDo.Remedy + ".");
     }
   }
 

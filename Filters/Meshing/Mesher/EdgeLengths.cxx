@@ -45,7 +45,7 @@ double EdgeLengths::GetLengthForCurvature(double curvature, double error, double
   // Written so that curvature 0 gives the longest length and a negative root the shortest.
   const double length2 = curvature > 0.0 ? 6.0 * error / curvature - 3.0 * error * error
                                          : std::numeric_limits<double>::max();
-  return std::min(std::max(std::sqrt(std::max(length2, 0.0)), shortest), longest);
+  return std::min(std::max(std::sqrt(std::max(0.0, length2)), shortest), longest);
 }
 
 //------------------------------------------------------------------------------

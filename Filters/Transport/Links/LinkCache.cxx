@@ -41,14 +41,16 @@ Outcome LinkCache::Update(const PatchScene& scene, const LinkBuilder& builder, c
   {
     return Outcome::Done();
   }
+  // The old ones go first, since both may not fit into memory.
   this->Kept = Links();
-  this->Kept.Fingerprint = scene.GetFingerprint();
-  Outcome built = builder.Build(scene, ranks, monitor, this->Kept);
-  if (!built)
+  Links links;
+  links.Fingerprint = scene.GetFingerprint();
+  Outcome built = builder.Build(scene, ranks, monitor, links);
+  if (built)
   {
-    this->Kept = Links();
+    this->Kept = std::move(links);
+    this->Key = key;
   }
-  this->Key = key;
   return built;
 }
 

@@ -19,27 +19,44 @@ TransportRun::TransportRun(const RunPorts& ports)
 TransportRun::~TransportRun() = default;
 
 //------------------------------------------------------------------------------
+const Advice& TransportRun::GetAdvice()
+{
+  static constexpr Advice advice = {
+    "use fewer patches (a larger TargetEdgeLength in vtkPatchMesher), or more memory",
+    "A library gave up", "try another mesh, and report this if it remains"
+  };
+  return advice;
+}
+
+//------------------------------------------------------------------------------
 Outcome TransportRun::Go()
 {
   Outcome outcome = Outcome::Done();
-  for (const auto step : { &TransportRun::Check, &TransportRun::Gather, &TransportRun::Read,
-         &TransportRun::Link, &TransportRun::Compute })
+  for (const auto step : { &TransportRun::Check, &TransportRun::Gather, &TransportRun::WarnOfScene,
+         &TransportRun::Read, &TransportRun::Link, &TransportRun::Compute, &TransportRun::Finish })
   {
-    outcome = outcome ? (this->*step)() : outcome;
-    if (outcome && step == &TransportRun::Gather)
-    {
-      this->WarnOnce(this->Scene.GetWarnings());
-    }
-  }
-  if (outcome)
-  {
-    this->Write();
-    if (this->Filter->GetProgress() < 1.0)
-    {
-      this->Filter->UpdateProgress(1.0);
-    }
+    outcome =
+      outcome ? this->AllRanks.Attempt([&]() { return (this->*step)(); }, GetAdvice()) : outcome;
   }
   return outcome;
+}
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::WarnOfScene()
+{
+  this->WarnOnce(this->Scene.GetWarnings());
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::Finish()
+{
+  this->Write();
+  if (this->Filter->GetProgress() < 1.0)
+  {
+    this->Filter->UpdateProgress(1.0);
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

@@ -42,6 +42,9 @@ public:
   /// All steps in their order, until one is not done. The outcome is the same on all ranks.
   Outcome Go();
 
+  /// What to say where a transport filter gets no memory, or a library gives up.
+  static const Advice& GetAdvice();
+
 protected:
   /// Properties that contradict each other or are out of range, before any work.
   virtual Outcome Check() { return Outcome::Done(); }
@@ -78,6 +81,10 @@ protected:
   Ranks AllRanks;
   FilterProgress Progress;
   PatchScene Scene;
+
+private:
+  Outcome WarnOfScene();
+  Outcome Finish();
 };
 } // namespace LightTransport
 

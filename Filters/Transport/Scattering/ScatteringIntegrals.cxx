@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringIntegrals.h"
 
+#include "Scattering/EdgeNeighbours.h"
+#include "Scattering/ParallelTriangles.h"
 #include "Shared/GaussLegendre.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 namespace LightTransport
@@ -25,6 +28,10 @@ constexpr int PlaceBits = MantissaBits - PieceBits;
 /// Cuts after which the rules have the last word: sides are 2^-8 of what they were. Patches wider
 /// than some 300 mean free paths then get a worse error estimate, but never endless work.
 constexpr int MaximumDepth = 16;
+
+/// A common edge, or an extent across, of more than this many of the profile's smallest scales
+/// would be cut into as many parts, and more: exact along the radius is cheaper.
+constexpr double WidePair = 16.0;
 
 /// Of the rough value of a pair of triangles that has to be cut.
 constexpr double RoughTolerance = 0.1;
@@ -293,7 +300,7 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
   goal.Relative = this->RelativeTolerance;
   goal.Absolute = tolerance;
   Sum sum;
-  if (!this->TryRules(a, b, goal, false, sum))
+  if (!this->TryRules(a, b, goal, false, sum) && !this->AddWidePair(a, b, tolerance, sum))
   {
     // A rough value first. The errors of the many parts that a fine one takes differ in sign and
     // add up like random numbers: of a total error e, a part with the share s of the value may have
@@ -310,6 +317,65 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
   }
   result.Value += sum.Value;
   result.Error += std::sqrt(sum.SquaredError);
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, double tolerance,
+  Sum& sum) const
+{
+  const double scale = std::sqrt(this->SquaredScale);
+  const double wide = WidePair * scale;
+  EdgeNeighbours neighbours;
+  ParallelTriangles sheets;
+  std::function<Bands(const GaussLegendre&)> integrate;
+  if (neighbours.Set(a.Corners, b.Corners) && neighbours.GetSharedLength() >= wide)
+  {
+    integrate = [&](const GaussLegendre& rule)
+    {
+      Bands value = Bands::Zero();
+      neighbours.Integrate(this->Profiles, rule, value.data());
+      for (int band = 0; band < NumberOfBands; ++band)
+      {
+        value[band] *= this->InverseTotals[band];
+      }
+      return value;
+    };
+  }
+  else if (std::min(a.Radius, b.Radius) >= wide && sheets.Set(a.Corners, b.Corners, scale))
+  {
+    integrate = [&](const GaussLegendre& rule)
+    {
+      return sheets.Integrate([this](double squaredDistance)
+        { return Bands(this->Evaluate(squaredDistance).cast<double>()); },
+        rule);
+    };
+  }
+  return integrate && RefineRule(integrate, this->RelativeTolerance, tolerance, sum);
+}
+
+//------------------------------------------------------------------------------
+// The difference from the rule before is the error.
+bool ScatteringIntegrals::RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
+  double relativeTolerance, double tolerance, Sum& sum)
+{
+  static const GaussLegendre rules[] = { GaussLegendre(3), GaussLegendre(5), GaussLegendre(8),
+    GaussLegendre(12), GaussLegendre(18) };
+  Bands value = Bands::Zero();
+  double error = 0.0;
+  for (const GaussLegendre& rule : rules)
+  {
+    const Bands before = value;
+    value = integrate(rule);
+    const Bands change = (value - before).abs();
+    error = change.maxCoeff();
+    if ((change <= relativeTolerance * value + tolerance).all())
+    {
+      break;
+    }
+  }
+  sum.Value += value;
+  sum.SquaredError += error * error;
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -9,7 +9,9 @@
  * by r in direction theta overlap in a similar triangle, of area A (1 - r gamma(theta))^2, which
  * leaves one integral, over theta;
  * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other;
- * where the largest is not enough the larger triangle is cut in four.
+ * where the largest is not enough the larger triangle is cut in four;
+ * - two with a long edge in common (EdgeNeighbours), and two wide ones in parallel planes
+ * (ParallelTriangles): exact along the radius.
  *
  * All values are divided by the profiles' totals, so that one tolerance serves all bands.
  */
@@ -17,11 +19,13 @@
 #define ScatteringIntegrals_h
 
 #include "Scattering/ScatteringProfile.h"
+#include "Shared/GaussLegendre.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -104,6 +108,10 @@ private:
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
+  /// For what cannot be cut at a bounded price; false for all else.
+  bool AddWidePair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
+  static bool RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
+    double relativeTolerance, double tolerance, Sum& sum);
   void Tabulate(double maximumDistance);
 
   const ScatteringProfiles& Profiles;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/CoincidentFaces.h"
 
+#include "Geometry/FlatRegion.h"
 #include "Scene/PatchScene.h"
 #include "Scene/PolygonList.h"
 
@@ -17,50 +18,11 @@ namespace LightTransport
 namespace
 {
 using Vector = PatchScene::Vector;
-using Flat = Eigen::Vector2d;
-using Region = std::vector<Flat>; // convex, counter-clockwise
+using FlatRegion::Region;
 
 // Neighbours overlap by what rounding does to their common edge; less than this part of the smaller
 // one is no overlap either.
 constexpr double LeastPart = 1e-6;
-
-//------------------------------------------------------------------------------
-double GetArea(const Region& region)
-{
-  double area = 0.0;
-  for (std::size_t k = 2; k < region.size(); ++k)
-  {
-    const Flat a = region[k - 1] - region[0];
-    const Flat b = region[k] - region[0];
-    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
-  }
-  return area;
-}
-
-//------------------------------------------------------------------------------
-// The part to the left of the line from a to b.
-Region Clip(const Region& region, const Flat& a, const Flat& b)
-{
-  const auto getHeight = [&](const Flat& point)
-  { return (b.x() - a.x()) * (point.y() - a.y()) - (b.y() - a.y()) * (point.x() - a.x()); };
-  Region clipped;
-  for (std::size_t k = 0; k < region.size(); ++k)
-  {
-    const Flat& from = region[k];
-    const Flat& to = region[(k + 1) % region.size()];
-    const double start = getHeight(from);
-    const double end = getHeight(to);
-    if (start >= 0.0)
-    {
-      clipped.push_back(from);
-    }
-    if ((start > 0.0 && end < 0.0) || (start < 0.0 && end > 0.0))
-    {
-      clipped.push_back(from + start / (start - end) * (to - from));
-    }
-  }
-  return clipped;
-}
 
 //------------------------------------------------------------------------------
 /// Patches in the plane of one of them.
@@ -118,14 +80,10 @@ bool AreInOnePlane(const PatchScene& scene, vtkIdType i, vtkIdType j)
 bool Overlap(const PatchScene& scene, vtkIdType i, vtkIdType j)
 {
   const Plane plane(scene, i);
-  Region common = plane.Project(i);
-  const Region other = plane.Project(j);
-  for (std::size_t k = 0; k < other.size() && !common.empty(); ++k)
-  {
-    common = Clip(common, other[k], other[(k + 1) % other.size()]);
-  }
+  const Region common = FlatRegion::Clip(plane.Project(i), plane.Project(j));
   const double rounding = std::max(scene.GetEdgeRounding(i), scene.GetEdgeRounding(j));
-  return GetArea(common) > std::min(GetNoise(scene, i, rounding), GetNoise(scene, j, rounding));
+  return FlatRegion::GetArea(common) >
+    std::min(GetNoise(scene, i, rounding), GetNoise(scene, j, rounding));
 }
 
 //------------------------------------------------------------------------------
@@ -211,14 +169,14 @@ double GetUncovered(const PatchScene& scene, vtkIdType patch, const std::vector<
     {
       for (std::size_t k = 0; k < cover.size() && !region.empty(); ++k)
       {
-        const Flat& a = cover[k];
-        const Flat& b = cover[(k + 1) % cover.size()];
-        Region outside = Clip(region, b, a);
-        if (GetArea(outside) > least)
+        const FlatRegion::Point& a = cover[k];
+        const FlatRegion::Point& b = cover[(k + 1) % cover.size()];
+        Region outside = FlatRegion::Clip(region, b, a);
+        if (FlatRegion::GetArea(outside) > least)
         {
           beside.push_back(std::move(outside));
         }
-        region = Clip(region, a, b);
+        region = FlatRegion::Clip(region, a, b);
       }
     }
     left.swap(beside);
@@ -226,7 +184,7 @@ double GetUncovered(const PatchScene& scene, vtkIdType patch, const std::vector<
   double area = 0.0;
   for (const Region& region : left)
   {
-    area += GetArea(region);
+    area += FlatRegion::GetArea(region);
   }
   return area;
 }

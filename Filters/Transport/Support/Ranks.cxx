@@ -7,6 +7,22 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
+void Ranks::Meet(bool canGoOn) const
+{
+  if (!this->AreSeveral())
+  {
+    return;
+  }
+  const int mine = canGoOn ? 0 : 1;
+  int any = 0;
+  this->Controller->AllReduce(&mine, &any, 1, vtkCommunicator::MAX_OP);
+  if (canGoOn && any != 0)
+  {
+    throw OtherFailed();
+  }
+}
+
+//------------------------------------------------------------------------------
 Outcome Ranks::Agree(const Outcome& mine) const
 {
   if (!this->AreSeveral())

@@ -19,9 +19,11 @@ from vtklighttransport.report.methods import Solver, find_methods
 from vtklighttransport.report.page import write_page
 from vtklighttransport.report.record import Record
 from vtklighttransport.report.study import Study
+from vtklighttransport.shell.interrupts import tidying_up
 from vtklighttransport.shell.stages import Failure
 
 
+@tidying_up()
 def run(options, messages, make_radiosity, surface):
     """Measures, then writes the page, also of what an interrupted run has measured.
 
@@ -45,8 +47,6 @@ def run(options, messages, make_radiosity, surface):
     except OSError as error:
         name = error.filename or options.folder
         raise Failure(f"cannot write {name}: {error.strerror}") from error
-    finally:
-        record.close()
     if record.interrupted:
         raise KeyboardInterrupt
     return f"{os.path.join(options.folder, 'report.html')}: {len(record.rows)} rows"

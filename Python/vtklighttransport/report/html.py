@@ -5,6 +5,8 @@
 import os
 from html import escape
 
+from vtklighttransport.replacement import replace_file
+
 STYLE = """
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 60em; margin: 0 auto; }
 body { padding: 0 1em 2em; }
@@ -71,12 +73,10 @@ class Page:
         if not self.draws_figures:
             return
         file = os.path.join(self.folder, name)
-        if os.path.exists(file):
-            os.remove(file)
         draw(file)
         if self.messages.errors:
             self.leave_out_figures(self.messages.take())
-            # Whatever there is, it is blank.
+            # Whatever there is, it is blank, or of another run.
             if os.path.exists(file):
                 os.remove(file)
             return
@@ -85,9 +85,9 @@ class Page:
 
     def write(self, file):
         body = "\n".join(self.parts)
-        with open(os.path.join(self.folder, file), "w", encoding="utf-8") as stream:
-            stream.write(
-                '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
-                '<meta name="viewport" content="width=device-width, initial-scale=1"/>\n'
-                f"<title>{escape(self.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
-                f"<h1>{escape(self.title)}</h1>\n{body}\n</body>\n</html>\n")
+        text = (
+            '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1"/>\n'
+            f"<title>{escape(self.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+            f"<h1>{escape(self.title)}</h1>\n{body}\n</body>\n</html>\n")
+        replace_file(os.path.join(self.folder, file), text.encode())

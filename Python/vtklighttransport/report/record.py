@@ -4,9 +4,12 @@
 
 import csv
 import dataclasses
+import io
 import os
 
 import numpy
+
+from vtklighttransport.replacement import replace_file
 
 # Column of the CSV: heading, alignment and format in print.
 COLUMNS = {
@@ -41,7 +44,7 @@ class Solution:
 
 
 class Record:
-    """Rows are written and shown as they come."""
+    """Rows are written and shown as they come: whatever ends the run, the file has those so far."""
 
     def __init__(self, folder, quiet):
         self.file = os.path.join(folder, "report.csv")
@@ -53,21 +56,19 @@ class Record:
         self.solution = None
         # By method: the coarsest result on the largest size, and its error on each patch.
         self.worst = {}
-        self.stream = None
-        self.writer = None
+        self.table = io.StringIO(newline="")
+        self.writer = csv.DictWriter(self.table, COLUMNS)
 
     def begin_table(self):
-        self.stream = open(self.file, "w", newline="", encoding="utf-8")
-        self.writer = csv.DictWriter(self.stream, COLUMNS)
         self.writer.writeheader()
-        self.stream.flush()
+        self.write_table()
         self.show(format(title, align) for title, align, _form in COLUMNS.values())
 
     def add_row(self, row):
         self.rows.append(row)
         self.writer.writerow({name: f"{value:.6g}" if isinstance(value, float) else value
                               for name, value in row.items()})
-        self.stream.flush()
+        self.write_table()
         self.show(format(print_value(row, name), align)
                   for name, (_title, align, _form) in COLUMNS.items())
 
@@ -88,9 +89,8 @@ class Record:
         if not self.quiet:
             print(" ".join(cells).rstrip(), flush=True)
 
-    def close(self):
-        if self.stream:
-            self.stream.close()
+    def write_table(self):
+        replace_file(self.file, self.table.getvalue().encode())
 
 
 def print_value(row, name):

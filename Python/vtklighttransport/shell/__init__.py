@@ -9,4 +9,5 @@ lights      lights in place of an array of irradiance
 enclosure   what radiosity and its report ask of a scene
 files       surfaces from files and into files
 stages      filters with progress, errors as plain lines
+interrupts  Ctrl-C
 """

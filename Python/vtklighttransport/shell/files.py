@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces from files and into files."""
 
+import errno
 import importlib
 import os
 
+from vtklighttransport.replacement import replace_file
+from vtklighttransport.shell.interrupts import tidying_up
 from vtklighttransport.shell.stages import Failure, Stage
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -63,27 +66,29 @@ def check_output(options):
 
 
 def write_surface(file, surface):
-    """Whether the file could be written."""
+    """A .vtp file; an OSError tells what prevents it.
+
+    VTK's writer ends the process where a disk is full: it gets no disk to write to.
+    """
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(surface)
-    writer.SetFileName(file)
     # Encoded: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
     writer.SetDataModeToBinary()
-    return writer.Write() == 1
+    writer.WriteToOutputStringOn()
+    if writer.Write() != 1:
+        raise OSError(errno.EIO, "VTK cannot write the surface", file)
+    replace_file(file, writer.GetOutputString().encode())
 
 
+@tidying_up()
 def write(options, messages, data):
     """The result in its file, or what was there before."""
-    unfinished = options.output + ".part"
     try:
-        if not write_surface(unfinished, data) or messages.errors:
-            raise Failure(f"cannot write {options.output}")
-        os.replace(unfinished, options.output)
+        write_surface(options.output, data)
     except OSError as error:
         raise Failure(f"cannot write {options.output}: {error.strerror}") from error
-    finally:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
+    if messages.errors:
+        raise Failure(f"cannot write {options.output}")
 
 
 def write_patches(options, messages, result, text):

@@ -7,6 +7,7 @@ import signal
 import sys
 import time
 
+from vtklighttransport.shell.interrupts import ends_process
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import (
     VTK_STRING, vtkLogger, vtkOutputWindow, vtkStringOutputWindow)
@@ -76,10 +77,13 @@ class Stage:
     def run(self, messages, data=None):
         if data is not None:
             self.algorithm.SetInputDataObject(0, data)
-        before = signal.signal(signal.SIGINT, self.on_interrupt)
         begin = time.monotonic()
-        self.algorithm.Update()
-        signal.signal(signal.SIGINT, before)
+        if ends_process():
+            self.algorithm.Update()
+        else:
+            before = signal.signal(signal.SIGINT, self.on_interrupt)
+            self.algorithm.Update()
+            signal.signal(signal.SIGINT, before)
         if self.bar:
             print(file=sys.stderr)
         if self.aborted:

@@ -33,8 +33,13 @@ struct Case
     this->B = Cut(b, a[0], GetNormal(a));
     for (std::size_t k = 2; k < polygons.size() && this->IsFacing(); ++k)
     {
-      this->Occluders.push_back(this->Scene.GetPatch(static_cast<vtkIdType>(k)));
-      Corners part = GetCorners(this->Scene, this->Occluders.back());
+      const vtkIdType occluder = this->Scene.GetPatch(static_cast<vtkIdType>(k));
+      if (occluder < 0)
+      {
+        continue; // it lies on another
+      }
+      this->Occluders.push_back(occluder);
+      Corners part = GetCorners(this->Scene, occluder);
       part = Cut(part, a[0], GetNormal(a));
       part = part.empty() ? part : Cut(part, b[0], GetNormal(b));
       if (!part.empty())

@@ -5,6 +5,7 @@
 #include "LightTransportTesting.h"
 #include "Scattering/DipoleProfile.h"
 #include "Scattering/ScatteringIntegrals.h"
+#include "vtkMath.h"
 
 using namespace LightTransport;
 
@@ -134,7 +135,7 @@ void TestPairs()
 void TestSelf()
 {
   const ScatteringProfiles profiles = MakeProfiles();
-  for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0 })
+  for (const double size : { 0.003, 0.05, 0.5, 3.0, 20.0, 300.0, 1e4, 1e6 })
   {
     const ScatteringIntegrals integrals(profiles, 20.0 * size, Tolerance);
     const Vector a = size * Origin, b = size * Side, c = size * Vector(0.8, 0.3, 0.4);
@@ -194,6 +195,99 @@ void TestWidePatch()
       "crossing the edges, band " + std::to_string(band));
   }
 }
+
+//------------------------------------------------------------------------------
+/// Across an edge on which two wide patches lie: coplanar ones exchange 2 int R r^2 dr per length.
+/// Where one of them is cut through its far corner, each part has a piece of the edge: together
+/// they exchange the same, at any angle and width.
+void TestWideNeighbours()
+{
+  const ScatteringProfiles profiles = MakeProfiles();
+  for (const double size : { 10.0, 100.0, 1e3, 1e5 })
+  {
+    const ScatteringIntegrals integrals(profiles, 3.0 * size, Tolerance);
+    const Triangle first(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
+    for (const double tilt : { 0.0, 0.3, 2.0, -1.2 })
+    {
+      const Vector apex = size * Vector(0.6, -0.8 * std::cos(tilt), -0.8 * std::sin(tilt));
+      const Vector middle = size * Vector(0.35, 0.0, 0.0);
+      const double tolerance = 1e-9 * size;
+      Result3 whole;
+      Result3 parts;
+      integrals.AddPair(first, { size * Side, size * Origin, apex }, tolerance, whole);
+      integrals.AddPair(first, { size * Side, middle, apex }, tolerance, parts);
+      integrals.AddPair({ middle, size * Origin, apex }, first, tolerance, parts);
+      for (int band = 0; band < 3; ++band)
+      {
+        const std::string what = "size " + std::to_string(size) + ", tilt " + std::to_string(tilt) +
+          ", band " + std::to_string(band);
+        CheckClose(parts.Value[band], whole.Value[band], 4.0 * Tolerance, "parts, " + what);
+        double moments[3];
+        profiles[band]->GetMoments(1e5, moments);
+        const double crossing = 2.0 * size * moments[1] / profiles[band]->GetTotal();
+        if (tilt == 0.0)
+        {
+          CheckClose(whole.Value[band], crossing, 20.0 / size + 1e-3, "crossing, " + what);
+        }
+      }
+      Check(whole.Error <= 2.0 * Tolerance * whole.Value.maxCoeff(),
+        "error estimate within the tolerance, size " + std::to_string(size));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Both sides of a sheet: against brute force where that can tell, and its parts make up the whole.
+/// A patch far wider than the distance gives what lies opposite all but what passes beside it.
+void TestSheets()
+{
+  const ScatteringProfiles profiles = MakeProfiles();
+  const double distance = 2.0;
+  const Vector across(0.0, 0.0, distance);
+  for (const double size : { 10.0, 1e3, 1e5 })
+  {
+    const ScatteringIntegrals integrals(profiles, 3.0 * size, Tolerance);
+    const Triangle first(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
+    for (const double turn : { 0.0, 0.5, vtkMath::Pi() })
+    {
+      const auto place = [&](double x, double y)
+      {
+        const double u = x - 0.5, v = y - 0.3;
+        return Vector(size *
+            Vector(0.5 + u * std::cos(turn) - v * std::sin(turn),
+              0.3 + u * std::sin(turn) + v * std::cos(turn), 0.0) +
+          across);
+      };
+      const Vector p = place(0.0, 0.0), q = place(0.4, 0.9), r = place(1.0, 0.0);
+      const Vector middle = 0.3 * p + 0.7 * r;
+      const double tolerance = 1e-9 * size * size;
+      Result3 whole;
+      Result3 parts;
+      integrals.AddPair(first, { p, q, r }, tolerance, whole);
+      integrals.AddPair(first, { p, q, middle }, tolerance, parts);
+      integrals.AddPair({ middle, q, r }, first, tolerance, parts);
+      for (int band = 0; band < 3; ++band)
+      {
+        const std::string what = "sheet, size " + std::to_string(size) + ", turn " +
+          std::to_string(turn) + ", band " + std::to_string(band);
+        CheckClose(parts.Value[band], whole.Value[band], 4.0 * Tolerance, "parts, " + what);
+        if (size < 20.0)
+        {
+          const double expected = BruteForce(*profiles[band], first, Triangle(p, q, r), 60);
+          CheckClose(whole.Value[band], expected, 1e-3, "brute force, " + what);
+        }
+        else if (turn == 0.0)
+        {
+          CheckClose(whole.Value[band],
+            first.Area * profiles[band]->GetTail(distance) / profiles[band]->GetTotal(),
+            60.0 / size, "opposite, " + what);
+        }
+      }
+      Check(whole.Error <= 2.0 * Tolerance * whole.Value.maxCoeff(),
+        "error estimate within the tolerance, size " + std::to_string(size));
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -202,5 +296,7 @@ int TestScatteringIntegrals(int, char*[])
   TestPairs();
   TestSelf();
   TestWidePatch();
+  TestWideNeighbours();
+  TestSheets();
   return Result();
 }

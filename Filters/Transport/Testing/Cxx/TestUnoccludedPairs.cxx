@@ -370,6 +370,10 @@ void TestPairs(Kind kind, int count)
     {
       return;
     }
+    if (scene.GetAreas().size() < 2)
+    {
+      continue; // one lies on the other
+    }
     const double tolerance = std::pow(10.0, -2.0 * (trial % 5 + 1));
     const PairIntegrals::Estimate result = UnoccludedPairs(scene, tolerance).Compute(0, 1);
     const bool swap = scene.GetAreas()[0] > scene.GetAreas()[1];

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// The border to what throws: memory that is refused, and the libraries. No exception leaves a
+/// filter, since hosts do not expect any.
+#ifndef Attempt_h
+#define Attempt_h
+
+#include "Shared/Outcome.h"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace LightTransport
+{
+/// What to say when memory runs out, and when a library gives up.
+struct Advice
+{
+  const char* WithoutMemory;
+  const char* Failure;
+  const char* Remedy;
+};
+
+/// Take a step, which returns an Outcome; what it throws becomes a failure.
+template <typename Step>
+Outcome Attempt(const Step& step, const Advice& advice)
+{
+  const auto failWithoutMemory = [&advice]()
+  { return Outcome::Failed(std::string("Not enough memory: ") + advice.WithoutMemory + "."); };
+  try
+  {
+    return step();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return failWithoutMemory();
+  }
+  catch (const std::length_error&)
+  {
+    return failWithoutMemory();
+  }
+  catch (const std::exception& problem)
+  {
+    return Outcome::Failed(
+      std::string(advice.Failure) + " (" + problem.what() + "): " + advice.Remedy + ".");
+  }
+}
+} // namespace LightTransport
+
+#endif
