@@ -173,7 +173,7 @@ struct vtkSurfaceAtlas::Job
   Monitor Watcher;
   double Start = vtkTimerLog::GetUniversalTime();
   TriangleSoup Soup;
-  std::unique_ptr<AtlasSurface> Surface;
+  AtlasSurface Surface;
   std::unique_ptr<AtlasQuadtree> Quadtree;
 };
 
@@ -234,20 +234,24 @@ Outcome vtkSurfaceAtlas::CheckProperties() const
 //------------------------------------------------------------------------------
 Outcome vtkSurfaceAtlas::Unfold(Job& job) const
 {
-  if (!job.Watcher.Report(0.05))
-  {
-    return Outcome::Aborted();
-  }
-  job.Surface = std::make_unique<AtlasSurface>(job.Soup);
-  job.Quadtree =
-    std::make_unique<AtlasQuadtree>(*job.Surface, this->Resolution, this->MaximumStretch);
-  return job.Quadtree->Build(job.Watcher.GetStage(0.05, 0.85));
+  return Watch::Run(job.Watcher.GetStage(0.05, 0.85),
+    [&](Watch& watch)
+    {
+      watch.Report(0.0);
+      if (Outcome built = job.Surface.Build(job.Soup, watch); !built)
+      {
+        return built;
+      }
+      job.Quadtree =
+        std::make_unique<AtlasQuadtree>(job.Surface, this->Resolution, this->MaximumStretch);
+      return job.Quadtree->Build(watch);
+    });
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkSurfaceAtlas::Write(const Job& job) const
 {
-  const AtlasOutput writer(job.Input, job.Soup, *job.Surface, *job.Quadtree);
+  const AtlasOutput writer(job.Input, job.Soup, job.Surface, *job.Quadtree);
   writer.WriteSurface(job.Output);
   writer.WriteTable(job.Charts);
   if (!job.Watcher.Report(0.9))

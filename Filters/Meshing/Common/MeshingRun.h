@@ -4,6 +4,7 @@
 #ifndef MeshingRun_h
 #define MeshingRun_h
 
+#include "Common/Heartbeat.h"
 #include "Shared/Outcome.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
@@ -51,6 +52,10 @@ private:
     try
     {
       return step();
+    }
+    catch (const Heartbeat::Stopped&)
+    {
+      return Outcome::Aborted();
     }
     catch (const std::bad_alloc&)
     {
