@@ -6,7 +6,7 @@
 
 #include "Common/Heartbeat.h"
 #include "Shared/Outcome.h"
-#include "vtkDataSet.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -75,10 +75,11 @@ private:
 
 //------------------------------------------------------------------------------
 /// Of data distributed over several processes a piece may be empty, which is no error.
-inline bool IsEmptyPiece(vtkDataSet* input, vtkInformation* output)
+inline bool IsEmptyPiece(vtkDataObject* input, vtkInformation* output)
 {
   vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return input->GetNumberOfCells() == 0 && output->Has(pieces) && output->Get(pieces) > 1;
+  return input->GetNumberOfElements(vtkDataObject::CELL) == 0 && output->Has(pieces) &&
+    output->Get(pieces) > 1;
 }
 } // namespace MeshingRun
 } // namespace LightTransport

@@ -3,7 +3,7 @@
 #include "ViewFactors/ViewFactorsFile.h"
 
 #include "Links/Links.h"
-#include "Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 
 #include <vtksys/SystemInformation.hxx>
 
