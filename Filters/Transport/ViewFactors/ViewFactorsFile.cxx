@@ -4,7 +4,7 @@
 
 #include "Links/Links.h"
 #include "Shared/FileReplacement.h"
-#include "Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 
 #include <algorithm>
 #include <cerrno>
