@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/OpenEXRFileCheck.h"
 
-#include "Transport/Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 
 #include <algorithm>
 #include <array>
