@@ -157,6 +157,7 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Repair: " << (this->Repair ? "on" : "off") << "\n";
   os << indent << "FillHoles: " << (this->FillHoles ? "on" : "off") << "\n";
   os << indent << "HoleSize: " << this->HoleSize << "\n";
+  os << indent << "WeldTolerance: " << this->WeldTolerance << "\n";
   os << indent << "SelfIntersections: " << this->SelfIntersections << "\n";
   os << indent << "FlipNormals: " << (this->FlipNormals ? "on" : "off") << "\n";
 }
@@ -182,6 +183,10 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   steps.Take([&]() { return this->ReadSurface(job); });
   steps.Take([&]() { return this->Remesh(job); });
   steps.Take([&]() { return this->Write(job); });
+  if (const std::string repairs = job.Counts.Describe(); !repairs.empty())
+  {
+    vtkWarningMacro(<< repairs);
+  }
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)
   {
@@ -201,6 +206,7 @@ Outcome vtkPatchMesher::CheckProperties() const
   const Outcome lengths[] = { CheckLength("TargetEdgeLength", this->TargetEdgeLength,
                                 "the diagonal of the bounding box / 50"),
     CheckLength("HoleSize", this->HoleSize, "the diagonal of the bounding box / 100"),
+    CheckLength("WeldTolerance", this->WeldTolerance, "what the coordinates are worth"),
     CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100"),
     CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10") };
   for (const Outcome& checked : lengths)
@@ -289,16 +295,14 @@ Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<d
 //------------------------------------------------------------------------------
 Outcome vtkPatchMesher::ReadSurface(Job& job) const
 {
-  if (Outcome read = job.Soup.Read(job.Input); !read)
+  // The repair joins what belongs together; without it points with equal coordinates are one.
+  if (Outcome read = job.Soup.Read(job.Input, !this->Repair, job.Watcher.GetStage(0.0, 0.02));
+      !read)
   {
     return read;
   }
-  if (!job.Watcher.Report(0.02))
-  {
-    return Outcome::Aborted();
-  }
   const SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
-    static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
+    this->WeldTolerance, static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
   return SurfaceRepair::Run(settings, job.Watcher.GetStage(0.02, 0.1), job.Soup, job.Counts);
 }
 

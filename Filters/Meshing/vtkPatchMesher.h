@@ -40,14 +40,19 @@
  *   points were merged, the values of the first one count;
  * - the input's field data, and one-tuple field data arrays "NumberOfPatches",
  *   "NumberOfDroppedTriangles" (degenerate, duplicate or crumbs), "NumberOfReversedTriangles",
- *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points),
- *   "NumberOfFilledHoles", "NumberOfSelfIntersections" (pairs of triangles of one connected
- *   component that intersect, before they are resolved), "NumberOfIntersectionsBetweenComponents"
- *   (pairs of triangles of two components, which are no defect; vtkIdTypeArray each)
- *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used; if SizeField is Array, the
- *   one with which as many equal triangles cover the surface).
+ *   "NumberOfSplitPoints" (points beyond the first in places where surfaces only touch),
+ *   "NumberOfWeldedPoints" (points that differed by no more than WeldTolerance from one that they
+ *   became), "NumberOfSplitEdges" (edges cut where a corner of another triangle lies on them),
+ *   "NumberOfSeamEdges" (along which a surface with one side only, as a Moebius band is, was cut),
+ *   "NumberOfSkippedPolygons" (whose border crosses itself), "NumberOfFilledHoles",
+ * "NumberOfSelfIntersections" (pairs of triangles of one connected component that intersect, before
+ * they are resolved), "NumberOfIntersectionsBetweenComponents" (pairs of triangles of two
+ * components, which are no defect; vtkIdTypeArray each) and "TargetEdgeLength" (vtkDoubleArray, the
+ * length that was used; if SizeField is Array, the one with which as many equal triangles cover the
+ * surface).
  *
- * Lengths are in the input's unit. The same input gives the same output.
+ * Lengths are in the input's unit. The same input gives the same output. All that the repair
+ * changed is summed up in one warning.
  *
  * Errors, each with an empty output: no polygons, coordinates that are not finite, a negative or
  * infinite length, a MinimumEdgeLength above TargetEdgeLength, a Grading that is not positive, a
@@ -218,6 +223,17 @@ public:
   vtkGetMacro(HoleSize, double);
   ///@}
 
+  ///@{
+  /**
+   * How far apart points may be, in the input's unit, that the repair takes for one; also how far a
+   * corner may be from an edge that it lies on. Only points at borders are welded, where that joins
+   * two edges, and never points more than a quarter of the edges there apart. Default 0: what the
+   * coordinates are worth by their type, size and number of digits.
+   */
+  vtkSetMacro(WeldTolerance, double);
+  vtkGetMacro(WeldTolerance, double);
+  ///@}
+
   enum
   {
     SELF_INTERSECTIONS_RESOLVE = 0,
@@ -269,6 +285,7 @@ protected:
   bool Repair = true;
   bool FillHoles = true;
   double HoleSize = 0.0;
+  double WeldTolerance = 0.0;
   int SelfIntersections = SELF_INTERSECTIONS_RESOLVE;
   bool FlipNormals = false;
 

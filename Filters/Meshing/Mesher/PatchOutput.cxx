@@ -110,6 +110,10 @@ void PatchOutput::WriteSummary(const RepairCounts& counts, double length, vtkPol
   add("NumberOfDroppedTriangles", counts.NumberOfDroppedTriangles);
   add("NumberOfReversedTriangles", counts.NumberOfReversedTriangles);
   add("NumberOfSplitPoints", counts.NumberOfSplitPoints);
+  add("NumberOfWeldedPoints", counts.NumberOfWeldedPoints);
+  add("NumberOfSplitEdges", counts.NumberOfSplitEdges);
+  add("NumberOfSeamEdges", counts.NumberOfSeamEdges);
+  add("NumberOfSkippedPolygons", counts.NumberOfSkippedPolygons);
   add("NumberOfFilledHoles", counts.NumberOfFilledHoles);
   add("NumberOfSelfIntersections", counts.NumberOfSelfIntersections);
   add("NumberOfIntersectionsBetweenComponents", counts.NumberOfIntersectionsBetweenComponents);
