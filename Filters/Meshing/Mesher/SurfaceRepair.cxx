@@ -17,6 +17,10 @@ namespace
 {
 using SurfaceRepair::Settings;
 
+// Self-intersections that are tried to be resolved: so many, and a part of the triangles.
+constexpr double MostIntersections = 100.0;
+constexpr double PartOfTriangles = 0.1;
+
 //------------------------------------------------------------------------------
 double ChooseHoleSize(double wanted, const TriangleSoup& soup)
 {
@@ -169,6 +173,14 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
   {
     return Outcome::Failed(Describe(found, found) +
       "Set SelfIntersections to Resolve (with Repair on) or Keep, or repair the surface first.");
+  }
+  // Local repair is for few of them: elsewhere it takes long, and fails.
+  const auto most = static_cast<vtkIdType>(
+    MostIntersections + PartOfTriangles * static_cast<double>(soup.Triangles.size()));
+  if (found.NumberWithin > most)
+  {
+    return Outcome::Failed(Describe(found, found) + "More than " + std::to_string(most) +
+      " are not resolved: set SelfIntersections to Keep, or repair the surface first.");
   }
   ManifoldRepair::Intersections left;
   if (Outcome resolved = surface.ResolveSelfIntersections(ChooseHoleSize(settings.HoleSize, soup),
