@@ -215,6 +215,7 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Repair: " << (this->Repair ? "on" : "off") << "\n";
   os << indent << "FillHoles: " << (this->FillHoles ? "on" : "off") << "\n";
   os << indent << "HoleSize: " << this->HoleSize << "\n";
+  os << indent << "WeldTolerance: " << this->WeldTolerance << "\n";
   os << indent << "SelfIntersections: " << this->SelfIntersections << "\n";
   os << indent << "FlipNormals: " << (this->FlipNormals ? "on" : "off") << "\n";
 }
@@ -280,6 +281,7 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   steps.Take([&]() { return this->RepairBlocks(job); });
   steps.Take([&]() { return this->Remesh(job); });
   steps.Take([&]() { return this->Write(job); });
+  this->WarnOfRepairs(job);
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)
   {
@@ -299,6 +301,7 @@ Outcome vtkPatchMesher::CheckProperties() const
   const Outcome lengths[] = { CheckLength("TargetEdgeLength", this->TargetEdgeLength,
                                 "the diagonal of the bounding box / 50"),
     CheckLength("HoleSize", this->HoleSize, "the diagonal of the bounding box / 100"),
+    CheckLength("WeldTolerance", this->WeldTolerance, "what the coordinates are worth"),
     CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100"),
     CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10") };
   for (const Outcome& checked : lengths)
@@ -372,9 +375,12 @@ Outcome vtkPatchMesher::FindBlocks(vtkDataObject* input, Job& job)
 //------------------------------------------------------------------------------
 Outcome vtkPatchMesher::ReadBlocks(Job& job)
 {
-  for (Block& block : job.Blocks)
+  const double size = static_cast<double>(job.Blocks.size());
+  for (std::size_t i = 0; i < job.Blocks.size(); ++i)
   {
-    if (Outcome read = this->ReadBlock(block); !read)
+    Block& block = job.Blocks[i];
+    const Monitor stage = job.Watcher.GetStage(0.0, 0.02).GetStage(i / size, (i + 1) / size);
+    if (Outcome read = this->ReadBlock(block, stage); !read)
     {
       return read.HasFailed() ? Outcome::Failed(block.Name + read.GetMessage()) : read;
     }
@@ -383,7 +389,7 @@ Outcome vtkPatchMesher::ReadBlocks(Job& job)
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::ReadBlock(Block& block)
+Outcome vtkPatchMesher::ReadBlock(Block& block, const Monitor& monitor)
 {
   vtkPolyData* input = block.Input;
   // The input's field data, also of what has no patches.
@@ -406,7 +412,8 @@ Outcome vtkPatchMesher::ReadBlock(Block& block)
   {
     return regions;
   }
-  return block.Soup.Read(input);
+  // The repair joins what belongs together; without it points with equal coordinates are one.
+  return block.Soup.Read(input, !this->Repair, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -416,9 +423,9 @@ Outcome vtkPatchMesher::ReadRegions(vtkPolyData* input, std::vector<int>& region
   vtkAbstractArray* array = this->GetInputAbstractArrayToProcess(0, input, association);
   const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
   const std::string name = chosen && *chosen ? chosen : DefaultRegionArray;
-  if (!array && name == DefaultRegionArray)
+  if (name == DefaultRegionArray)
   {
-    // ParaView's empty name comes with the association of points.
+    // ParaView's default may come with the association of points.
     association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
     array = input->GetCellData()->GetAbstractArray(DefaultRegionArray);
     if (!array)
@@ -453,7 +460,7 @@ Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& len
     vtkDataArray::SafeDownCast(this->GetInputAbstractArrayToProcess(1, input, association));
   const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
   const std::string name = chosen && *chosen ? chosen : DefaultLengthArray;
-  if (!chosen || !*chosen)
+  if (name == DefaultLengthArray)
   {
     association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
     array = input->GetPointData()->GetArray(DefaultLengthArray);
@@ -471,7 +478,7 @@ Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& len
 Outcome vtkPatchMesher::RepairBlocks(Job& job) const
 {
   SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
-    static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
+    this->WeldTolerance, static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
   if (job.Blocks.size() > 1)
   {
     settings.HoleSize = SurfaceRepair::ChooseHoleSize(settings.HoleSize, job.Gather());
@@ -570,6 +577,21 @@ Outcome vtkPatchMesher::Write(Job& job)
   }
   this->CheckNumberOfPatches(total.NumberOfPatches);
   return monitor.Check(1.0);
+}
+
+//------------------------------------------------------------------------------
+// Also where a later step failed: what was repaired may be the reason.
+void vtkPatchMesher::WarnOfRepairs(const Job& job)
+{
+  RepairCounts counts;
+  for (const Block& block : job.Blocks)
+  {
+    counts.Add(block.Counts);
+  }
+  if (const std::string repairs = counts.Describe(); !repairs.empty())
+  {
+    vtkWarningMacro(<< repairs);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -5,11 +5,11 @@
  * @brief turns a surface into patches: good triangles of chosen size that keep edges and materials
  *
  * The input is a vtkPolyData, or a composite data set of them, of triangles, polygons and triangle
- * strips; its vertices and lines are ignored and ghost cells do not count. Points with equal
- * coordinates are merged, polygons are triangulated, defects are repaired (see Repair) and the
- * surface is remeshed: long edges are split, short ones collapsed, edges flipped and points moved
- * along the surface (Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004),
- * with a length that may differ from place to place (Dunyach et al., "Adaptive remeshing for
+ * strips; its vertices and lines are ignored and ghost cells do not count. Polygons are
+ * triangulated, triangles that belong together are joined and other defects repaired (see Repair),
+ * and the surface is remeshed: long edges are split, short ones collapsed, edges flipped and points
+ * moved along the surface (Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling",
+ * 2004), with a length that may differ from place to place (Dunyach et al., "Adaptive remeshing for
  * real-time mesh deformation", 2013).
  *
  * Three kinds of edges are kept: borders, edges between two regions (see below), and edges sharper
@@ -41,7 +41,11 @@
  *   points were merged, the values of the first one count;
  * - the input's field data, and one-tuple field data arrays "NumberOfPatches",
  *   "NumberOfDroppedTriangles" (degenerate, duplicate or crumbs), "NumberOfReversedTriangles",
- *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points),
+ *   "NumberOfSplitPoints" (points beyond the first in places where surfaces only touch),
+ *   "NumberOfWeldedPoints" (points that differed by no more than WeldTolerance from one that they
+ *   became), "NumberOfSplitEdges" (edges cut where a corner of another triangle lies on them),
+ *   "NumberOfSeamEdges" (along which a surface with one side only, as a Moebius band is, was cut),
+ *   "NumberOfSkippedPolygons" (whose border crosses itself),
  *   "NumberOfFilledHoles", "NumberOfInputSelfIntersections" (pairs of triangles of one connected
  *   component that intersect, before they are resolved), "NumberOfSelfIntersections" (pairs of
  *   patches of one component that do), "NumberOfIntersectionsBetweenComponents" (pairs of patches
@@ -59,7 +63,8 @@
  * patches that lie in the triangles of the surface. A warning tells which components lost more than
  * 5 % of their area or volume to long edges.
  *
- * Lengths are in the input's unit. The same input gives the same output.
+ * Lengths are in the input's unit. The same input gives the same output. All that the repair
+ * changed is summed up in one warning.
  *
  * Errors, each with an empty output: no polygons, coordinates that are not finite, a negative or
  * infinite length, a MinimumEdgeLength above TargetEdgeLength, a Grading that is not positive, a
@@ -80,6 +85,7 @@
 
 namespace LightTransport
 {
+class Monitor;
 class Outcome;
 struct PatchTarget;
 } // namespace LightTransport
@@ -201,12 +207,17 @@ public:
 
   ///@{
   /**
-   * Whether defects of the input are repaired. Default on. Degenerate triangles are dropped without
-   * opening the surface; of triangles with the same three points the first is kept; non-manifold
-   * edges and points are split, and crumbs that this leaves are dropped: open pieces that fit into
-   * a sphere of radius HoleSize and had such an edge or a copy, but never the largest piece; where
-   * neighbours are oriented against each other, each connected component is turned to the
-   * orientation that the larger part of its area has; holes and self-intersections are treated as
+   * Whether defects of the input are repaired. Default on. Triangles are joined along sides between
+   * the same points, then along sides in the same place (see WeldTolerance), so that each side has
+   * one partner at most: solids that touch in a face, an edge or a point stay whole, and so do both
+   * sides of a sheet. Edges are split at corners of other triangles that lie on them. Degenerate
+   * triangles are dropped without opening the surface; of triangles with the same corners and
+   * direction the first is kept; non-manifold edges and points are split, and crumbs that this
+   * leaves are dropped: open pieces that fit into a sphere of radius HoleSize and had such an edge
+   * or a copy, but never the largest piece; polygons whose border crosses itself are left out;
+   * where neighbours are oriented against each other, each connected component is turned to the
+   * orientation that the larger part of its area has, and cut along a seam if it has one side only;
+   * holes and self-intersections are treated as
    * FillHoles and SelfIntersections say. A surface without such defects is taken as it is: in
    * particular a room whose normals point inward stays so. When off, a surface with a defect is an
    * error, borders excepted.
@@ -236,6 +247,17 @@ public:
    */
   vtkSetMacro(HoleSize, double);
   vtkGetMacro(HoleSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far apart points may be, in the input's unit, that the repair takes for one; also how far a
+   * corner may be from an edge that it lies on. Only points at borders are welded, where that joins
+   * two edges, and never points more than a quarter of the edges there apart. Default 0: what the
+   * coordinates are worth by their type, size and number of digits.
+   */
+  vtkSetMacro(WeldTolerance, double);
+  vtkGetMacro(WeldTolerance, double);
   ///@}
 
   enum
@@ -291,6 +313,7 @@ protected:
   bool Repair = true;
   bool FillHoles = true;
   double HoleSize = 0.0;
+  double WeldTolerance = 0.0;
   int SelfIntersections = SELF_INTERSECTIONS_RESOLVE;
   bool FlipNormals = false;
 
@@ -304,7 +327,7 @@ private:
   LightTransport::Outcome CheckProperties() const;
   LightTransport::Outcome FindBlocks(vtkDataObject* input, Job& job);
   LightTransport::Outcome ReadBlocks(Job& job);
-  LightTransport::Outcome ReadBlock(Block& block);
+  LightTransport::Outcome ReadBlock(Block& block, const LightTransport::Monitor& monitor);
   /// One number per input cell, equal for cells of the same region.
   LightTransport::Outcome ReadRegions(vtkPolyData* input, std::vector<int>& regions);
   /// One length per input point if the size field is an array, else none.
@@ -313,6 +336,7 @@ private:
   LightTransport::Outcome Remesh(Job& job) const;
   LightTransport::Outcome ChooseTarget(const Job& job, LightTransport::PatchTarget& target) const;
   LightTransport::Outcome Write(Job& job);
+  void WarnOfRepairs(const Job& job);
   void CheckNumberOfPatches(vtkIdType number);
 };
 
