@@ -215,6 +215,7 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Repair: " << (this->Repair ? "on" : "off") << "\n";
   os << indent << "FillHoles: " << (this->FillHoles ? "on" : "off") << "\n";
   os << indent << "HoleSize: " << this->HoleSize << "\n";
+  os << indent << "WeldTolerance: " << this->WeldTolerance << "\n";
   os << indent << "SelfIntersections: " << this->SelfIntersections << "\n";
   os << indent << "FlipNormals: " << (this->FlipNormals ? "on" : "off") << "\n";
 }
@@ -280,6 +281,15 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   steps.Take([&]() { return this->RepairBlocks(job); });
   steps.Take([&]() { return this->Remesh(job); });
   steps.Take([&]() { return this->Write(job); });
+  RepairCounts counts;
+  for (const Block& block : job.Blocks)
+  {
+    counts.Add(block.Counts);
+  }
+  if (const std::string repairs = counts.Describe(); !repairs.empty())
+  {
+    vtkWarningMacro(<< repairs);
+  }
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)
   {
@@ -299,6 +309,7 @@ Outcome vtkPatchMesher::CheckProperties() const
   const Outcome lengths[] = { CheckLength("TargetEdgeLength", this->TargetEdgeLength,
                                 "the diagonal of the bounding box / 50"),
     CheckLength("HoleSize", this->HoleSize, "the diagonal of the bounding box / 100"),
+    CheckLength("WeldTolerance", this->WeldTolerance, "what the coordinates are worth"),
     CheckLength("ApproximationError", this->ApproximationError, "TargetEdgeLength / 100"),
     CheckLength("MinimumEdgeLength", this->MinimumEdgeLength, "TargetEdgeLength / 10") };
   for (const Outcome& checked : lengths)
@@ -372,9 +383,10 @@ Outcome vtkPatchMesher::FindBlocks(vtkDataObject* input, Job& job)
 //------------------------------------------------------------------------------
 Outcome vtkPatchMesher::ReadBlocks(Job& job)
 {
+  const Monitor monitor = job.Watcher.GetStage(0.0, 0.02);
   for (Block& block : job.Blocks)
   {
-    if (Outcome read = this->ReadBlock(block); !read)
+    if (Outcome read = this->ReadBlock(block, monitor); !read)
     {
       return read.HasFailed() ? Outcome::Failed(block.Name + read.GetMessage()) : read;
     }
@@ -383,7 +395,7 @@ Outcome vtkPatchMesher::ReadBlocks(Job& job)
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::ReadBlock(Block& block)
+Outcome vtkPatchMesher::ReadBlock(Block& block, const Monitor& monitor)
 {
   vtkPolyData* input = block.Input;
   // The input's field data, also of what has no patches.
@@ -406,7 +418,8 @@ Outcome vtkPatchMesher::ReadBlock(Block& block)
   {
     return regions;
   }
-  return block.Soup.Read(input);
+  // The repair joins what belongs together; without it points with equal coordinates are one.
+  return block.Soup.Read(input, !this->Repair, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -471,7 +484,7 @@ Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& len
 Outcome vtkPatchMesher::RepairBlocks(Job& job) const
 {
   SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
-    static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
+    this->WeldTolerance, static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
   if (job.Blocks.size() > 1)
   {
     settings.HoleSize = SurfaceRepair::ChooseHoleSize(settings.HoleSize, job.Gather());

@@ -41,13 +41,16 @@
  *   points were merged, the values of the first one count;
  * - the input's field data, and one-tuple field data arrays "NumberOfPatches",
  *   "NumberOfDroppedTriangles" (degenerate, duplicate or crumbs), "NumberOfReversedTriangles",
- *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points),
- *   "NumberOfFilledHoles", "NumberOfInputSelfIntersections" (pairs of triangles of one connected
- *   component that intersect, before they are resolved), "NumberOfSelfIntersections" (pairs of
- *   patches of one component that do), "NumberOfIntersectionsBetweenComponents" (pairs of patches
- *   of two components, which are no defect; vtkIdTypeArray each)
- *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used; if SizeField is Array, the
- *   one with which as many equal triangles cover the surface).
+ *   "NumberOfSplitPoints" (points beyond the first in places where surfaces only touch),
+ *   "NumberOfWeldedPoints" (points that differed by no more than WeldTolerance from one that they
+ *   became), "NumberOfSplitEdges" (edges cut where a corner of another triangle lies on them),
+ *   "NumberOfSeamEdges" (along which a surface with one side only, as a Moebius band is, was cut),
+ *   "NumberOfSkippedPolygons" (whose border crosses itself), "NumberOfFilledHoles",
+ *   "NumberOfInputSelfIntersections" (pairs of triangles of one connected component that intersect,
+ *   before they are resolved), "NumberOfSelfIntersections" (pairs of patches of one component that
+ *   do), "NumberOfIntersectionsBetweenComponents" (pairs of patches of two components, which are no
+ *   defect; vtkIdTypeArray each) and "TargetEdgeLength" (vtkDoubleArray, the length that was used;
+ *   if SizeField is Array, the one with which as many equal triangles cover the surface).
  *
  * The input may be composite: its blocks are one scene. Default lengths are those of all blocks
  * together, and so is TargetNumberOfPatches; each block is repaired by itself. The output has the
@@ -59,7 +62,8 @@
  * patches that lie in the triangles of the surface. A warning tells which components lost more than
  * 5 % of their area or volume to long edges.
  *
- * Lengths are in the input's unit. The same input gives the same output.
+ * Lengths are in the input's unit. The same input gives the same output. All that the repair
+ * changed is summed up in one warning.
  *
  * Errors, each with an empty output: no polygons, coordinates that are not finite, a negative or
  * infinite length, a MinimumEdgeLength above TargetEdgeLength, a Grading that is not positive, a
@@ -80,6 +84,7 @@
 
 namespace LightTransport
 {
+class Monitor;
 class Outcome;
 struct PatchTarget;
 } // namespace LightTransport
@@ -238,6 +243,17 @@ public:
   vtkGetMacro(HoleSize, double);
   ///@}
 
+  ///@{
+  /**
+   * How far apart points may be, in the input's unit, that the repair takes for one; also how far a
+   * corner may be from an edge that it lies on. Only points at borders are welded, where that joins
+   * two edges, and never points more than a quarter of the edges there apart. Default 0: what the
+   * coordinates are worth by their type, size and number of digits.
+   */
+  vtkSetMacro(WeldTolerance, double);
+  vtkGetMacro(WeldTolerance, double);
+  ///@}
+
   enum
   {
     SELF_INTERSECTIONS_RESOLVE = 0,
@@ -291,6 +307,7 @@ protected:
   bool Repair = true;
   bool FillHoles = true;
   double HoleSize = 0.0;
+  double WeldTolerance = 0.0;
   int SelfIntersections = SELF_INTERSECTIONS_RESOLVE;
   bool FlipNormals = false;
 
@@ -304,7 +321,7 @@ private:
   LightTransport::Outcome CheckProperties() const;
   LightTransport::Outcome FindBlocks(vtkDataObject* input, Job& job);
   LightTransport::Outcome ReadBlocks(Job& job);
-  LightTransport::Outcome ReadBlock(Block& block);
+  LightTransport::Outcome ReadBlock(Block& block, const LightTransport::Monitor& monitor);
   /// One number per input cell, equal for cells of the same region.
   LightTransport::Outcome ReadRegions(vtkPolyData* input, std::vector<int>& regions);
   /// One length per input point if the size field is an array, else none.

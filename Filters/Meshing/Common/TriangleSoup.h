@@ -7,6 +7,7 @@
 #ifndef TriangleSoup_h
 #define TriangleSoup_h
 
+#include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 #include "vtkType.h"
 
@@ -33,18 +34,26 @@ public:
   std::vector<Triangle> Triangles;
   /// The input cell that each triangle comes from.
   std::vector<vtkIdType> CellIds;
+  /// Polygons that were left out, for their border crosses itself.
+  std::vector<vtkIdType> CrossingCells;
+  /// How far coordinates may be off, by their type, size and digits.
+  double Rounding = 0.0;
 
   /**
    * Triangulate the polygons and strips of `input`, without its ghost cells, and merge points with
-   * equal coordinates if asked to. Fails when there are no polygons or coordinates are not finite.
+   * equal coordinates if asked to. Fails when there are no polygons, where they name points that do
+   * not exist, and when coordinates are not finite or of a size that products of them are not.
    */
-  Outcome Read(vtkPolyData* input, bool mergePoints = true);
+  Outcome Read(vtkPolyData* input, bool mergePoints = true, const Monitor& monitor = Monitor());
 
   /// What keeps the soup from being an oriented manifold, in words; empty when nothing does.
   std::string DescribeDefects() const;
 
-  /// For each triangle, whether none before it has the same points.
-  std::vector<bool> FindFirstOfDuplicates() const;
+  /// For each point, the first one with the same coordinates.
+  std::vector<std::size_t> FindPlaces() const;
+
+  /// For each triangle, whether none before it has corners in the same places.
+  std::vector<bool> FindFirstOfDuplicates(const std::vector<std::size_t>& places) const;
 
   /// Length of the diagonal of the bounding box of the triangles.
   double GetDiagonal() const;

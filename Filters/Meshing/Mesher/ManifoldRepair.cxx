@@ -10,10 +10,8 @@
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
-#include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -391,26 +389,6 @@ Outcome ManifoldRepair::Build(const TriangleSoup& soup)
 
 //------------------------------------------------------------------------------
 ManifoldRepair::~ManifoldRepair() = default;
-
-//------------------------------------------------------------------------------
-vtkIdType ManifoldRepair::JoinBorders()
-{
-  Mesh& mesh = this->Surface->Triangles;
-  const std::size_t joined = PMP::stitch_borders(mesh);
-  std::vector<std::vector<Vertex>> copies;
-  PMP::duplicate_non_manifold_vertices(mesh,
-    CGAL::parameters::output_iterator(std::back_inserter(copies)));
-  for (const std::vector<Vertex>& vertices : copies)
-  {
-    for (const Vertex vertex : vertices)
-    {
-      this->Surface->PointIds[vertex] = this->Surface->PointIds[vertices[0]];
-      this->Surface->Split[vertex] = true;
-    }
-  }
-  mesh.collect_garbage();
-  return static_cast<vtkIdType>(joined);
-}
 
 //------------------------------------------------------------------------------
 vtkIdType ManifoldRepair::DropCrumbs(double size)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Repairs that need to know neighbours: edges that were split more than needed, crumbs, holes and
- * self-intersections of an oriented manifold.
+ * Repairs that need to know neighbours: crumbs, holes and self-intersections of an oriented
+ * manifold.
  *
  * A component is what is connected by edges. All methods throw what CGAL throws (std::exception).
  */
@@ -28,12 +28,6 @@ public:
 
   /// Take a copy of the soup. Fails when it is not a manifold.
   Outcome Build(const TriangleSoup& soup);
-
-  /**
-   * Join borders that coincide: edges that had to be split only because of something else there.
-   * Returns the number of edges joined.
-   */
-  vtkIdType JoinBorders();
 
   /**
    * Drop components that are open, not the largest one, have an edge at which the soup was split or

@@ -76,6 +76,10 @@ void PatchSummary::Write(vtkFieldData* fields) const
   add("NumberOfDroppedTriangles", counts.NumberOfDroppedTriangles);
   add("NumberOfReversedTriangles", counts.NumberOfReversedTriangles);
   add("NumberOfSplitPoints", counts.NumberOfSplitPoints);
+  add("NumberOfWeldedPoints", counts.NumberOfWeldedPoints);
+  add("NumberOfSplitEdges", counts.NumberOfSplitEdges);
+  add("NumberOfSeamEdges", counts.NumberOfSeamEdges);
+  add("NumberOfSkippedPolygons", counts.NumberOfSkippedPolygons);
   add("NumberOfFilledHoles", counts.NumberOfFilledHoles);
   add("NumberOfInputSelfIntersections", counts.NumberOfSelfIntersections);
   add("NumberOfSelfIntersections", this->NumberOfCrossingsWithin);

@@ -5,8 +5,11 @@
 #include "Mesher/ManifoldRepair.h"
 #include "Mesher/SoupRepair.h"
 
+#include <algorithm>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace LightTransport
 {
@@ -24,42 +27,98 @@ Outcome CheckDefects(const TriangleSoup& soup)
 }
 
 //------------------------------------------------------------------------------
+void NoteCrossingPolygons(const TriangleSoup& soup, RepairCounts& counts)
+{
+  const std::vector<vtkIdType>& cells = soup.CrossingCells;
+  counts.NumberOfSkippedPolygons = static_cast<vtkIdType>(cells.size());
+  if (cells.empty())
+  {
+    return;
+  }
+  std::ostringstream text;
+  text << cells.size() << " polygons were left out, for their border crosses itself: cells";
+  const std::size_t mostNames = 10;
+  for (std::size_t i = 0; i < std::min(cells.size(), mostNames); ++i)
+  {
+    text << (i > 0 ? ", " : " ") << cells[i];
+  }
+  text << (cells.size() > mostNames ? " ..." : "")
+       << ". Mend the border, or cut it into triangles.";
+  counts.AddNote(text.str());
+}
+
+//------------------------------------------------------------------------------
+// Welding may leave triangles without area, and what they leave open is to be joined.
+Outcome JoinTriangles(SoupRepair& triangles, const Monitor& monitor)
+{
+  const int mostPasses = 4;
+  for (int pass = 0; pass < mostPasses; ++pass)
+  {
+    if (Outcome joined = triangles.Join(monitor); !joined)
+    {
+      return joined;
+    }
+    if (triangles.DropDegenerateTriangles() == 0)
+    {
+      break;
+    }
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
 Outcome RepairDefects(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,
   RepairCounts& counts)
 {
-  SoupRepair triangles(soup, counts);
+  NoteCrossingPolygons(soup, counts);
+  SoupRepair triangles(soup, settings.WeldTolerance, counts);
   triangles.DropDegenerateTriangles();
-  triangles.DropDuplicateTriangles();
-  triangles.Orient();
-  if (!monitor.Report(0.5))
+  triangles.DropCopies();
+  if (Outcome joined = JoinTriangles(triangles, monitor.GetStage(0.0, 0.5)); !joined)
   {
-    return Outcome::Aborted();
+    return joined;
   }
-
   const double size = SurfaceRepair::ChooseHoleSize(settings.HoleSize, soup);
-  ManifoldRepair surface;
-  if (Outcome built = surface.Build(soup); !built)
+  auto surface = std::make_unique<ManifoldRepair>();
+  if (Outcome built = surface->Build(soup); !built)
   {
     return built;
   }
-  // Where a crumb is gone, what else met there can be joined.
-  vtkIdType changes = surface.JoinBorders();
-  const vtkIdType crumbs = surface.DropCrumbs(size);
-  changes += crumbs + surface.JoinBorders();
+  // Where a crumb is gone, what else met there can be joined, which may leave others.
+  const int mostPasses = 5;
+  vtkIdType crumbs = surface->DropCrumbs(size);
+  for (int pass = 0; pass < mostPasses && crumbs > 0; ++pass)
+  {
+    counts.NumberOfDroppedTriangles += crumbs;
+    surface->Write(soup);
+    if (Outcome joined = JoinTriangles(triangles, monitor.GetStage(0.5, 0.75)); !joined)
+    {
+      return joined;
+    }
+    surface = std::make_unique<ManifoldRepair>();
+    if (Outcome built = surface->Build(soup); !built)
+    {
+      return built;
+    }
+    crumbs = surface->DropCrumbs(size);
+  }
+  counts.NumberOfDroppedTriangles += crumbs;
   if (!monitor.Report(0.75))
   {
     return Outcome::Aborted();
   }
-  const vtkIdType holes = settings.FillHoles ? surface.FillHoles(size) : 0;
-  const vtkIdType dropped = counts.NumberOfDroppedTriangles + crumbs;
-  if (changes + holes > 0)
+  counts.NumberOfFilledHoles = settings.FillHoles ? surface->FillHoles(size) : 0;
+  if (counts.NumberOfFilledHoles + crumbs > 0)
   {
-    surface.Write(soup);
+    surface->Write(soup);
     // A crack without width has been filled with triangles without area.
-    triangles.DropDegenerateTriangles();
+    RepairCounts others;
+    SoupRepair filled(soup, settings.WeldTolerance, others);
+    if (filled.DropDegenerateTriangles() > 0)
+    {
+      return JoinTriangles(filled, monitor.GetStage(0.75, 1.0));
+    }
   }
-  counts.NumberOfDroppedTriangles = dropped;
-  counts.NumberOfFilledHoles = holes;
   return monitor.Check(1.0);
 }
 
@@ -117,6 +176,7 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
       "Set SelfIntersections to Keep, give a larger HoleSize, or repair the surface first.");
   }
   surface.Write(soup);
+  counts.NumberResolved = found.NumberWithin;
   return Outcome::Done();
 }
 } // namespace

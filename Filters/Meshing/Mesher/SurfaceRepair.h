@@ -29,6 +29,8 @@ struct Settings
   bool FillHoles;
   /// The size of the holes to fill and of the crumbs to drop; 0 for a part of the surface's size.
   double HoleSize;
+  /// How far apart points may be that are one; 0 for what the coordinates are worth.
+  double WeldTolerance;
   Intersections SelfIntersections;
 };
 
