@@ -281,7 +281,15 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   steps.Take([&]() { return this->RepairBlocks(job); });
   steps.Take([&]() { return this->Remesh(job); });
   steps.Take([&]() { return this->Write(job); });
-  this->WarnOfRepairs(job);
+  RepairCounts counts;
+  for (const Block& block : job.Blocks)
+  {
+    counts.Add(block.Counts);
+  }
+  if (const std::string repairs = counts.Describe(); !repairs.empty())
+  {
+    vtkWarningMacro(<< repairs);
+  }
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)
   {
@@ -375,12 +383,10 @@ Outcome vtkPatchMesher::FindBlocks(vtkDataObject* input, Job& job)
 //------------------------------------------------------------------------------
 Outcome vtkPatchMesher::ReadBlocks(Job& job)
 {
-  const double size = static_cast<double>(job.Blocks.size());
-  for (std::size_t i = 0; i < job.Blocks.size(); ++i)
+  const Monitor monitor = job.Watcher.GetStage(0.0, 0.02);
+  for (Block& block : job.Blocks)
   {
-    Block& block = job.Blocks[i];
-    const Monitor stage = job.Watcher.GetStage(0.0, 0.02).GetStage(i / size, (i + 1) / size);
-    if (Outcome read = this->ReadBlock(block, stage); !read)
+    if (Outcome read = this->ReadBlock(block, monitor); !read)
     {
       return read.HasFailed() ? Outcome::Failed(block.Name + read.GetMessage()) : read;
     }
@@ -577,21 +583,6 @@ Outcome vtkPatchMesher::Write(Job& job)
   }
   this->CheckNumberOfPatches(total.NumberOfPatches);
   return monitor.Check(1.0);
-}
-
-//------------------------------------------------------------------------------
-// Also where a later step failed: what was repaired may be the reason.
-void vtkPatchMesher::WarnOfRepairs(const Job& job)
-{
-  RepairCounts counts;
-  for (const Block& block : job.Blocks)
-  {
-    counts.Add(block.Counts);
-  }
-  if (const std::string repairs = counts.Describe(); !repairs.empty())
-  {
-    vtkWarningMacro(<< repairs);
-  }
 }
 
 //------------------------------------------------------------------------------

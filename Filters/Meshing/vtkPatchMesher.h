@@ -5,11 +5,11 @@
  * @brief turns a surface into patches: good triangles of chosen size that keep edges and materials
  *
  * The input is a vtkPolyData, or a composite data set of them, of triangles, polygons and triangle
- * strips; its vertices and lines are ignored and ghost cells do not count. Polygons are
- * triangulated, triangles that belong together are joined and other defects repaired (see Repair),
- * and the surface is remeshed: long edges are split, short ones collapsed, edges flipped and points
- * moved along the surface (Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling",
- * 2004), with a length that may differ from place to place (Dunyach et al., "Adaptive remeshing for
+ * strips; its vertices and lines are ignored and ghost cells do not count. Points with equal
+ * coordinates are merged, polygons are triangulated, defects are repaired (see Repair) and the
+ * surface is remeshed: long edges are split, short ones collapsed, edges flipped and points moved
+ * along the surface (Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004),
+ * with a length that may differ from place to place (Dunyach et al., "Adaptive remeshing for
  * real-time mesh deformation", 2013).
  *
  * Three kinds of edges are kept: borders, edges between two regions (see below), and edges sharper
@@ -45,13 +45,12 @@
  *   "NumberOfWeldedPoints" (points that differed by no more than WeldTolerance from one that they
  *   became), "NumberOfSplitEdges" (edges cut where a corner of another triangle lies on them),
  *   "NumberOfSeamEdges" (along which a surface with one side only, as a Moebius band is, was cut),
- *   "NumberOfSkippedPolygons" (whose border crosses itself),
- *   "NumberOfFilledHoles", "NumberOfInputSelfIntersections" (pairs of triangles of one connected
- *   component that intersect, before they are resolved), "NumberOfSelfIntersections" (pairs of
- *   patches of one component that do), "NumberOfIntersectionsBetweenComponents" (pairs of patches
- *   of two components, which are no defect; vtkIdTypeArray each)
- *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used; if SizeField is Array, the
- *   one with which as many equal triangles cover the surface).
+ *   "NumberOfSkippedPolygons" (whose border crosses itself), "NumberOfFilledHoles",
+ *   "NumberOfInputSelfIntersections" (pairs of triangles of one connected component that intersect,
+ *   before they are resolved), "NumberOfSelfIntersections" (pairs of patches of one component that
+ *   do), "NumberOfIntersectionsBetweenComponents" (pairs of patches of two components, which are no
+ *   defect; vtkIdTypeArray each) and "TargetEdgeLength" (vtkDoubleArray, the length that was used;
+ *   if SizeField is Array, the one with which as many equal triangles cover the surface).
  *
  * The input may be composite: its blocks are one scene. Default lengths are those of all blocks
  * together, and so is TargetNumberOfPatches; each block is repaired by itself. The output has the
@@ -207,17 +206,12 @@ public:
 
   ///@{
   /**
-   * Whether defects of the input are repaired. Default on. Triangles are joined along sides between
-   * the same points, then along sides in the same place (see WeldTolerance), so that each side has
-   * one partner at most: solids that touch in a face, an edge or a point stay whole, and so do both
-   * sides of a sheet. Edges are split at corners of other triangles that lie on them. Degenerate
-   * triangles are dropped without opening the surface; of triangles with the same corners and
-   * direction the first is kept; non-manifold edges and points are split, and crumbs that this
-   * leaves are dropped: open pieces that fit into a sphere of radius HoleSize and had such an edge
-   * or a copy, but never the largest piece; polygons whose border crosses itself are left out;
-   * where neighbours are oriented against each other, each connected component is turned to the
-   * orientation that the larger part of its area has, and cut along a seam if it has one side only;
-   * holes and self-intersections are treated as
+   * Whether defects of the input are repaired. Default on. Degenerate triangles are dropped without
+   * opening the surface; of triangles with the same three points the first is kept; non-manifold
+   * edges and points are split, and crumbs that this leaves are dropped: open pieces that fit into
+   * a sphere of radius HoleSize and had such an edge or a copy, but never the largest piece; where
+   * neighbours are oriented against each other, each connected component is turned to the
+   * orientation that the larger part of its area has; holes and self-intersections are treated as
    * FillHoles and SelfIntersections say. A surface without such defects is taken as it is: in
    * particular a room whose normals point inward stays so. When off, a surface with a defect is an
    * error, borders excepted.
@@ -336,7 +330,6 @@ private:
   LightTransport::Outcome Remesh(Job& job) const;
   LightTransport::Outcome ChooseTarget(const Job& job, LightTransport::PatchTarget& target) const;
   LightTransport::Outcome Write(Job& job);
-  void WarnOfRepairs(const Job& job);
   void CheckNumberOfPatches(vtkIdType number);
 };
 

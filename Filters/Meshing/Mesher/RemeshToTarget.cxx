@@ -161,7 +161,7 @@ public:
   Outcome Run(const Monitor& monitor, RemeshToTarget::Result& result)
   {
     // What is left after so many rounds is no matter of lengths.
-    const int rounds = 7;
+    const int rounds = 9;
     bool again = true;
     for (int round = 0; round < rounds && again; ++round)
     {
@@ -221,7 +221,7 @@ private:
   {
     const std::vector<TriangleCrossings::Pair>& crossings = this->Findings.NewCrossings;
     const int lastOfHalving = 2;
-    const int lastOfPlaces = 4;
+    const int lastOfPlaces = 6;
     const std::vector<bool> points = round <= lastOfPlaces
       ? LengthCorrection::FindPoints(this->Surface, this->Check, patches, crossings, monitor)
       : LengthCorrection::FindPointsOfComponents(this->Surface, this->Check, patches, crossings);

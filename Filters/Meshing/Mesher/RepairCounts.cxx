@@ -17,26 +17,6 @@ void RepairCounts::AddNote(const std::string& note)
 }
 
 //------------------------------------------------------------------------------
-void RepairCounts::Add(const RepairCounts& other)
-{
-  this->NumberOfDroppedTriangles += other.NumberOfDroppedTriangles;
-  this->NumberOfReversedTriangles += other.NumberOfReversedTriangles;
-  this->NumberOfSplitPoints += other.NumberOfSplitPoints;
-  this->NumberOfWeldedPoints += other.NumberOfWeldedPoints;
-  this->NumberOfSplitEdges += other.NumberOfSplitEdges;
-  this->NumberOfSeamEdges += other.NumberOfSeamEdges;
-  this->NumberOfSkippedPolygons += other.NumberOfSkippedPolygons;
-  this->NumberOfFilledHoles += other.NumberOfFilledHoles;
-  this->NumberOfSelfIntersections += other.NumberOfSelfIntersections;
-  this->NumberOfIntersectionsBetweenComponents += other.NumberOfIntersectionsBetweenComponents;
-  this->NumberResolved += other.NumberResolved;
-  for (const std::string& note : other.Notes)
-  {
-    this->AddNote(note);
-  }
-}
-
-//------------------------------------------------------------------------------
 // Surfaces that only touch are no defect: alone they are not worth a line.
 std::string RepairCounts::Describe() const
 {
@@ -69,5 +49,23 @@ std::string RepairCounts::Describe() const
     line.pop_back();
   }
   return line;
+}
+
+//------------------------------------------------------------------------------
+void RepairCounts::Add(const RepairCounts& other)
+{
+  for (const auto number : { &RepairCounts::NumberOfDroppedTriangles,
+         &RepairCounts::NumberOfReversedTriangles, &RepairCounts::NumberOfSplitPoints,
+         &RepairCounts::NumberOfWeldedPoints, &RepairCounts::NumberOfSplitEdges,
+         &RepairCounts::NumberOfSeamEdges, &RepairCounts::NumberOfSkippedPolygons,
+         &RepairCounts::NumberOfFilledHoles, &RepairCounts::NumberOfSelfIntersections,
+         &RepairCounts::NumberOfIntersectionsBetweenComponents, &RepairCounts::NumberResolved })
+  {
+    this->*number += other.*number;
+  }
+  for (const std::string& note : other.Notes)
+  {
+    this->AddNote(note);
+  }
 }
 } // namespace LightTransport

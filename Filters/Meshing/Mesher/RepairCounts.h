@@ -28,11 +28,12 @@ struct RepairCounts
   /// What the numbers do not tell: sentences, each once.
   std::vector<std::string> Notes;
   void AddNote(const std::string& note);
-  /// Those of another surface as well.
-  void Add(const RepairCounts& other);
 
   /// All that was changed, in one line; empty where nothing was.
   std::string Describe() const;
+
+  /// Those of another surface.
+  void Add(const RepairCounts& other);
 };
 } // namespace LightTransport
 

@@ -211,6 +211,72 @@ void TestTrees(meshTest::Checker& check)
 }
 
 //------------------------------------------------------------------------------
+// Properties at the ends of their ranges: a result or an error, and both soon.
+void TestExtremes(meshTest::Checker& check)
+{
+  using Set = void (*)(vtkPatchMesher*);
+  const struct
+  {
+    const char* Name;
+    Set Properties;
+    bool Refused;
+  } cases[] = {
+    { "tiny length", [](vtkPatchMesher* m) { m->SetTargetEdgeLength(1e-300); }, true },
+    { "huge length", [](vtkPatchMesher* m) { m->SetTargetEdgeLength(1e300); }, false },
+    { "huge length by curvature",
+      [](vtkPatchMesher* m)
+      {
+        m->SetTargetEdgeLength(1e300);
+        m->SetSizeFieldToCurvature();
+      },
+      false },
+    { "huge error",
+      [](vtkPatchMesher* m)
+      {
+        m->SetApproximationError(1e300);
+        m->SetSizeFieldToCurvature();
+      },
+      false },
+    { "fewest patches", [](vtkPatchMesher* m) { m->SetTargetNumberOfPatches(1); }, false },
+    { "most patches", [](vtkPatchMesher* m) { m->SetTargetNumberOfPatches(VTK_INT_MAX); }, true },
+    { "number below 0", [](vtkPatchMesher* m) { m->SetTargetNumberOfPatches(VTK_INT_MIN); },
+      false },
+    { "iterations below 0", [](vtkPatchMesher* m) { m->SetNumberOfIterations(VTK_INT_MIN); },
+      false },
+    { "flat grading", [](vtkPatchMesher* m) { m->SetGrading(1e-300); }, false },
+    { "steep grading", [](vtkPatchMesher* m) { m->SetGrading(1e300); }, false },
+  };
+  vtkSmartPointer<vtkPolyData> triangle =
+    meshTest::MakeSurface({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } });
+  for (const auto& extreme : cases)
+  {
+    for (const bool single : { true, false })
+    {
+      vtkNew<vtkTest::ErrorObserver> executive;
+      vtkNew<vtkTest::ErrorObserver> observer;
+      vtkNew<vtkPatchMesher> mesher;
+      mesher->SetInputData(single ? triangle : MakeSphere(1.0, 0.0));
+      extreme.Properties(mesher);
+      mesher->AddObserver(vtkCommand::ErrorEvent, observer);
+      mesher->AddObserver(vtkCommand::WarningEvent, observer);
+      mesher->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
+      mesher->Update();
+      const vtkIdType cells = mesher->GetOutput()->GetNumberOfCells();
+      check.True(observer->GetError() == extreme.Refused,
+        std::string(extreme.Name) + ": \"" + observer->GetErrorMessage() + "\"");
+      check.True((cells == 0) == extreme.Refused,
+        std::string(extreme.Name) + ": patches " + std::to_string(cells));
+      for (vtkIdType i = 0; i < mesher->GetOutput()->GetNumberOfPoints(); ++i)
+      {
+        check.True(
+          vtkMath::IsFinite(vtkMath::Norm(meshTest::GetPoint(mesher->GetOutput(), i).data())),
+          std::string(extreme.Name) + ": point");
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // A wish to abort at any event leads to an empty output, and is no error.
 void TestAborts(meshTest::Checker& check)
 {
@@ -256,6 +322,7 @@ int TestPatchMesherBlocks(int, char*[])
   TestAlone(check);
   TestBlockErrors(check);
   TestTrees(check);
+  TestExtremes(check);
   TestAborts(check);
   return check.GetExitCode();
 }
