@@ -114,7 +114,8 @@ Outcome Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkP
   std::vector<double> weightOfPoint(surface->GetNumberOfPoints(), 0.0);
   vtkIdType cell = -1;
   double area = 0.0;
-  TexelPieces::Visit(surface, resolution,
+  TexelPieces::Visit(
+    surface, resolution,
     [&](const TexelPieces::Piece& piece)
     {
       area = piece.Cell == cell ? area + piece.Area : piece.Area;
@@ -195,8 +196,7 @@ int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** input
   steps.Take([&]() { return TexelPieces::Check(surface, resolution, monitor); });
   steps.Take([&]() { return monitor.Check(0.1); });
   steps.Take(
-    [&]()
-    { return Transfer(image, resolution, surface, output, monitor.GetStage(0.1, 1.0)); });
+    [&]() { return Transfer(image, resolution, surface, output, monitor.GetStage(0.1, 1.0)); });
   steps.Take([&]() { return monitor.Check(1.0); });
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)

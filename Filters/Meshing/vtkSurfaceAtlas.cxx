@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -208,8 +209,7 @@ int vtkSurfaceAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
     "The surface could not be unfolded", "pass it through vtkPatchMesher first" };
   MeshingRun::Steps steps(advice);
   steps.Take([&]() { return this->CheckProperties(); });
-  steps.Take(
-    [&]() { return ReadSurface(job.Input, job.Watcher.GetStage(0.02, 0.05), job.Soup); });
+  steps.Take([&]() { return ReadSurface(job.Input, job.Watcher.GetStage(0.02, 0.05), job.Soup); });
   steps.Take([&]() { return this->Unfold(job); });
   steps.Take([&]() { return this->Write(job); });
   const Outcome& outcome = steps.GetOutcome();
@@ -238,8 +238,10 @@ Outcome vtkSurfaceAtlas::CheckProperties() const
   }
   if (!(this->MaximumStretch > 1.0))
   {
-    return Outcome::Failed("MaximumStretch is " + std::to_string(this->MaximumStretch) +
-      ": give a number above 1, the stretch of a map that keeps lengths.");
+    std::ostringstream text;
+    text << "MaximumStretch is " << this->MaximumStretch
+         << ": give a number above 1, the stretch of a map that keeps lengths.";
+    return Outcome::Failed(text.str());
   }
   return Outcome::Done();
 }
@@ -277,8 +279,8 @@ Outcome vtkSurfaceAtlas::Write(const Job& job) const
   const double unfolded = vtkTimerLog::GetUniversalTime();
   if (this->TexelMaps)
   {
-    if (Outcome made = TexelMaps::Make(job.Output, this->Resolution, job.Maps,
-          job.Watcher.GetStage(0.91, 1.0));
+    if (Outcome made =
+          TexelMaps::Make(job.Output, this->Resolution, job.Maps, job.Watcher.GetStage(0.91, 1.0));
         !made)
     {
       return made;

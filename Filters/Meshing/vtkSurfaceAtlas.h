@@ -60,8 +60,10 @@
  * Same input, same output, whatever the number of threads.
  *
  * Errors, each with empty outputs: no polygons, coordinates that are not finite, a surface that is
- * no oriented manifold or has degenerate triangles (named and counted), a Resolution that is no
- * power of two or too small for the number of parts, a MaximumStretch that is not above 1.
+ * no oriented manifold or has degenerate triangles (named and counted), areas whose squares no
+ * double holds, more than 20 million triangles once long edges are halved, a Resolution that is no
+ * power of two or too small for the number of parts, texel maps that do not fit into memory, a
+ * MaximumStretch that is not above 1. A run that is aborted has empty outputs, too, and no error.
  */
 #ifndef vtkSurfaceAtlas_h
 #define vtkSurfaceAtlas_h

@@ -21,8 +21,8 @@
  */
 #include "ExactRows.h"
 #include "Links/Links.h"
-#include "Support/Ranks.h"
 #include "Shared/TransportMemory.h"
+#include "Support/Ranks.h"
 #include "ViewFactorScenes.h"
 #include "ViewFactors/DenseViewFactors.h"
 #include "ViewFactors/HierarchicalViewFactors.h"

@@ -22,8 +22,7 @@ struct AtlasMetrics
   /// `surface` has triangles only; texture coordinates lie in [0,1]^2, and no triangle is without
   /// area there. A chart may be turned over, as others than vtkSurfaceAtlas do it.
   /// Throws Heartbeat::Stopped when the monitor says so.
-  AtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates,
-    const Monitor& monitor = {});
+  AtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates, const Monitor& monitor = {});
 };
 } // namespace LightTransport
 

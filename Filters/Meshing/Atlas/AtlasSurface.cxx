@@ -170,8 +170,8 @@ Outcome AtlasSurface::CheckAreas(const TriangleSoup& soup) const
   if (bad != this->Areas.end())
   {
     std::ostringstream text;
-    text << "Cell " << soup.CellIds[bad - this->Areas.begin()] << " has a triangle of area "
-         << *bad << ", whose square no double holds: give coordinates whose size is nearer to 1.";
+    text << "Cell " << soup.CellIds[bad - this->Areas.begin()] << " has a triangle of area " << *bad
+         << ", whose square no double holds: give coordinates whose size is nearer to 1.";
     return Outcome::Failed(text.str());
   }
   return canBeSquared(this->Area)
@@ -292,7 +292,8 @@ std::vector<AtlasSurface::Diagonal> AtlasSurface::FindDiagonals(
         continue;
       }
       const std::array<int, 3>& back = this->Neighbors[other];
-      const int opposite = static_cast<int>(std::find(back.begin(), back.end(), face) - back.begin());
+      const int opposite =
+        static_cast<int>(std::find(back.begin(), back.end(), face) - back.begin());
       const int here = this->FindOtherLongEdge(face, edge, longest[face]);
       const int there = this->FindOtherLongEdge(other, opposite, longest[other]);
       // Both sides come after the edge, or both before it, as their faces go around.

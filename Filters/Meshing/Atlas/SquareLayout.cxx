@@ -208,8 +208,7 @@ StepSolver<3>& SquareLayout::GetSolver(int axis, const std::vector<std::array<in
       elements.push_back(
         { unknowns[triangle[0]][axis], unknowns[triangle[1]][axis], unknowns[triangle[2]][axis] });
     }
-    this->Solvers[axis] =
-      std::make_unique<StepSolver<3>>(std::move(elements), numberOfUnknowns);
+    this->Solvers[axis] = std::make_unique<StepSolver<3>>(std::move(elements), numberOfUnknowns);
   }
   return *this->Solvers[axis];
 }

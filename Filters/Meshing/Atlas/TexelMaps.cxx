@@ -56,7 +56,8 @@ void Fill(Array* array, Value value, const Monitor& monitor)
   for (vtkIdType first = 0; first < array->GetNumberOfValues(); first += part)
   {
     heart.Beat();
-    std::fill_n(array->GetPointer(first), std::min(part, array->GetNumberOfValues() - first), value);
+    std::fill_n(array->GetPointer(first), std::min(part, array->GetNumberOfValues() - first),
+      value);
   }
 }
 
@@ -127,8 +128,8 @@ void MakeGrid(int resolution, vtkImageData* maps)
 
 //------------------------------------------------------------------------------
 template <typename Array>
-vtkSmartPointer<Array> AddMap(const char* name, typename Array::ValueType value,
-  vtkImageData* maps, const Monitor& monitor)
+vtkSmartPointer<Array> AddMap(const char* name, typename Array::ValueType value, vtkImageData* maps,
+  const Monitor& monitor)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
@@ -194,8 +195,7 @@ Outcome TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps
   std::vector<Mean> means;
   means.emplace_back(TexelMaps::Source{ surface->GetPoints()->GetData(), true },
     ArrayNames::TexelPosition, maps, first);
-  means.emplace_back(TexelMaps::Source{ normals, false }, ArrayNames::TexelNormal, maps,
-    first);
+  means.emplace_back(TexelMaps::Source{ normals, false }, ArrayNames::TexelNormal, maps, first);
   for (const Source& source : sources)
   {
     means.emplace_back(source, source.Array->GetName(), maps, first);
@@ -206,7 +206,8 @@ Outcome TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps
   vtkDataArray* chartOfCell = surface->GetCellData()->GetArray(ArrayNames::ChartId);
   vtkIdType cell = -1;
   int chart = 0;
-  TexelPieces::Visit(surface, resolution,
+  TexelPieces::Visit(
+    surface, resolution,
     [&](const TexelPieces::Piece& piece)
     {
       if (piece.Cell != cell)

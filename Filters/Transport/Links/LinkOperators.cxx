@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Links/LinkOperators.h"
 
-#include "Support/Ranks.h"
 #include "Shared/TransportMemory.h"
+#include "Support/Ranks.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDeviceLinkOperator.h"
 #include "vtkExchangeMatrix.h"

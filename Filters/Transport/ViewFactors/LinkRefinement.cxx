@@ -4,8 +4,8 @@
 
 #include "Scene/PatchScene.h"
 #include "Shared/Threads.h"
-#include "Support/Ranks.h"
 #include "Shared/TransportMemory.h"
+#include "Support/Ranks.h"
 #include "ViewFactors/PairVisibility.h"
 #include "ViewFactors/ThresholdSearch.h"
 

@@ -649,7 +649,9 @@ void TestResolutionErrors(Checker& check)
 {
   Surface mixture = atlasTest::MakeMixture();
   for (const auto& wrong : std::vector<std::pair<int, std::string>>{ { 100, "100 x 100" },
-         { -4, "power of two" }, { 65536, "not above 32768" }, { 2, "at least 4 x 4" } })
+         { -4, "power of two" }, { std::numeric_limits<int>::min(), "power of two" },
+         { std::numeric_limits<int>::max(), "power of two" }, { 65536, "not above 32768" },
+         { 2, "at least 4 x 4" } })
   {
     vtkNew<vtkSurfaceToAtlas> filter;
     filter->SetInputData(mixture);
@@ -680,6 +682,77 @@ void TestResolutionErrors(Checker& check)
   vtkNew<vtkAtlasToSurface> filter;
   filter->SetInputData(0, mixture);
   ExpectError(filter, "Input port 1", check);
+}
+
+//------------------------------------------------------------------------------
+void TestMemory(Checker& check)
+{
+  Surface square = atlasTest::MakeSquare(2, 0.0);
+  AddRandom(square->GetPointData(), "Many", 10000, square->GetNumberOfPoints());
+  vtkNew<vtkSurfaceToAtlas> filter;
+  filter->SetInputData(square);
+  filter->SetResolution(32768);
+  ExpectError(filter, "Maps of 32768 x 32768 texels need", check);
+}
+
+//------------------------------------------------------------------------------
+// How often a filter reports; with a limit, it is aborted at the last of so many reports.
+int CountReports(vtkAlgorithm* filter, int limit, Checker& check)
+{
+  struct Counter
+  {
+    int Number;
+    int Limit;
+  } counter{ 0, limit };
+  vtkNew<vtkTest::ErrorObserver> observer;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&counter);
+  command->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* reports = static_cast<Counter*>(data);
+      if (++reports->Number == reports->Limit)
+      {
+        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(true);
+      }
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+  filter->AddObserver(vtkCommand::ErrorEvent, observer);
+  filter->Modified();
+  filter->Update();
+  filter->RemoveObserver(command);
+  filter->RemoveObserver(observer);
+  auto* output = vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  check.True(!observer->GetError(), "no error");
+  check.True((output->GetNumberOfPoints() == 0) == (limit > 0), "no output where it is aborted");
+  return counter.Number;
+}
+
+//------------------------------------------------------------------------------
+// Both filters report once for so many pieces of texels, however few the triangles are.
+void TestReports(Checker& check)
+{
+  constexpr int resolution = 1024;
+  constexpr int mostPieces = 16384;
+  Surface square = atlasTest::MakeSquare(1, 0.0);
+  Image image = ToAtlas(square, resolution);
+  image->GetPointData()->GetArray("Area")->SetName("Values");
+  vtkNew<vtkSurfaceToAtlas> toAtlas;
+  toAtlas->SetInputData(square);
+  toAtlas->SetResolution(resolution);
+  vtkNew<vtkAtlasToSurface> toSurface;
+  toSurface->SetInputData(0, square);
+  toSurface->SetInputData(1, image);
+  for (vtkAlgorithm* filter : std::vector<vtkAlgorithm*>{ toAtlas, toSurface })
+  {
+    check.SetSubject(std::string("reports of ") + filter->GetClassName());
+    const int reports = CountReports(filter, 0, check);
+    check.True(reports >= resolution * resolution / mostPieces, std::to_string(reports));
+    for (const int limit : { 2, 3, reports / 2 })
+    {
+      check.True(CountReports(filter, limit, check) <= limit + 1, "nothing after an abort");
+    }
+  }
 }
 } // namespace
 
@@ -712,5 +785,7 @@ int TestAtlasTransfer(int argc, char* argv[])
   TestPipeline(check);
   TestSurfaceErrors(check);
   TestResolutionErrors(check);
+  TestMemory(check);
+  TestReports(check);
   return check.GetExitCode();
 }

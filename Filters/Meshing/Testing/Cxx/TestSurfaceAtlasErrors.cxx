@@ -174,14 +174,15 @@ void TestDefects(Checker& check)
 void TestProperties(Checker& check)
 {
   vtkNew<vtkSurfaceAtlas> atlas;
-  for (const int resolution : { -4, 0, 3, 511, 32768, 100000 })
+  for (const int resolution : { std::numeric_limits<int>::min(), -4, 0, 3, 511, 32768, 100000,
+         std::numeric_limits<int>::max() })
   {
     atlas->SetResolution(resolution);
     ExpectError(atlas, MakeSquare(),
       "Resolution is " + std::to_string(resolution) + ": give a power of two up to 16384", check);
   }
   atlas->SetResolution(16);
-  for (const double stretch : { 1.0, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN() })
+  for (const double stretch : { 1.0, 0.0, -1e300, std::numeric_limits<double>::quiet_NaN() })
   {
     atlas->SetMaximumStretch(stretch);
     ExpectError(atlas, MakeSquare(), "give a number above 1", check);
@@ -223,6 +224,49 @@ void TestTexelMapsOff(Checker& check)
   check.SetSubject("TexelMaps off");
   check.True(atlas->GetOutput()->GetNumberOfCells() > 0, "a surface");
   check.Equal(static_cast<double>(atlas->GetMaps()->GetNumberOfPoints()), 0, 0, "texels");
+}
+
+//------------------------------------------------------------------------------
+Surface MakeScaled(double scale, double shift)
+{
+  Surface square = MakeSquare();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    const Vector p = meshTest::GetPoint(square, i);
+    points->InsertNextPoint(scale * p[0] + shift, scale * p[1], scale * p[2]);
+  }
+  square->SetPoints(points);
+  return square;
+}
+
+//------------------------------------------------------------------------------
+// What no double holds the squares of is refused; the rest is as it is at any size.
+void TestScales(Checker& check)
+{
+  for (const double scale : { 1e-300, 1e-100, 1e100, 1e300, 1.7e308 })
+  {
+    ExpectError(MakeScaled(scale, 0.0), "give coordinates whose size is nearer to 1", check);
+  }
+  for (const double scale : { 1e-70, 1e-30, 1e30, 1e70 })
+  {
+    vtkNew<vtkSurfaceAtlas> atlas;
+    atlas->SetResolution(16);
+    atlas->SetInputData(MakeScaled(scale, 0.0));
+    atlas->Update();
+    check.SetSubject("a square of size " + std::to_string(std::log10(scale)));
+    check.Equal(meshTest::GetSummary(atlas->GetOutput(), "L2Stretch"), 1.0, 1e-3, "stretch");
+    check.Equal(meshTest::GetArea(atlas->GetOutput()), scale * scale, 1e-12 * scale * scale,
+      "area");
+  }
+  // Edges are halved no more when their middles would be their ends.
+  vtkNew<vtkSurfaceAtlas> atlas;
+  atlas->SetResolution(16);
+  atlas->SetInputData(MakeScaled(std::ldexp(1.0, -12), 1e12));
+  atlas->Update();
+  check.SetSubject("a square of few steps between numbers");
+  check.Equal(static_cast<double>(atlas->GetOutput()->GetNumberOfCells()), 2, 0, "triangles");
 }
 
 struct Progress
@@ -283,6 +327,36 @@ void TestProgress(Checker& check)
     }
   }
 }
+
+//------------------------------------------------------------------------------
+// Stopped at each report in turn, a run leaves nothing and says nothing.
+void TestAborts(Checker& check)
+{
+  for (int number = 1; number <= 16; number += 3)
+  {
+    int left = number;
+    vtkNew<vtkSurfaceAtlas> atlas;
+    vtkNew<vtkTest::ErrorObserver> observer;
+    vtkNew<vtkCallbackCommand> command;
+    command->SetClientData(&left);
+    command->SetCallback(
+      [](vtkObject* caller, unsigned long, void* data, void*)
+      {
+        if (--*static_cast<int*>(data) == 0)
+        {
+          vtkSurfaceAtlas::SafeDownCast(caller)->SetAbortExecute(true);
+        }
+      });
+    atlas->AddObserver(vtkCommand::ProgressEvent, command);
+    atlas->AddObserver(vtkCommand::ErrorEvent, observer);
+    atlas->SetInputData(MakeSphere());
+    atlas->SetResolution(512);
+    atlas->Update();
+    check.SetSubject("aborted at report " + std::to_string(number));
+    check.True(left <= 0, "there is such a report");
+    check.True(!observer->GetError() && IsEmpty(atlas), "no error, no output");
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -294,6 +368,8 @@ int TestSurfaceAtlasErrors(int, char*[])
   TestProperties(check);
   TestTooFewTexels(check);
   TestTexelMapsOff(check);
+  TestScales(check);
   TestProgress(check);
+  TestAborts(check);
   return check.GetExitCode();
 }

@@ -232,6 +232,71 @@ Surface MakeRoom()
 }
 
 //------------------------------------------------------------------------------
+// As CAD exports it: its sides are two triangles each, its ends fans.
+Surface MakeRod(int sides, double length)
+{
+  std::vector<Vector> points{ { 0, 0, 0 }, { 0, 0, length } };
+  std::vector<std::array<vtkIdType, 3>> triangles;
+  for (vtkIdType i = 0; i < sides; ++i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / sides;
+    points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
+    points.push_back({ std::cos(angle), std::sin(angle), length });
+    const vtkIdType a = 2 * i + 2;
+    const vtkIdType b = 2 * ((i + 1) % sides) + 2;
+    triangles.insert(triangles.end(),
+      { { a, b, b + 1 }, { a, b + 1, a + 1 }, { 0, b, a }, { 1, a + 1, b + 1 } });
+  }
+  return meshTest::MakeSurface(points, triangles);
+}
+
+//------------------------------------------------------------------------------
+Surface MakeFan(int sides)
+{
+  std::vector<Vector> points{ { 0, 0, 0 } };
+  std::vector<std::array<vtkIdType, 3>> triangles;
+  for (vtkIdType i = 0; i < sides; ++i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / sides;
+    points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
+    triangles.push_back({ 0, i + 1, (i + 1) % sides + 1 });
+  }
+  return meshTest::MakeSurface(points, triangles);
+}
+
+//------------------------------------------------------------------------------
+// Each triangle that is long in two sides becomes a ladder: 2 k - 1 triangles where its sides have
+// k pieces. A few more come from corners of charts.
+void CheckLadders(const std::string& what, vtkPolyData* input, double ladders, double pieces,
+  double stretch, Checker& check)
+{
+  vtkNew<vtkSurfaceAtlas> atlas;
+  atlas->SetInputData(input);
+  atlas->SetResolution(64);
+  atlas->TexelMapsOff();
+  atlas->Update();
+  vtkPolyData* output = atlas->GetOutput();
+  const double least = ladders * (2.0 * pieces - 1.0);
+  const double triangles = static_cast<double>(output->GetNumberOfCells());
+  check.SetSubject(what);
+  check.True(triangles >= least && triangles <= 1.1 * least,
+    std::to_string(triangles) + " triangles of " + std::to_string(least));
+  const double area = meshTest::GetArea(input);
+  check.Equal(meshTest::GetArea(output), area, 1e-12 * area, "area");
+  check.Equal(meshTest::GetSummary(output, "L2Stretch"), 1.0, stretch - 1.0, "stretch");
+}
+
+//------------------------------------------------------------------------------
+void TestLong(Checker& check)
+{
+  CheckLadders("rod 100:2", MakeRod(64, 100.0), 128.0, 64.0, 2.3, check);
+  CheckLadders("rod 100:2 far away", Scale(MakeRod(16, 100.0), 1.0, 6e6), 32.0, 64.0, 2.3, check);
+  CheckLadders("rod 20:2", MakeRod(64, 20.0), 128.0, 64.0, 1.3, check);
+  CheckLadders("fan", MakeFan(500), 500.0, 16.0, 1.1, check);
+  CheckLadders("strip 10000:1", MakePlane(1, 1, 1e-4), 2.0, 64.0, 11.0, check);
+}
+
+//------------------------------------------------------------------------------
 void TestBoxes(Checker& check)
 {
   using atlasTest::CheckAtlas;
@@ -305,8 +370,8 @@ void TestScales(Checker& check)
 int TestSurfaceAtlasShapes(int argc, char* argv[])
 {
   const std::map<std::string, void (*)(Checker&)> groups = { { "Boxes", TestBoxes },
-    { "Handles", TestHandles }, { "Open", TestOpen }, { "Thin", TestThin }, { "Tiny", TestTiny },
-    { "Scales", TestScales } };
+    { "Handles", TestHandles }, { "Long", TestLong }, { "Open", TestOpen }, { "Thin", TestThin },
+    { "Tiny", TestTiny }, { "Scales", TestScales } };
   Checker check;
   const auto group = argc > 1 ? groups.find(argv[1]) : groups.end();
   check.True(group != groups.end(), "the name of a group");
