@@ -3,6 +3,7 @@
 #include "vtkOpenEXRReader.h"
 
 #include "Files/ChannelGroups.h"
+#include "Files/LuminanceChroma.h"
 #include "Files/OpenEXRFileCheck.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
@@ -15,10 +16,12 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkUnsignedIntArray.h"
 
 #include <ImfChannelList.h>
@@ -31,7 +34,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <exception>
+#include <map>
 #include <new>
 #include <optional>
 #include <string>
@@ -44,35 +49,79 @@ vtkStandardNewMacro(vtkOpenEXRReader);
 namespace
 {
 constexpr std::size_t BytesPerValue = 4;
+constexpr double BytesPerMiB = 1048576.0;
 static_assert(sizeof(float) == BytesPerValue && sizeof(unsigned int) == BytesPerValue,
   "OpenEXR's float and unsigned integer pixels are read in place");
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkDataArray> MakeArray(const ChannelGroup& group, Imf::PixelType type,
-  const Imath::Box2i& window, Imf::FrameBuffer& target)
+vtkSmartPointer<vtkDataArray> NewArray(Imf::PixelType type)
 {
-  const int components = static_cast<int>(group.Channels.size());
-  const vtkIdType width = vtkIdType(window.max.x) - window.min.x + 1;
-  const vtkIdType height = vtkIdType(window.max.y) - window.min.y + 1;
-  vtkSmartPointer<vtkDataArray> array;
   if (type == Imf::UINT)
   {
-    array = vtkSmartPointer<vtkUnsignedIntArray>::New();
+    return vtkSmartPointer<vtkUnsignedIntArray>::New();
   }
-  else
+  return vtkSmartPointer<vtkFloatArray>::New();
+}
+
+//------------------------------------------------------------------------------
+// An array for the group's values, all 0. Its memory is not asked for through VTK, which ends the
+// process where there is none.
+vtkSmartPointer<vtkDataArray> MakeArray(const ChannelGroup& group, const Imath::Box2i& window)
+{
+  const vtkIdType width = vtkIdType(window.max.x) - window.min.x + 1;
+  const vtkIdType height = vtkIdType(window.max.y) - window.min.y + 1;
+  const auto components = static_cast<vtkIdType>(group.Channels.size());
+  const vtkIdType values = width * height * components;
+  void* memory = std::calloc(static_cast<std::size_t>(values), BytesPerValue);
+  if (!memory)
   {
-    array = vtkSmartPointer<vtkFloatArray>::New();
+    throw std::bad_alloc();
   }
+  vtkSmartPointer<vtkDataArray> array = NewArray(group.Type);
   array->SetName(group.Name.c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(width * height);
-  const std::size_t step = components * BytesPerValue;
-  for (int component = 0; component < components; ++component)
-  {
-    target.insert(group.Channels[component],
-      Imf::Slice::Make(type, array->GetVoidPointer(component), window, step, step * width));
-  }
+  array->SetNumberOfComponents(static_cast<int>(components));
+  array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
   return array;
+}
+
+//------------------------------------------------------------------------------
+// Has the array's values read in place.
+void AddSlices(const ChannelGroup& group, const Imath::Box2i& window, vtkDataArray* array,
+  Imf::FrameBuffer& target)
+{
+  const std::size_t step = group.Channels.size() * BytesPerValue;
+  const std::size_t width = static_cast<std::size_t>(vtkIdType(window.max.x) - window.min.x + 1);
+  for (std::size_t component = 0; component < group.Channels.size(); ++component)
+  {
+    void* first = array->GetVoidPointer(static_cast<vtkIdType>(component));
+    target.insert(group.Channels[component],
+      Imf::Slice::Make(group.Type, first, window, step, step * width));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Of the chroma, RY and BY, alike; of no other channel.
+Outcome CheckSampling(const Imf::ChannelList& channels, const std::vector<ChannelGroup>& groups)
+{
+  for (const ChannelGroup& group : groups)
+  {
+    const bool chroma = group.Kind == ChannelGroup::Meaning::LuminanceChroma;
+    const Imf::Channel& first = *channels.findChannel(group.Channels.front());
+    for (std::size_t i = 0; i < group.Channels.size(); ++i)
+    {
+      const Imf::Channel& channel = *channels.findChannel(group.Channels[i]);
+      const bool whole = channel.xSampling == 1 && channel.ySampling == 1;
+      const bool half = channel.xSampling == 2 && channel.ySampling == 2;
+      const bool asFirst =
+        channel.xSampling == first.xSampling && channel.ySampling == first.ySampling;
+      if (!(chroma && i % 2 == 0 && i < 3 ? (whole || half) && asFirst : whole))
+      {
+        return Outcome::Failed("channel \"" + group.Channels[i] +
+          "\" is subsampled; save the image with full-size channels");
+      }
+    }
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -90,24 +139,24 @@ void TurnRows(vtkDataArray* array, vtkIdType height)
 }
 
 //------------------------------------------------------------------------------
-// The first part of a file, of lines or tiles, and its levels.
+// One part of a file, of lines or tiles, and its levels.
 class Image
 {
 public:
-  explicit Image(const char* fileName) : File(fileName)
+  Image(const char* fileName, int part) : File(fileName), Part(part)
   {
     const Imf::Header& header = this->GetHeader();
     if (header.hasType() && header.type() == Imf::TILEDIMAGE)
     {
-      this->Tiles.emplace(this->File, 0);
+      this->Tiles.emplace(this->File, part);
     }
     else
     {
-      this->Lines.emplace(this->File, 0);
+      this->Lines.emplace(this->File, part);
     }
   }
 
-  const Imf::Header& GetHeader() const { return this->File.header(0); }
+  const Imf::Header& GetHeader() const { return this->File.header(this->Part); }
 
   int GetNumberOfLevels() const
   {
@@ -169,6 +218,7 @@ private:
   }
 
   Imf::MultiPartInputFile File;
+  int Part;
   std::optional<Imf::InputPart> Lines;
   std::optional<Imf::TiledInputPart> Tiles;
 };
@@ -206,6 +256,13 @@ int vtkOpenEXRReader::CanReadFile(const char* fileName)
 }
 
 //------------------------------------------------------------------------------
+std::string vtkOpenEXRReader::GetPartName(int part) const
+{
+  const bool there = part >= 0 && part < this->GetNumberOfParts();
+  return there ? this->PartNames[static_cast<std::size_t>(part)] : std::string();
+}
+
+//------------------------------------------------------------------------------
 Outcome vtkOpenEXRReader::Fail(unsigned long errorCode, const std::string& problem)
 {
   this->SetErrorCode(errorCode);
@@ -228,14 +285,17 @@ int vtkOpenEXRReader::Finish(const Outcome& outcome)
 Outcome vtkOpenEXRReader::CheckFile()
 {
   this->SetErrorCode(vtkErrorCode::NoError);
+  this->PartNames.clear();
   if (!this->FileName || !*this->FileName)
   {
     return this->Fail(vtkErrorCode::NoFileNameError, "no file name is set; call SetFileName first");
   }
   using OpenEXRFileCheck::Fault;
-  Fault fault = Fault::None;
-  Outcome checked = OpenEXRFileCheck::Check(this->FileName, fault);
-  switch (fault)
+  OpenEXRFileCheck::Findings findings;
+  Outcome checked = OpenEXRFileCheck::Check(this->FileName,
+    { this->Part, this->Level, BytesPerMiB * this->MemoryLimit }, findings);
+  this->PartNames = findings.PartNames;
+  switch (findings.Kind)
   {
     case Fault::None:
       return checked;
@@ -245,6 +305,10 @@ Outcome vtkOpenEXRReader::CheckFile()
       return this->Fail(vtkErrorCode::UnrecognizedFileTypeError, checked.GetMessage());
     case Fault::Truncated:
       return this->Fail(vtkErrorCode::PrematureEndOfFileError, checked.GetMessage());
+    case Fault::NoSuchPart:
+      return this->Fail(vtkErrorCode::UserError, checked.GetMessage());
+    case Fault::TooLarge:
+      return this->Fail(vtkErrorCode::UnknownError, checked.GetMessage());
     default:
       return this->Fail(vtkErrorCode::FileFormatError, checked.GetMessage());
   }
@@ -259,21 +323,24 @@ int vtkOpenEXRReader::RequestInformation(vtkInformation*, vtkInformationVector**
     output->Initialize();
   }
   this->NumberOfLevels = 0;
-  Outcome outcome = this->CheckFile();
-  if (outcome)
-  {
-    outcome = this->TryToReadHeader(outputs->GetInformationObject(0));
-  }
-  return this->Finish(outcome);
+  vtkInformation* info = outputs->GetInformationObject(0);
+  return this->Finish(this->Try(&vtkOpenEXRReader::ReadHeader, info));
 }
 
 //------------------------------------------------------------------------------
 // The border to OpenEXR: what it throws becomes a failure.
-Outcome vtkOpenEXRReader::TryToReadHeader(vtkInformation* info)
+template <typename Target>
+Outcome vtkOpenEXRReader::Try(Outcome (vtkOpenEXRReader::*read)(Target*), Target* target)
 {
   try
   {
-    return this->ReadHeader(info);
+    Outcome checked = this->CheckFile();
+    return checked ? (this->*read)(target) : checked;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return this->Fail(vtkErrorCode::UnknownError,
+      "there is not enough memory for its pixels; read it on a machine with more");
   }
   catch (const std::exception& exception)
   {
@@ -284,7 +351,7 @@ Outcome vtkOpenEXRReader::TryToReadHeader(vtkInformation* info)
 //------------------------------------------------------------------------------
 Outcome vtkOpenEXRReader::ReadHeader(vtkInformation* info)
 {
-  const Image image(this->FileName);
+  const Image image(this->FileName, this->Part);
   const Imf::Header& header = image.GetHeader();
   const int levels = image.GetNumberOfLevels();
   this->NumberOfLevels = levels;
@@ -306,11 +373,15 @@ Outcome vtkOpenEXRReader::ReadHeader(vtkInformation* info)
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
   info->Set(vtkDataObject::ORIGIN(), origin, 3);
   info->Set(vtkDataObject::SPACING(), spacing, 3);
-  const std::vector<ChannelGroup> groups = ChannelGroups::Find(header.channels());
-  const ChannelGroup& scalars = ChannelGroups::FindScalars(groups);
-  const bool integers = ChannelGroups::FindType(header.channels(), scalars) == Imf::UINT;
-  this->DataScalarType = integers ? VTK_UNSIGNED_INT : VTK_FLOAT;
-  this->NumberOfScalarComponents = static_cast<int>(scalars.Channels.size());
+  const std::vector<ChannelGroup> groups = ChannelGroups::Find(header);
+  if (Outcome checked = CheckSampling(header.channels(), groups); !checked)
+  {
+    return this->Fail(vtkErrorCode::FileFormatError, checked.GetMessage());
+  }
+  const auto scalars = std::find_if(groups.begin(), groups.end(),
+    [](const ChannelGroup& group) { return group.IsScalars; });
+  this->DataScalarType = scalars->Type == Imf::UINT ? VTK_UNSIGNED_INT : VTK_FLOAT;
+  this->NumberOfScalarComponents = static_cast<int>(scalars->Channels.size());
   std::copy_n(extent.data(), 6, this->DataExtent);
   std::copy_n(origin, 3, this->DataOrigin);
   std::copy_n(spacing, 3, this->DataSpacing);
@@ -323,68 +394,80 @@ Outcome vtkOpenEXRReader::ReadHeader(vtkInformation* info)
 int vtkOpenEXRReader::RequestData(vtkInformation*, vtkInformationVector**,
   vtkInformationVector* outputs)
 {
-  Outcome outcome = this->CheckFile();
-  if (outcome)
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  const Outcome outcome = this->Try(&vtkOpenEXRReader::ReadLevel, output);
+  if (!outcome)
   {
-    outcome = this->TryToReadLevel(vtkImageData::GetData(outputs));
+    output->Initialize();
   }
   return this->Finish(outcome);
 }
 
 //------------------------------------------------------------------------------
-// The border to OpenEXR: what it throws becomes a failure.
-Outcome vtkOpenEXRReader::TryToReadLevel(vtkImageData* output)
+Outcome vtkOpenEXRReader::ReadLevel(vtkImageData* output)
 {
-  Outcome outcome = Outcome::Done();
-  try
-  {
-    this->ReadLevel(output);
-  }
-  catch (const std::bad_alloc&)
-  {
-    outcome = this->Fail(vtkErrorCode::UnknownError, "there is not enough memory for its pixels");
-  }
-  catch (const std::exception& exception)
-  {
-    outcome = this->Fail(vtkErrorCode::FileFormatError, exception.what());
-  }
-  if (!outcome)
-  {
-    output->Initialize();
-  }
-  return outcome;
-}
-
-//------------------------------------------------------------------------------
-void vtkOpenEXRReader::ReadLevel(vtkImageData* output)
-{
-  Image image(this->FileName);
+  Image image(this->FileName, this->Part);
   const Imf::Header& header = image.GetHeader();
   const Imath::Box2i window = image.GetWindow(this->Level);
-  const std::vector<ChannelGroup> groups = ChannelGroups::Find(header.channels());
+  const std::vector<ChannelGroup> groups = ChannelGroups::Find(header);
+  if (Outcome checked = CheckSampling(header.channels(), groups); !checked)
+  {
+    return this->Fail(vtkErrorCode::FileFormatError, checked.GetMessage());
+  }
   Imf::FrameBuffer target;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  std::map<std::size_t, LuminanceChroma> converted;
   for (const ChannelGroup& group : groups)
   {
-    const Imf::PixelType type = ChannelGroups::FindType(header.channels(), group);
-    arrays.push_back(MakeArray(group, type, window, target));
+    arrays.push_back(MakeArray(group, window));
+    if (group.Kind == ChannelGroup::Meaning::LuminanceChroma)
+    {
+      converted.try_emplace(arrays.size() - 1, header, group, window, target);
+    }
+    else
+    {
+      AddSlices(group, window, arrays.back(), target);
+    }
   }
   image.Read(this->Level, target, MakeFilterMonitor(this));
+  for (auto& [index, pixels] : converted)
+  {
+    pixels.Convert(static_cast<float*>(arrays[index]->GetVoidPointer(0)));
+  }
   output->SetExtent(GetExtent(window).data());
   output->SetOrigin(this->DataOrigin);
   output->SetSpacing(this->DataSpacing);
-  for (vtkDataArray* array : arrays)
+  for (std::size_t i = 0; i < groups.size(); ++i)
   {
-    TurnRows(array, vtkIdType(window.max.y) - window.min.y + 1);
-    output->GetPointData()->AddArray(array);
+    TurnRows(arrays[i], vtkIdType(window.max.y) - window.min.y + 1);
+    output->GetPointData()->AddArray(arrays[i]);
+    if (groups[i].IsScalars)
+    {
+      output->GetPointData()->SetActiveScalars(groups[i].Name.c_str());
+    }
   }
-  output->GetPointData()->SetActiveScalars(ChannelGroups::FindScalars(groups).Name.c_str());
-  vtkFieldData* fields = output->GetFieldData();
   const Imath::Box2i& display = header.displayWindow();
+  const int corners[4] = { display.min.x, display.max.x, display.min.y, display.max.y };
+  this->AddFields(corners, output->GetFieldData());
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenEXRReader::AddFields(const int display[4], vtkFieldData* fields)
+{
   FieldValues::AddAs<vtkIntArray>(fields, ArrayNames::DisplayWindow,
-    { display.min.x, display.max.x, display.min.y, display.max.y });
-  FieldValues::AddAs<vtkIntArray>(fields, "NumberOfLevels", { image.GetNumberOfLevels() });
+    { display[0], display[1], display[2], display[3] });
+  FieldValues::AddAs<vtkIntArray>(fields, "NumberOfLevels", { this->NumberOfLevels });
   FieldValues::AddAs<vtkIntArray>(fields, "Level", { this->Level });
+  FieldValues::AddAs<vtkIntArray>(fields, "NumberOfParts", { this->GetNumberOfParts() });
+  FieldValues::AddAs<vtkIntArray>(fields, "Part", { this->Part });
+  vtkNew<vtkStringArray> names;
+  names->SetName("PartNames");
+  for (const std::string& name : this->PartNames)
+  {
+    names->InsertNextValue(name);
+  }
+  fields->AddArray(names);
 }
 
 //------------------------------------------------------------------------------
@@ -393,4 +476,7 @@ void vtkOpenEXRReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Level: " << this->Level << '\n';
   os << indent << "NumberOfLevels: " << this->NumberOfLevels << '\n';
+  os << indent << "Part: " << this->Part << '\n';
+  os << indent << "NumberOfParts: " << this->GetNumberOfParts() << '\n';
+  os << indent << "MemoryLimit: " << this->MemoryLimit << '\n';
 }

@@ -17,6 +17,9 @@
  * | name.0, name.1, ... name.N-1 | "name", N components |
  * | any other | an array with the channel's name, one component |
  *
+ * Unsigned integers never share an array with other numbers, which would cost them digits: an
+ * integer A beside half R, G, B is an array "A" of its own.
+ *
  * The point scalars are "RGBA" or "RGB", else the channel "Y", else the first array.
  *
  * The extent is the file's data window, x and y numbers unchanged. An OpenEXR file starts with its
@@ -38,13 +41,24 @@
  * The field data arrays "NumberOfLevels" and "Level" (int) tell what the file has and what was
  * read.
  *
- * Of a file in several parts the first is read. Deep images and channels with subsampling are
- * refused. A file that is truncated, unfinished, damaged, or not OpenEXR gives one error that names
- * the file and the fault. Sizes named in the header are checked against the length of the file
- * before anything is allocated for them: the pixels of level 0 may be as many times larger than the
- * file's data as the compression can make of them at most (none 1, RLE 64, ZIPS and ZIP 1032, PIZ
- * 454, PXR24 1376, B44 and B44A 11, DWAA and DWAB 66048), and one tile or block of lines may take
- * 64 MiB, or four times what the whole level 0 takes.
+ * Of a file in several parts one is read, see Part. The field data arrays "NumberOfParts", "Part"
+ * (int) and "PartNames" (strings) tell what the file has and what was read.
+ *
+ * Luminance and chroma (Y, RY, BY, where RY and BY mostly have a value for every second pixel of
+ * every second line) become "RGB" or, with A, "RGBA", or the layer's array, in half precision, as
+ * OpenEXR's own RgbaInputFile reads them. Deep parts and other channels with subsampling are
+ * refused by name.
+ *
+ * vtkOpenEXRWriter keeps the name of the point scalars in the header (the string attributes
+ * "scalarsName" and "scalarsChannel"); they get it back.
+ *
+ * A file that is truncated, unfinished, damaged, or not OpenEXR gives one error that names the file
+ * and the fault. Sizes named in the header are checked against the length of the file before
+ * anything is allocated for them: the pixels of level 0 may be as many times larger than the file's
+ * data as the compression can make of them at most (none 1, RLE 64, ZIPS and ZIP 1032, PIZ 454,
+ * PXR24 1376, B44 and B44A 11, DWAA and DWAB 66048), and one tile or block of lines may take 64
+ * MiB, or four times what the whole level 0 takes. What needs more than MemoryLimit, or more than
+ * is free, is refused.
  */
 #ifndef vtkOpenEXRReader_h
 #define vtkOpenEXRReader_h
@@ -53,11 +67,13 @@
 #include "vtkLightTransportIOModule.h" // for export macro
 
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 namespace LightTransport
 {
 class Outcome;
 }
+class vtkFieldData;
 class vtkImageData;
 
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRReader : public vtkImageReader2
@@ -84,6 +100,31 @@ public:
   /// file that cannot be read.
   vtkGetMacro(NumberOfLevels, int);
 
+  ///@{
+  /// The part to read, from 0, which is the default. One that the file does not have gives an
+  /// error.
+  vtkSetClampMacro(Part, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Part, int);
+  ///@}
+
+  ///@{
+  /// The parts that the file has, and the name of one; empty for a part without a name, or that is
+  /// not there. Known after UpdateInformation(), also where the chosen part cannot be read; before,
+  /// and of a file that is no OpenEXR file, 0.
+  int GetNumberOfParts() const { return static_cast<int>(this->PartNames.size()); }
+  std::string GetPartName(int part) const;
+  ///@}
+
+  ///@{
+  /**
+   * The memory that reading may take, in MiB: 4 bytes for each value of the pixels, and a tile or
+   * block of lines. A small file can hold, or pretend to hold, a very large image; one that needs
+   * more is refused. Default 8192, at least 0.
+   */
+  vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MemoryLimit, int);
+  ///@}
+
 protected:
   vtkOpenEXRReader();
   ~vtkOpenEXRReader() override;
@@ -100,13 +141,18 @@ private:
   LightTransport::Outcome Fail(unsigned long errorCode, const std::string& problem);
   int Finish(const LightTransport::Outcome& outcome);
   LightTransport::Outcome CheckFile();
-  LightTransport::Outcome TryToReadHeader(vtkInformation* info);
   LightTransport::Outcome ReadHeader(vtkInformation* info);
-  LightTransport::Outcome TryToReadLevel(vtkImageData* output);
-  void ReadLevel(vtkImageData* output);
+  LightTransport::Outcome ReadLevel(vtkImageData* output);
+  template <typename Target>
+  LightTransport::Outcome Try(LightTransport::Outcome (vtkOpenEXRReader::*read)(Target*),
+    Target* target);
+  void AddFields(const int display[4], vtkFieldData* fields);
 
   int Level = 0;
   int NumberOfLevels = 0;
+  int Part = 0;
+  int MemoryLimit = 8192;
+  std::vector<std::string> PartNames;
 };
 
 #endif

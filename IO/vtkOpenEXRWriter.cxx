@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenEXRWriter.h"
 
+#include "Files/ChannelGroups.h"
 #include "Files/PixelLevels.h"
+#include "Files/ReplacementStream.h"
 #include "Files/WrittenChannels.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/FileReplacement.h"
 #include "Shared/FilterMonitor.h"
 
 #include "vtkDataArray.h"
@@ -21,13 +24,12 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
-#include <ImfStdIO.h>
 #include <ImfTiledOutputFile.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
-#include <filesystem>
-#include <fstream>
+#include <limits>
 #include <new>
 #include <string>
 #include <vector>
@@ -55,7 +57,13 @@ Imath::Box2i GetDisplayWindow(vtkImageData* image, const Imath::Box2i& dataWindo
     return dataWindow;
   }
   const auto values = vtk::DataArrayValueRange(array);
-  const auto value = [&](int i) { return static_cast<int>(values[i]); };
+  constexpr double largest = std::numeric_limits<int>::max();
+  // Not a number or beyond int: OpenEXR refuses the window.
+  const auto value = [&](int i)
+  {
+    const auto number = static_cast<double>(values[i]);
+    return std::abs(number) <= largest ? static_cast<int>(number) : std::numeric_limits<int>::max();
+  };
   const Imath::Box2i window({ value(0), value(2) }, { value(1), value(3) });
   return window.isEmpty() ? dataWindow : window;
 }
@@ -112,24 +120,6 @@ bool IsPowerOfTwo(vtkIdType value)
 {
   return value > 0 && (value & (value - 1)) == 0;
 }
-
-//------------------------------------------------------------------------------
-// An older file, or what else has the name, must be one that may be replaced.
-Outcome CheckTarget(const std::filesystem::path& target)
-{
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(target, ignored);
-  if (!std::filesystem::exists(status))
-  {
-    return Outcome::Done();
-  }
-  if (!std::filesystem::is_regular_file(status))
-  {
-    return Outcome::Failed("the name is that of a folder or device; choose another");
-  }
-  const std::ofstream writable(target, std::ios::binary | std::ios::in | std::ios::out);
-  return writable ? Outcome::Done() : Outcome::Failed("the file is there and may not be written");
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -152,7 +142,7 @@ int vtkOpenEXRWriter::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 void vtkOpenEXRWriter::WriteData()
 {
-  const Outcome outcome = this->WriteFile();
+  const Outcome outcome = this->TryToWrite();
   if (outcome.IsAborted())
   {
     this->SetErrorCode(vtkErrorCode::UserError);
@@ -172,6 +162,25 @@ Outcome vtkOpenEXRWriter::Fail(unsigned long errorCode, const std::string& probl
 }
 
 //------------------------------------------------------------------------------
+// The border to OpenEXR: what it throws becomes a failure.
+Outcome vtkOpenEXRWriter::TryToWrite()
+{
+  try
+  {
+    return this->WriteFile();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return this->Fail(vtkErrorCode::UnknownError,
+      "there is not enough memory; write a smaller image");
+  }
+  catch (const std::exception& exception)
+  {
+    return this->Fail(vtkErrorCode::CannotOpenFileError, exception.what());
+  }
+}
+
+//------------------------------------------------------------------------------
 Outcome vtkOpenEXRWriter::WriteFile()
 {
   if (!this->FileName || !*this->FileName)
@@ -183,21 +192,28 @@ Outcome vtkOpenEXRWriter::WriteFile()
   {
     return this->Fail(vtkErrorCode::FileFormatError, checked.GetMessage());
   }
-  std::error_code ignored;
-  std::filesystem::path target = std::filesystem::weakly_canonical(this->FileName, ignored);
-  if (target.empty())
+  FileReplacement file;
+  if (Outcome begun = file.Begin(this->FileName); !begun)
   {
-    target = this->FileName;
+    return this->Fail(vtkErrorCode::CannotOpenFileError, begun.GetMessage());
   }
-  if (Outcome checked = CheckTarget(target); !checked)
+  Outcome written = Outcome::Done();
+  try
   {
-    return this->Fail(vtkErrorCode::CannotOpenFileError, checked.GetMessage());
+    written = this->WriteImage(image, file);
   }
-  const std::filesystem::path unfinished(target.string() + ".part");
-  Outcome written = this->TryToWrite(image, unfinished.string(), target.string());
-  if (!written)
+  catch (const Iex::BaseExc&)
   {
-    std::filesystem::remove(unfinished, ignored);
+    if (!file.HasFailed())
+    {
+      throw;
+    }
+  }
+  // OpenEXR writes the table of offsets last and says nothing where that fails.
+  if (written)
+  {
+    written = file.Finish();
+    return written ? written : this->Fail(vtkErrorCode::OutOfDiskSpaceError, written.GetMessage());
   }
   return written;
 }
@@ -220,6 +236,10 @@ Outcome vtkOpenEXRWriter::CheckImage(vtkImageData* image) const
     return Outcome::Failed(
       "the image has several slices; an OpenEXR file holds one in the xy plane");
   }
+  if (Outcome arrays = WrittenChannels::CheckArrays(image); !arrays)
+  {
+    return arrays;
+  }
   const Imf::PixelType type = this->PixelType == PIXEL_TYPE_HALF ? Imf::HALF : Imf::FLOAT;
   Outcome channels = WrittenChannels::Check(WrittenChannels::List(image, type, nullptr));
   if (!channels || !this->MipLevels)
@@ -240,32 +260,7 @@ Outcome vtkOpenEXRWriter::CheckImage(vtkImageData* image) const
 }
 
 //------------------------------------------------------------------------------
-// The border to OpenEXR: what it throws becomes a failure.
-Outcome vtkOpenEXRWriter::TryToWrite(vtkImageData* image, const std::string& unfinished,
-  const std::string& target)
-{
-  try
-  {
-    Outcome written = this->WriteImage(image, unfinished);
-    if (written)
-    {
-      std::filesystem::rename(unfinished, target);
-    }
-    return written;
-  }
-  catch (const std::bad_alloc&)
-  {
-    return this->Fail(vtkErrorCode::UnknownError,
-      "there is not enough memory; write a smaller image");
-  }
-  catch (const std::exception& exception)
-  {
-    return this->Fail(vtkErrorCode::CannotOpenFileError, exception.what());
-  }
-}
-
-//------------------------------------------------------------------------------
-Outcome vtkOpenEXRWriter::WriteImage(vtkImageData* image, const std::string& fileName)
+Outcome vtkOpenEXRWriter::WriteImage(vtkImageData* image, FileReplacement& file)
 {
   const PixelLevels::Size size = GetSize(image);
   const bool weighted = this->MipLevels && this->WeightArray && *this->WeightArray;
@@ -291,36 +286,16 @@ Outcome vtkOpenEXRWriter::WriteImage(vtkImageData* image, const std::string& fil
         this->MipLevels ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL, Imf::ROUND_DOWN));
   }
 
-  std::ofstream file(fileName, std::ios::binary);
-  if (!file)
+  if (vtkDataArray* scalars = image->GetPointData()->GetScalars(); scalars && scalars->GetName())
   {
-    return this->Fail(vtkErrorCode::CannotOpenFileError,
-      "it cannot be created; the folder must exist and let you write");
+    ChannelGroups::KeepScalars(header, scalars->GetName(),
+      WrittenChannels::GetName(scalars, 0, true));
   }
-  Imf::StdOFStream stream(file, fileName.c_str());
+  ReplacementStream stream(file, this->FileName);
   PixelLevels levels(channels, weights, size);
-  Outcome written = Outcome::Done();
-  try
-  {
-    const Monitor monitor = MakeFilterMonitor(this);
-    written = tiled ? WriteTiles(stream, header, levels, monitor)
-                    : WriteLines(stream, header, levels, monitor);
-  }
-  catch (const Iex::BaseExc&)
-  {
-    if (file)
-    {
-      throw;
-    }
-  }
-  // OpenEXR writes the table of offsets last and says nothing where that fails.
-  file.close();
-  if (!file)
-  {
-    return this->Fail(vtkErrorCode::OutOfDiskSpaceError,
-      "the data cannot be written; make room on the disk");
-  }
-  return written;
+  const Monitor monitor = MakeFilterMonitor(this);
+  return tiled ? WriteTiles(stream, header, levels, monitor)
+               : WriteLines(stream, header, levels, monitor);
 }
 
 //------------------------------------------------------------------------------

@@ -14,6 +14,9 @@
  * (see PixelType); arrays of other integers that half cannot hold exactly (above 2048) become
  * float, and are refused where float cannot either (above 16777216).
  *
+ * The header keeps the name of the point scalars, so that vtkOpenEXRReader gives it back. Every
+ * point array must have a value for each point and be of numbers, else nothing is written.
+ *
  * The data window is the extent; the display window is the field data array "DisplayWindow" (int,
  * xmin, xmax, ymin, ymax) if there is one, else the extent too. Origin and spacing are not written.
  * Rows are turned round: OpenEXR starts with the topmost.
@@ -29,7 +32,9 @@
  * level and rounded once.
  *
  * The file appears under its name when it is complete: after an error (also a full disk) or an
- * abort an older file of that name is still there, and no new one.
+ * abort an older file of that name is still there, and no new one. Symbolic links are followed and
+ * stay, the older file's mode is kept; devices, pipes, folders, files with several hard links and
+ * files that may not be written are refused.
  */
 #ifndef vtkOpenEXRWriter_h
 #define vtkOpenEXRWriter_h
@@ -41,8 +46,9 @@
 
 namespace LightTransport
 {
+class FileReplacement;
 class Outcome;
-}
+} // namespace LightTransport
 class vtkImageData;
 
 class VTKLIGHTTRANSPORTIO_EXPORT vtkOpenEXRWriter : public vtkWriter
@@ -151,11 +157,10 @@ private:
   void operator=(const vtkOpenEXRWriter&) = delete;
 
   LightTransport::Outcome Fail(unsigned long errorCode, const std::string& problem);
+  LightTransport::Outcome TryToWrite();
   LightTransport::Outcome WriteFile();
   LightTransport::Outcome CheckImage(vtkImageData* image) const;
-  LightTransport::Outcome TryToWrite(vtkImageData* image, const std::string& unfinished,
-    const std::string& target);
-  LightTransport::Outcome WriteImage(vtkImageData* image, const std::string& fileName);
+  LightTransport::Outcome WriteImage(vtkImageData* image, LightTransport::FileReplacement& file);
 
   char* FileName = nullptr;
   int PixelType = PIXEL_TYPE_FLOAT;

@@ -100,7 +100,8 @@ std::vector<vtkDataArray*> GetArrays(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-Outcome Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPolyData* output)
+Outcome Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPolyData* output,
+  const Monitor& monitor)
 {
   output->ShallowCopy(surface);
   std::vector<Means> ofCells;
@@ -136,7 +137,8 @@ Outcome Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkP
           means.Add(corners[i], piece.Texel, weight / weightOfPoint[corners[i]]);
         }
       }
-    });
+    },
+    monitor);
   return Outcome::Done();
 }
 } // namespace
@@ -190,9 +192,11 @@ int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** input
   int resolution = 0;
   MeshingRun::Steps steps(advice);
   steps.Take([&]() { return FindResolution(image, resolution); });
-  steps.Take([&]() { return TexelPieces::Check(surface, resolution); });
+  steps.Take([&]() { return TexelPieces::Check(surface, resolution, monitor); });
   steps.Take([&]() { return monitor.Check(0.1); });
-  steps.Take([&]() { return Transfer(image, resolution, surface, output); });
+  steps.Take(
+    [&]()
+    { return Transfer(image, resolution, surface, output, monitor.GetStage(0.1, 1.0)); });
   steps.Take([&]() { return monitor.Check(1.0); });
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)

@@ -13,13 +13,19 @@
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkVariant.h"
 
 #include <algorithm>
@@ -101,33 +107,85 @@ Outcome CheckLength(const char* name, double length, const char* remedy)
 }
 
 //------------------------------------------------------------------------------
-// Per input cell to per triangle.
-std::vector<int> GetRegionsOfTriangles(const std::vector<int>& regionOfCell,
-  const TriangleSoup& soup)
+// Arrays that are too short would be read beyond their end.
+Outcome CheckTuples(vtkDataSetAttributes* arrays, vtkIdType number, const char* what)
 {
-  std::vector<int> regions;
-  for (const vtkIdType cell : soup.CellIds)
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
-    regions.push_back(regionOfCell[cell]);
+    vtkAbstractArray* array = arrays->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != number)
+    {
+      const std::string name = array->GetName() ? array->GetName() : "";
+      return Outcome::Failed("The " + std::string(what) + " array \"" + name + "\" has " +
+        std::to_string(array->GetNumberOfTuples()) + " tuples for " + std::to_string(number) + " " +
+        what + "s: give one tuple each, or remove the array.");
+    }
   }
-  return regions;
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// Put the triangles of one soup behind those of another, apart from them, with ids that count on.
+void Append(const TriangleSoup& from, vtkIdType firstPoint, vtkIdType firstCell, TriangleSoup& to)
+{
+  const std::size_t offset = to.Points.size();
+  to.Points.insert(to.Points.end(), from.Points.begin(), from.Points.end());
+  for (const vtkIdType id : from.PointIds)
+  {
+    to.PointIds.push_back(firstPoint + id);
+  }
+  for (const TriangleSoup::Triangle& t : from.Triangles)
+  {
+    to.Triangles.push_back({ offset + t[0], offset + t[1], offset + t[2] });
+  }
+  for (const vtkIdType id : from.CellIds)
+  {
+    to.CellIds.push_back(firstCell + id);
+  }
 }
 } // namespace
+
+//------------------------------------------------------------------------------
+// A surface of the input, and what becomes of it.
+struct vtkPatchMesher::Block
+{
+  vtkPolyData* Input;
+  vtkPolyData* Output;
+  /// What comes before messages: empty unless the input is composite.
+  std::string Name;
+  std::vector<int> RegionOfCell;
+  std::vector<double> LengthOfPoint;
+  TriangleSoup Soup;
+  RepairCounts Counts;
+};
 
 //------------------------------------------------------------------------------
 // What one run of the filter hands from step to step.
 struct vtkPatchMesher::Job
 {
-  vtkPolyData* Input;
-  vtkPolyData* Output;
+  vtkDataObject* Output;
   Monitor Watcher;
-  std::vector<int> RegionOfCell;
-  std::vector<double> LengthOfPoint;
+  /// Those with polygons.
+  std::vector<Block> Blocks;
+  /// The triangles of all blocks, block by block.
   TriangleSoup Soup;
-  RepairCounts Counts;
-  IsotropicRemesher Remesher;
-  /// The target edge length that was used.
-  double Length = 0.0;
+  std::vector<int> Regions;
+  std::vector<double> LengthOfPoint;
+  RemeshToTarget::Result Result;
+
+  TriangleSoup Gather() const
+  {
+    TriangleSoup all;
+    vtkIdType firstPoint = 0;
+    vtkIdType firstCell = 0;
+    for (const Block& block : this->Blocks)
+    {
+      Append(block.Soup, firstPoint, firstCell, all);
+      firstPoint += block.Input->GetNumberOfPoints();
+      firstCell += block.Input->GetNumberOfCells();
+    }
+    return all;
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -162,14 +220,53 @@ void vtkPatchMesher::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+int vtkPatchMesher::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkPatchMesher::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkPatchMesher::ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
+{
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->Superclass::ProcessRequest(request, inputs, outputs);
+  }
+  const vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  if (!input)
+  {
+    return 0;
+  }
+  if (vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+      !output || !output->IsA(input->GetClassName()))
+  {
+    vtkSmartPointer<vtkDataObject> copy;
+    copy.TakeReference(input->NewInstance());
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), copy);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
   Job job;
-  job.Input = vtkPolyData::GetData(inputs[0]);
-  job.Output = vtkPolyData::GetData(outputs);
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  job.Output = vtkDataObject::GetData(outputs, 0);
   job.Watcher = MakeFilterMonitor(this);
-  if (MeshingRun::IsEmptyPiece(job.Input, outputs->GetInformationObject(0)))
+  if (MeshingRun::IsEmptyPiece(input, outputs->GetInformationObject(0)))
   {
     return 1;
   }
@@ -178,8 +275,9 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
     "try another TargetEdgeLength, or repair the surface first" };
   MeshingRun::Steps steps(advice);
   steps.Take([&]() { return this->CheckProperties(); });
-  steps.Take([&]() { return this->ReadArrays(inputs, job); });
-  steps.Take([&]() { return this->ReadSurface(job); });
+  steps.Take([&]() { return this->FindBlocks(input, job); });
+  steps.Take([&]() { return this->ReadBlocks(job); });
+  steps.Take([&]() { return this->RepairBlocks(job); });
   steps.Take([&]() { return this->Remesh(job); });
   steps.Take([&]() { return this->Write(job); });
   const Outcome& outcome = steps.GetOutcome();
@@ -219,21 +317,103 @@ Outcome vtkPatchMesher::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::ReadArrays(vtkInformationVector** inputs, Job& job)
+// The surfaces of the input, and an output for each in the same place.
+Outcome vtkPatchMesher::FindBlocks(vtkDataObject* input, Job& job)
 {
-  if (Outcome read = this->ReadLengths(inputs, job.LengthOfPoint); !read)
+  if (auto* surface = vtkPolyData::SafeDownCast(input))
   {
-    return read;
+    job.Blocks.emplace_back();
+    job.Blocks.back().Input = surface;
+    job.Blocks.back().Output = vtkPolyData::SafeDownCast(job.Output);
+    return Outcome::Done();
   }
-  return this->ReadRegions(inputs, job.RegionOfCell);
+  auto* from = vtkCompositeDataSet::SafeDownCast(input);
+  auto* to = vtkCompositeDataSet::SafeDownCast(job.Output);
+  to->CopyStructure(from);
+  to->GetFieldData()->ShallowCopy(from->GetFieldData());
+  vtkIdType withoutPolygons = 0;
+  vtkSmartPointer<vtkCompositeDataIterator> leaf;
+  leaf.TakeReference(from->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    auto* surface = vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject());
+    const std::string name = "Block " + std::to_string(leaf->GetCurrentFlatIndex());
+    if (!surface)
+    {
+      return Outcome::Failed(name + " is a " + leaf->GetCurrentDataObject()->GetClassName() +
+        ": give surfaces made of polygons (vtkPolyData), extract them first.");
+    }
+    vtkNew<vtkPolyData> output;
+    to->SetDataSet(leaf, output);
+    if (surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0)
+    {
+      job.Blocks.emplace_back();
+      job.Blocks.back().Input = surface;
+      job.Blocks.back().Output = output;
+      job.Blocks.back().Name = name + ": ";
+    }
+    else
+    {
+      withoutPolygons += surface->GetNumberOfCells() > 0;
+    }
+  }
+  if (job.Blocks.empty())
+  {
+    return Outcome::Failed("The input has no polygons: give surfaces made of polygons.");
+  }
+  if (withoutPolygons > 0)
+  {
+    vtkWarningMacro(<< withoutPolygons
+                    << " blocks have vertices or lines, but no polygons: they come out empty.");
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::ReadRegions(vtkInformationVector** inputs, std::vector<int>& regions)
+Outcome vtkPatchMesher::ReadBlocks(Job& job)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  for (Block& block : job.Blocks)
+  {
+    if (Outcome read = this->ReadBlock(block); !read)
+    {
+      return read.HasFailed() ? Outcome::Failed(block.Name + read.GetMessage()) : read;
+    }
+  }
+  return job.Watcher.Check(0.02);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkPatchMesher::ReadBlock(Block& block)
+{
+  vtkPolyData* input = block.Input;
+  // The input's field data, also of what has no patches.
+  block.Output->GetFieldData()->PassData(input->GetFieldData());
+  const Outcome checked = CheckTuples(input->GetCellData(), input->GetNumberOfCells(), "cell");
+  if (!checked)
+  {
+    return checked;
+  }
+  if (Outcome points = CheckTuples(input->GetPointData(), input->GetNumberOfPoints(), "point");
+      !points)
+  {
+    return points;
+  }
+  if (Outcome lengths = this->ReadLengths(input, block.LengthOfPoint); !lengths)
+  {
+    return lengths;
+  }
+  if (Outcome regions = this->ReadRegions(input, block.RegionOfCell); !regions)
+  {
+    return regions;
+  }
+  return block.Soup.Read(input);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkPatchMesher::ReadRegions(vtkPolyData* input, std::vector<int>& regions)
+{
   int association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
-  vtkAbstractArray* array = this->GetInputAbstractArrayToProcess(0, inputs, association);
+  vtkAbstractArray* array = this->GetInputAbstractArrayToProcess(0, input, association);
   const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
   const std::string name = chosen && *chosen ? chosen : DefaultRegionArray;
   if (!array && name == DefaultRegionArray)
@@ -262,7 +442,7 @@ Outcome vtkPatchMesher::ReadRegions(vtkInformationVector** inputs, std::vector<i
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<double>& lengths)
+Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& lengths)
 {
   if (this->SizeField != SIZE_FIELD_ARRAY)
   {
@@ -270,13 +450,13 @@ Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<d
   }
   int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
   vtkDataArray* array =
-    vtkDataArray::SafeDownCast(this->GetInputAbstractArrayToProcess(1, inputs, association));
+    vtkDataArray::SafeDownCast(this->GetInputAbstractArrayToProcess(1, input, association));
   const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
   const std::string name = chosen && *chosen ? chosen : DefaultLengthArray;
   if (!chosen || !*chosen)
   {
     association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-    array = vtkPolyData::GetData(inputs[0])->GetPointData()->GetArray(DefaultLengthArray);
+    array = input->GetPointData()->GetArray(DefaultLengthArray);
   }
   if (!array || association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
@@ -287,36 +467,53 @@ Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<d
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::ReadSurface(Job& job) const
+// Each surface by itself: what is in different blocks does not hang together.
+Outcome vtkPatchMesher::RepairBlocks(Job& job) const
 {
-  if (Outcome read = job.Soup.Read(job.Input); !read)
-  {
-    return read;
-  }
-  if (!job.Watcher.Report(0.02))
-  {
-    return Outcome::Aborted();
-  }
-  const SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
+  SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
     static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
-  return SurfaceRepair::Run(settings, job.Watcher.GetStage(0.02, 0.1), job.Soup, job.Counts);
+  if (job.Blocks.size() > 1)
+  {
+    settings.HoleSize = SurfaceRepair::ChooseHoleSize(settings.HoleSize, job.Gather());
+  }
+  for (std::size_t i = 0; i < job.Blocks.size(); ++i)
+  {
+    Block& block = job.Blocks[i];
+    const double size = static_cast<double>(job.Blocks.size());
+    const Monitor stage = job.Watcher.GetStage(0.02, 0.1).GetStage(i / size, (i + 1) / size);
+    if (Outcome repaired = SurfaceRepair::Run(settings, stage, block.Soup, block.Counts); !repaired)
+    {
+      return repaired.HasFailed() ? Outcome::Failed(block.Name + repaired.GetMessage()) : repaired;
+    }
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkPatchMesher::Remesh(Job& job) const
 {
+  job.Soup = job.Gather();
+  for (const Block& block : job.Blocks)
+  {
+    job.LengthOfPoint.insert(job.LengthOfPoint.end(), block.LengthOfPoint.begin(),
+      block.LengthOfPoint.end());
+    for (const vtkIdType cell : block.Soup.CellIds)
+    {
+      job.Regions.push_back(block.RegionOfCell[cell]);
+    }
+  }
   PatchTarget target;
   if (Outcome chosen = this->ChooseTarget(job, target); !chosen)
   {
     return chosen;
   }
-  if (!job.Remesher.Build(job.Soup, GetRegionsOfTriangles(job.RegionOfCell, job.Soup),
-        this->FeatureAngle))
+  IsotropicRemesher remesher;
+  if (!remesher.Build(job.Soup, job.Regions, this->FeatureAngle))
   {
     return Outcome::Failed("The surface is not a manifold, even after the repair: split it first.");
   }
-  return RemeshToTarget::Run(job.Remesher, job.Soup, target, job.Watcher.GetStage(0.1, 0.85),
-    job.Length);
+  return RemeshToTarget::Run(remesher, job.Soup, target, job.Watcher.GetStage(0.1, 0.85),
+    job.Result);
 }
 
 //------------------------------------------------------------------------------
@@ -328,9 +525,9 @@ Outcome vtkPatchMesher::ChooseTarget(const Job& job, PatchTarget& target) const
     return Outcome::Failed(
       "The surface has no area: all its polygons are degenerate or ghost cells.");
   }
-  const double partsOfDiagonal = 50.0;
-  const double length = this->TargetEdgeLength > 0.0 ? this->TargetEdgeLength
-                                                     : job.Soup.GetDiagonal() / partsOfDiagonal;
+  const bool isDefault = this->TargetEdgeLength == 0.0;
+  const double length = isDefault ? job.Soup.GetDiagonal() / PatchTarget::DefaultPartsOfDiagonal
+                                  : this->TargetEdgeLength;
   const double shortest = this->MinimumEdgeLength > 0.0 ? this->MinimumEdgeLength : 0.1 * length;
   const double error = this->ApproximationError > 0.0 ? this->ApproximationError : 0.01 * length;
   if (shortest > length)
@@ -338,32 +535,41 @@ Outcome vtkPatchMesher::ChooseTarget(const Job& job, PatchTarget& target) const
     return Outcome::Failed("MinimumEdgeLength " + std::to_string(shortest) +
       " is larger than TargetEdgeLength " + std::to_string(length) + ": give a smaller one.");
   }
-  target = { static_cast<PatchTarget::LengthSource>(this->SizeField), length, shortest, error,
-    this->Grading, this->CoarsePlanarRegions, this->TargetNumberOfPatches, this->NumberOfIterations,
+  target = { static_cast<PatchTarget::LengthSource>(this->SizeField), length, isDefault, shortest,
+    error, this->Grading, this->CoarsePlanarRegions, this->TargetNumberOfPatches,
+    this->NumberOfIterations, this->SelfIntersections == SELF_INTERSECTIONS_KEEP,
     job.LengthOfPoint };
   return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::Write(const Job& job)
+Outcome vtkPatchMesher::Write(Job& job)
 {
-  if (!job.Watcher.Report(0.85))
+  const Monitor monitor = job.Watcher.GetStage(0.85, 1.0);
+  std::size_t firstTriangle = 0;
+  PatchSummary total;
+  for (const Block& block : job.Blocks)
   {
-    return Outcome::Aborted();
+    const std::size_t lastTriangle = firstTriangle + block.Soup.Triangles.size();
+    const PatchPart part(job.Result, firstTriangle, lastTriangle);
+    const PatchOutput writer(block.Input, block.Soup, part.Patches, monitor);
+    writer.WriteGeometry(this->FlipNormals, block.Output);
+    writer.WriteCellData(block.Output);
+    writer.WritePointData(block.Output);
+    const PatchSummary summary = { block.Output->GetNumberOfCells(), block.Counts,
+      part.NumberOfCrossingsWithin, part.NumberOfCrossingsBetween, job.Result.Length };
+    summary.Write(block.Output->GetFieldData());
+    total.Add(summary);
+    firstTriangle = lastTriangle;
   }
-  const IsotropicRemesher::Result patches = job.Remesher.GetResult();
-  const PatchOutput writer(job.Input, job.Soup, patches);
-  writer.WriteGeometry(this->FlipNormals, job.Output);
-  writer.WriteCellData(job.Output);
-  if (!job.Watcher.Report(0.95))
+  total.NumberOfCrossingsBetween = static_cast<vtkIdType>(job.Result.CrossingsBetween.size());
+  total.Write(job.Output->GetFieldData());
+  for (const std::string& warning : job.Result.Warnings)
   {
-    return Outcome::Aborted();
+    vtkWarningMacro(<< warning);
   }
-  writer.WritePointData(job.Output);
-  writer.WriteSummary(job.Counts, job.Length, job.Output);
-  this->CheckNumberOfPatches(job.Output->GetNumberOfCells());
-  job.Watcher.Report(1.0);
-  return Outcome::Done();
+  this->CheckNumberOfPatches(total.NumberOfPatches);
+  return monitor.Check(1.0);
 }
 
 //------------------------------------------------------------------------------

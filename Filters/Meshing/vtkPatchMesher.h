@@ -4,12 +4,13 @@
  * @class vtkPatchMesher
  * @brief turns a surface into patches: good triangles of chosen size that keep edges and materials
  *
- * The input is a vtkPolyData of triangles, polygons and triangle strips; its vertices and lines are
- * ignored and ghost cells do not count. Points with equal coordinates are merged, polygons are
- * triangulated, defects are repaired (see Repair) and the surface is remeshed: long edges are
- * split, short ones collapsed, edges flipped and points moved along the surface (Botsch and
- * Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004), with a length that may differ
- * from place to place (Dunyach et al., "Adaptive remeshing for real-time mesh deformation", 2013).
+ * The input is a vtkPolyData, or a composite data set of them, of triangles, polygons and triangle
+ * strips; its vertices and lines are ignored and ghost cells do not count. Points with equal
+ * coordinates are merged, polygons are triangulated, defects are repaired (see Repair) and the
+ * surface is remeshed: long edges are split, short ones collapsed, edges flipped and points moved
+ * along the surface (Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004),
+ * with a length that may differ from place to place (Dunyach et al., "Adaptive remeshing for
+ * real-time mesh deformation", 2013).
  *
  * Three kinds of edges are kept: borders, edges between two regions (see below), and edges sharper
  * than FeatureAngle. They are first split evenly to at most 4/3 of the edge length, and joined only
@@ -41,11 +42,22 @@
  * - the input's field data, and one-tuple field data arrays "NumberOfPatches",
  *   "NumberOfDroppedTriangles" (degenerate, duplicate or crumbs), "NumberOfReversedTriangles",
  *   "NumberOfSplitPoints" (copies made to undo non-manifold edges and points),
- *   "NumberOfFilledHoles", "NumberOfSelfIntersections" (pairs of triangles of one connected
- *   component that intersect, before they are resolved), "NumberOfIntersectionsBetweenComponents"
- *   (pairs of triangles of two components, which are no defect; vtkIdTypeArray each)
+ *   "NumberOfFilledHoles", "NumberOfInputSelfIntersections" (pairs of triangles of one connected
+ *   component that intersect, before they are resolved), "NumberOfSelfIntersections" (pairs of
+ *   patches of one component that do), "NumberOfIntersectionsBetweenComponents" (pairs of patches
+ *   of two components, which are no defect; vtkIdTypeArray each)
  *   and "TargetEdgeLength" (vtkDoubleArray, the length that was used; if SizeField is Array, the
  *   one with which as many equal triangles cover the surface).
+ *
+ * The input may be composite: its blocks are one scene. Default lengths are those of all blocks
+ * together, and so is TargetNumberOfPatches; each block is repaired by itself. The output has the
+ * structure of the input (GetOutputDataObject(0)); each block has the arrays above for itself, and
+ * the field data of the whole have them for all blocks. Blocks without polygons come out empty.
+ *
+ * Patches are compared with the surface. Where some cross though the surface does not, as both
+ * sides of a thin wall may, it is remeshed once more with half the lengths there, and at last with
+ * patches that lie in the triangles of the surface. A warning tells which components lost more than
+ * 5 % of their area or volume to long edges.
  *
  * Lengths are in the input's unit. The same input gives the same output.
  *
@@ -53,8 +65,10 @@
  * infinite length, a MinimumEdgeLength above TargetEdgeLength, a Grading that is not positive, a
  * length that would give more than 20 million triangles, a missing region array, a missing array of
  * edge lengths or one with other than positive, finite values, nothing left but degenerate
- * triangles, self-intersections (see SelfIntersections), and, with Repair off, a surface that needs
- * repair. An empty piece of a data set that is distributed over several processes is no error.
+ * triangles, arrays of another length than there are cells or points, blocks of another type,
+ * self-intersections (see SelfIntersections), patches that still cross, and, with Repair off, a
+ * surface that needs repair. An empty piece of a data set that is distributed over several
+ * processes is no error.
  */
 #ifndef vtkPatchMesher_h
 #define vtkPatchMesher_h
@@ -77,11 +91,17 @@ public:
   vtkTypeMacro(vtkPatchMesher, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// Makes an output of the input's type.
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+
   ///@{
   /**
    * The edge length that the patches should have, or the largest one if SizeField is Curvature, in
-   * the input's unit. Default 0: the diagonal of the bounding box divided by 50. Most edges come
-   * out between 4/5 and 4/3 of it. Without meaning if SizeField is Array.
+   * the input's unit. Default 0: the diagonal of the bounding box divided by 50, and less on small
+   * components that would lose more than 5 % of their area or volume (down to a thousand patches or
+   * so for each). Most edges come out between 4/5 and 4/3 of it. Without meaning if SizeField is
+   * Array.
    */
   vtkSetMacro(TargetEdgeLength, double);
   vtkGetMacro(TargetEdgeLength, double);
@@ -234,7 +254,7 @@ public:
    *   in another way, or if its surface would move by more than HoleSize. Needs Repair on;
    * otherwise as Refuse.
    * - Refuse: an error that says how many pairs of triangles intersect and where the first ones do.
-   * - Keep: they stay as they are.
+   * - Keep: they stay as they are. Patches that cross elsewhere are warned of.
    */
   vtkSetClampMacro(SelfIntersections, int, SELF_INTERSECTIONS_RESOLVE, SELF_INTERSECTIONS_KEEP);
   vtkGetMacro(SelfIntersections, int);
@@ -254,6 +274,8 @@ protected:
   vtkPatchMesher();
   ~vtkPatchMesher() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputs,
     vtkInformationVector* outputs) override;
 
@@ -276,18 +298,21 @@ private:
   vtkPatchMesher(const vtkPatchMesher&) = delete;
   void operator=(const vtkPatchMesher&) = delete;
 
+  struct Block;
   struct Job;
 
   LightTransport::Outcome CheckProperties() const;
-  LightTransport::Outcome ReadArrays(vtkInformationVector** inputs, Job& job);
+  LightTransport::Outcome FindBlocks(vtkDataObject* input, Job& job);
+  LightTransport::Outcome ReadBlocks(Job& job);
+  LightTransport::Outcome ReadBlock(Block& block);
   /// One number per input cell, equal for cells of the same region.
-  LightTransport::Outcome ReadRegions(vtkInformationVector** inputs, std::vector<int>& regions);
+  LightTransport::Outcome ReadRegions(vtkPolyData* input, std::vector<int>& regions);
   /// One length per input point if the size field is an array, else none.
-  LightTransport::Outcome ReadLengths(vtkInformationVector** inputs, std::vector<double>& lengths);
-  LightTransport::Outcome ReadSurface(Job& job) const;
+  LightTransport::Outcome ReadLengths(vtkPolyData* input, std::vector<double>& lengths);
+  LightTransport::Outcome RepairBlocks(Job& job) const;
   LightTransport::Outcome Remesh(Job& job) const;
   LightTransport::Outcome ChooseTarget(const Job& job, LightTransport::PatchTarget& target) const;
-  LightTransport::Outcome Write(const Job& job);
+  LightTransport::Outcome Write(Job& job);
   void CheckNumberOfPatches(vtkIdType number);
 };
 

@@ -9,6 +9,7 @@
 #include "Atlas/TexelMaps.h"
 #include "Common/MeshingRun.h"
 #include "Common/TriangleSoup.h"
+#include "Common/Watch.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
 #include "Shared/FilterMonitor.h"
@@ -40,45 +41,57 @@ namespace
 constexpr int LargestResolution = 16384;
 
 //------------------------------------------------------------------------------
-// Points with equal coordinates are one, unless only their being apart makes the surface a
-// manifold, as where vtkPatchMesher split it.
-Outcome ReadSurface(vtkPolyData* input, TriangleSoup& soup)
+Outcome DescribeDefects(const TriangleSoup& soup, const Monitor& monitor, std::string& defects)
 {
-  if (Outcome read = soup.Read(input); !read)
-  {
-    return read;
-  }
-  if (soup.DescribeDefects().empty())
-  {
-    return Outcome::Done();
-  }
-  TriangleSoup apart;
-  Outcome read = apart.Read(input, false);
-  if (read && apart.DescribeDefects().empty())
-  {
-    soup = std::move(apart);
-  }
-  return read;
+  return Watch::Run(monitor,
+    [&](Watch&)
+    {
+      defects = soup.DescribeDefects();
+      return Outcome::Done();
+    });
 }
 
 //------------------------------------------------------------------------------
-Outcome CheckSurface(const TriangleSoup& soup)
+// Points with equal coordinates are one, unless only their being apart makes the surface a
+// manifold, as where vtkPatchMesher split it.
+Outcome ReadSurface(vtkPolyData* input, const Monitor& monitor, TriangleSoup& soup)
 {
+  std::string defects;
+  for (const bool mergesPoints : { true, false })
+  {
+    TriangleSoup candidate;
+    Outcome read = candidate.Read(input, mergesPoints);
+    std::string defectsOfCandidate;
+    read = read ? monitor.Check(0.0) : read;
+    read = read ? DescribeDefects(candidate, monitor, defectsOfCandidate) : read;
+    if (!read)
+    {
+      return read;
+    }
+    if (mergesPoints || defectsOfCandidate.empty())
+    {
+      soup = std::move(candidate);
+      defects = defectsOfCandidate;
+    }
+    if (defects.empty())
+    {
+      break;
+    }
+  }
   if (soup.Triangles.empty())
   {
     return Outcome::Failed(
       "The surface has no area: all its polygons are degenerate or ghost cells.");
   }
-  const std::string defects = soup.DescribeDefects();
   return defects.empty()
     ? Outcome::Done()
     : Outcome::Failed("The surface has " + defects + ": pass it through vtkPatchMesher first.");
 }
 
 //------------------------------------------------------------------------------
-void WriteMetrics(const AtlasQuadtree& quadtree, vtkPolyData* output)
+void WriteMetrics(const AtlasQuadtree& quadtree, const Monitor& monitor, vtkPolyData* output)
 {
-  const AtlasMetrics metrics(output, output->GetPointData()->GetTCoords());
+  const AtlasMetrics metrics(output, output->GetPointData()->GetTCoords(), monitor);
   vtkFieldData* fields = output->GetFieldData();
   FieldValues::Add(fields, "L2Stretch", metrics.L2Stretch);
   FieldValues::Add(fields, "LInfinityStretch", metrics.LInfinityStretch);
@@ -155,7 +168,7 @@ int vtkSurfaceAtlas::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkSurfaceAtlas::RequestInformation(vtkInformation*, vtkInformationVector**,
   vtkInformationVector* outputs)
 {
-  const int side = this->TexelMaps ? this->Resolution : 0;
+  const int side = this->TexelMaps ? std::clamp(this->Resolution, 0, LargestResolution) : 0;
   const int extent[6] = { 0, side - 1, 0, side - 1, 0, side > 0 ? 0 : -1 };
   outputs->GetInformationObject(2)->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent,
     6);
@@ -173,7 +186,7 @@ struct vtkSurfaceAtlas::Job
   Monitor Watcher;
   double Start = vtkTimerLog::GetUniversalTime();
   TriangleSoup Soup;
-  std::unique_ptr<AtlasSurface> Surface;
+  AtlasSurface Surface;
   std::unique_ptr<AtlasQuadtree> Quadtree;
 };
 
@@ -195,8 +208,8 @@ int vtkSurfaceAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
     "The surface could not be unfolded", "pass it through vtkPatchMesher first" };
   MeshingRun::Steps steps(advice);
   steps.Take([&]() { return this->CheckProperties(); });
-  steps.Take([&]() { return ReadSurface(job.Input, job.Soup); });
-  steps.Take([&]() { return CheckSurface(job.Soup); });
+  steps.Take(
+    [&]() { return ReadSurface(job.Input, job.Watcher.GetStage(0.02, 0.05), job.Soup); });
   steps.Take([&]() { return this->Unfold(job); });
   steps.Take([&]() { return this->Write(job); });
   const Outcome& outcome = steps.GetOutcome();
@@ -234,21 +247,25 @@ Outcome vtkSurfaceAtlas::CheckProperties() const
 //------------------------------------------------------------------------------
 Outcome vtkSurfaceAtlas::Unfold(Job& job) const
 {
-  if (!job.Watcher.Report(0.05))
-  {
-    return Outcome::Aborted();
-  }
-  job.Surface = std::make_unique<AtlasSurface>(job.Soup);
-  job.Quadtree =
-    std::make_unique<AtlasQuadtree>(*job.Surface, this->Resolution, this->MaximumStretch);
-  return job.Quadtree->Build(job.Watcher.GetStage(0.05, 0.85));
+  return Watch::Run(job.Watcher.GetStage(0.05, 0.85),
+    [&](Watch& watch)
+    {
+      watch.Report(0.0);
+      if (Outcome built = job.Surface.Build(job.Soup, watch); !built)
+      {
+        return built;
+      }
+      job.Quadtree =
+        std::make_unique<AtlasQuadtree>(job.Surface, this->Resolution, this->MaximumStretch);
+      return job.Quadtree->Build(watch);
+    });
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkSurfaceAtlas::Write(const Job& job) const
 {
-  const AtlasOutput writer(job.Input, job.Soup, *job.Surface, *job.Quadtree);
-  writer.WriteSurface(job.Output);
+  const AtlasOutput writer(job.Input, job.Soup, job.Surface, *job.Quadtree);
+  writer.WriteSurface(job.Output, job.Watcher.GetStage(0.85, 0.9));
   writer.WriteTable(job.Charts);
   if (!job.Watcher.Report(0.9))
   {
@@ -256,14 +273,18 @@ Outcome vtkSurfaceAtlas::Write(const Job& job) const
   }
   vtkFieldData* fields = job.Output->GetFieldData();
   FieldValues::AddAs<vtkIntArray>(fields, ArrayNames::AtlasResolution, { this->Resolution });
-  WriteMetrics(*job.Quadtree, job.Output);
+  WriteMetrics(*job.Quadtree, job.Watcher.GetStage(0.9, 0.91), job.Output);
   const double unfolded = vtkTimerLog::GetUniversalTime();
   if (this->TexelMaps)
   {
-    TexelMaps::Make(job.Output, this->Resolution, job.Maps);
+    if (Outcome made = TexelMaps::Make(job.Output, this->Resolution, job.Maps,
+          job.Watcher.GetStage(0.91, 1.0));
+        !made)
+    {
+      return made;
+    }
   }
   FieldValues::Add(fields, "AtlasSeconds", unfolded - job.Start);
   FieldValues::Add(fields, "TexelMapSeconds", vtkTimerLog::GetUniversalTime() - unfolded);
-  job.Watcher.Report(1.0);
-  return Outcome::Done();
+  return job.Watcher.Check(1.0);
 }

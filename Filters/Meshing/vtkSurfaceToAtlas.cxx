@@ -19,6 +19,9 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,8 +41,8 @@ int ChooseResolution(int wanted, vtkPolyData* surface)
     return wanted;
   }
   vtkDataArray* made = surface->GetFieldData()->GetArray(ArrayNames::AtlasResolution);
-  const bool known = made && made->GetNumberOfValues() == 1;
-  return known ? static_cast<int>(made->GetComponent(0, 0)) : 0;
+  const double value = made && made->GetNumberOfValues() == 1 ? made->GetComponent(0, 0) : 0.0;
+  return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -89,13 +92,6 @@ std::vector<TexelMaps::Source> GetSources(vtkPolyData* surface)
   add(surface->GetPointData(), true);
   return sources;
 }
-
-//------------------------------------------------------------------------------
-Outcome MakeMaps(vtkPolyData* surface, int resolution, vtkImageData* maps)
-{
-  TexelMaps::Make(surface, resolution, maps, GetSources(surface));
-  return Outcome::Done();
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -132,7 +128,8 @@ int vtkSurfaceToAtlas::RequestInformation(vtkInformation*, vtkInformationVector*
   const int resolution = ChooseResolution(this->Resolution, vtkPolyData::GetData(inputs[0]));
   const double spacing = resolution > 0 ? 1.0 / resolution : 1.0;
   vtkInformation* info = outputs->GetInformationObject(0);
-  const int extent[6] = { 0, resolution - 1, 0, resolution - 1, 0, 0 };
+  const int side = std::clamp(resolution, 0, TexelPieces::MaximumResolution);
+  const int extent[6] = { 0, side - 1, 0, side - 1, 0, 0 };
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   info->Set(vtkDataObject::SPACING(), spacing, spacing, spacing);
   info->Set(vtkDataObject::ORIGIN(), 0.5 * spacing, 0.5 * spacing, 0.0);
@@ -151,9 +148,14 @@ int vtkSurfaceToAtlas::RequestData(vtkInformation*, vtkInformationVector** input
     "The texel maps could not be made", "make the atlas again with vtkSurfaceAtlas" };
   MeshingRun::Steps steps(advice);
   steps.Take([&]() { return CheckResolution(resolution); });
-  steps.Take([&]() { return TexelPieces::Check(surface, resolution); });
+  steps.Take([&]() { return TexelPieces::Check(surface, resolution, monitor); });
   steps.Take([&]() { return monitor.Check(0.1); });
-  steps.Take([&]() { return MakeMaps(surface, resolution, maps); });
+  steps.Take(
+    [&]()
+    {
+      return TexelMaps::Make(surface, resolution, maps, monitor.GetStage(0.1, 1.0),
+        GetSources(surface));
+    });
   steps.Take([&]() { return monitor.Check(1.0); });
   const Outcome& outcome = steps.GetOutcome();
   if (!outcome)

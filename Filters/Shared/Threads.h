@@ -13,7 +13,6 @@
 #ifndef TransportThreads_h
 #define TransportThreads_h
 
-#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -71,10 +70,12 @@ private:
 template <typename Work>
 void Run(Work&& work)
 {
-  const char* backend = vtkSMPTools::GetBackend();
-  const bool sequentialByDefault = backend && std::string(backend) == "Sequential" &&
-    std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr;
-  if (!sequentialByDefault)
+  const char* name = vtkSMPTools::GetBackend();
+  const std::string backend = name ? name : "";
+  // VTK's storage for each thread tells only those apart that its backend made, if that is OpenMP.
+  const bool needsOther = backend == "OpenMP" ||
+    (backend == "Sequential" && std::getenv("VTK_SMP_BACKEND_IN_USE") == nullptr);
+  if (!needsOther)
   {
     work();
     return;
@@ -132,18 +133,18 @@ void For(vtkIdType first, vtkIdType last, vtkIdType grain, Functor& functor)
 {
   Failure failure;
   std::atomic<vtkIdType> next{ first };
-  vtkSMPThreadLocal<unsigned char> isInitialized(0);
-  const auto work = [&](vtkIdType part)
+  const auto work = [&](vtkIdType part) // once on each thread
   {
+    bool isReady = false;
     for (vtkIdType from = next.fetch_add(part); from < last && !failure.HasHappened();
          from = next.fetch_add(part))
     {
       if constexpr (HasInitialize<Functor>::value)
       {
-        if (unsigned char& isReady = isInitialized.Local(); !isReady)
+        if (!isReady)
         {
           functor.Initialize();
-          isReady = 1;
+          isReady = true;
         }
       }
       functor(from, std::min(from + part, last));

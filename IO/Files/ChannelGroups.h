@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <ImfChannelList.h>
+#include <ImfHeader.h>
 #include <ImfPixelType.h>
 
 namespace LightTransport
@@ -15,19 +15,29 @@ namespace LightTransport
 /// One array of the output and the channels that are its components.
 struct ChannelGroup
 {
+  enum class Meaning
+  {
+    Values,
+    /// RY, Y, BY (A) in place of R, G, B (A).
+    LuminanceChroma
+  };
+
   std::string Name;
   std::vector<std::string> Channels;
+  /// What the values are read as: UINT or FLOAT, all channels of one kind.
+  Imf::PixelType Type = Imf::FLOAT;
+  Meaning Kind = Meaning::Values;
+  /// Of one group: it is the point scalars.
+  bool IsScalars = false;
 };
 
 namespace ChannelGroups
 {
-std::vector<ChannelGroup> Find(const Imf::ChannelList& list);
+/// At least one group.
+std::vector<ChannelGroup> Find(const Imf::Header& header);
 
-/// The one of the groups, at least one, that the point scalars are.
-const ChannelGroup& FindScalars(const std::vector<ChannelGroup>& groups);
-
-/// The type that the values of a group are read as.
-Imf::PixelType FindType(const Imf::ChannelList& list, const ChannelGroup& group);
+/// Have the header say which array the scalars were: its name, and its first channel.
+void KeepScalars(Imf::Header& header, const std::string& name, const std::string& channel);
 } // namespace ChannelGroups
 } // namespace LightTransport
 

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/OpenEXRFileCheck.h"
 
+#include "Shared/TransportMemory.h"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -36,11 +40,17 @@ struct Error
 class Input
 {
 public:
-  explicit Input(const std::string& fileName) : Stream(fileName, std::ios::binary)
+  explicit Input(const std::string& fileName)
   {
+    // A pipe would keep us waiting for its other end.
     std::error_code status;
-    const std::uintmax_t length = std::filesystem::file_size(fileName, status);
-    if (!this->Stream || status)
+    const bool regular = std::filesystem::is_regular_file(fileName, status);
+    const std::uintmax_t length = regular ? std::filesystem::file_size(fileName, status) : 0;
+    if (regular && !status)
+    {
+      this->Stream.open(fileName, std::ios::binary);
+    }
+    if (!this->Stream.is_open())
     {
       throw Error{ Fault::CannotOpen, "the file does not exist or cannot be opened" };
     }
@@ -51,10 +61,22 @@ public:
   std::int64_t GetPosition() const { return this->Position; }
   std::int64_t GetRemaining() const { return this->Length - this->Position; }
 
+  void Need(std::int64_t count)
+  {
+    if (count > this->GetRemaining())
+    {
+      throw Error{ Fault::Truncated,
+        "the file is truncated: it ends within its header or its table of offsets" };
+    }
+  }
+
   void Skip(std::int64_t count)
   {
     this->Need(count);
-    this->Seek(this->Position + count);
+    if (count > 0)
+    {
+      this->Seek(this->Position + count);
+    }
   }
 
   std::uint8_t ReadByte()
@@ -113,15 +135,6 @@ public:
   }
 
 private:
-  void Need(std::int64_t count)
-  {
-    if (count > this->GetRemaining())
-    {
-      throw Error{ Fault::Truncated,
-        "the file is truncated: it ends within its header or its table of offsets" };
-    }
-  }
-
   std::ifstream Stream;
   std::int64_t Length = 0;
   std::int64_t Position = 0;
@@ -142,8 +155,10 @@ struct Part
   bool HasWindow = false;
   bool HasTiles = false;
   std::string Type;
-  std::string Subsampled;
-  std::int64_t BytesPerPixel = 0;
+  std::string Name;
+  double NumberOfChannels = 0.0;
+  /// In the file; a subsampled channel counts for its share.
+  double BytesPerPixel = 0.0;
   std::int64_t Width = 0;
   std::int64_t Height = 0;
   std::int64_t TileWidth = 0;
@@ -179,14 +194,17 @@ void ReadChannels(Input& input, Part& part)
     {
       throw Error{ Fault::Damaged, "channel \"" + name + "\" has an unknown pixel type" };
     }
-    part.BytesPerPixel += type == 1 ? 2 : 4;
     input.Skip(4);
-    const std::uint32_t xSampling = input.ReadInt();
-    const std::uint32_t ySampling = input.ReadInt();
-    if (xSampling != 1 || ySampling != 1)
+    const auto xSampling = static_cast<std::int32_t>(input.ReadInt());
+    const auto ySampling = static_cast<std::int32_t>(input.ReadInt());
+    if (xSampling < 1 || ySampling < 1)
     {
-      part.Subsampled = name;
+      throw Error{ Fault::Damaged, "channel \"" + name + "\" has a sampling that cannot be" };
     }
+    // Luminance and chroma are read beside the colours that they become.
+    const bool chroma = name.size() >= 2 && name.compare(name.size() - 2, 2, "RY") == 0;
+    part.NumberOfChannels += chroma ? 3.0 : 1.0;
+    part.BytesPerPixel += (type == 1 ? 2.0 : 4.0) / xSampling / ySampling;
   }
   part.HasChannels = true;
 }
@@ -225,6 +243,88 @@ void ReadTiles(Input& input, Part& part)
 }
 
 //------------------------------------------------------------------------------
+// The sizes of those types that have always the same.
+const std::map<std::string, std::int64_t>& GetFixedSizes()
+{
+  static const std::map<std::string, std::int64_t> sizes = { { "box2f", 16 }, { "box2i", 16 },
+    { "chromaticities", 32 }, { "compression", 1 }, { "deepImageState", 1 }, { "double", 8 },
+    { "envmap", 1 }, { "float", 4 }, { "int", 4 }, { "keycode", 28 }, { "lineOrder", 1 },
+    { "m33d", 72 }, { "m33f", 36 }, { "m44d", 128 }, { "m44f", 64 }, { "rational", 8 },
+    { "tiledesc", 9 }, { "timecode", 8 }, { "v2d", 16 }, { "v2f", 8 }, { "v2i", 8 }, { "v3d", 24 },
+    { "v3f", 12 }, { "v3i", 12 } };
+  return sizes;
+}
+
+//------------------------------------------------------------------------------
+// Reads as much of a value as says how long the library will find it, at most up to its end: of
+// types that ReadValue does not look at.
+bool HasSizeOfType(Input& input, const std::string& type, std::int64_t size)
+{
+  const auto fixed = GetFixedSizes().find(type);
+  if (fixed != GetFixedSizes().end())
+  {
+    return size == fixed->second;
+  }
+  if (type == "preview")
+  {
+    constexpr std::int64_t numbers = 8;
+    const std::int64_t width = size < numbers ? 0 : input.ReadInt();
+    const std::int64_t height = size < numbers ? 0 : input.ReadInt();
+    const std::int64_t pixels = (size - numbers) / 4;
+    return size >= numbers && size % 4 == 0 &&
+      (width == 0 || height == 0 ? pixels == 0 : pixels % width == 0 && pixels / width == height);
+  }
+  if (type == "stringvector")
+  {
+    std::int64_t left = size;
+    while (left >= 4)
+    {
+      const std::int64_t length = input.ReadInt();
+      left -= 4 + length;
+      if (left < 0)
+      {
+        return false;
+      }
+      input.Skip(length);
+    }
+    return left == 0;
+  }
+  return type != "floatvector" || size % 4 == 0;
+}
+
+//------------------------------------------------------------------------------
+// The values that the sizes follow from.
+void ReadValue(Input& input, const std::string& name, const std::string& type, std::int64_t size,
+  Part& part)
+{
+  if (type == "chlist")
+  {
+    Part other;
+    ReadChannels(input, name == "channels" ? part : other);
+  }
+  else if (name == "dataWindow" && type == "box2i")
+  {
+    ReadWindow(input, part);
+  }
+  else if (name == "tiles" && type == "tiledesc")
+  {
+    ReadTiles(input, part);
+  }
+  else if (name == "compression" && type == "compression")
+  {
+    part.Compression = input.ReadByte();
+  }
+  else if (name == "type" && type == "string")
+  {
+    part.Type = input.ReadText(size);
+  }
+  else if (name == "name" && type == "string")
+  {
+    part.Name = input.ReadText(size);
+  }
+}
+
+//------------------------------------------------------------------------------
 // Reads attributes up to the empty name that ends a header; false where there was none.
 bool ReadHeader(Input& input, Part& part)
 {
@@ -238,33 +338,20 @@ bool ReadHeader(Input& input, Part& part)
     {
       throw Error{ Fault::Damaged, "attribute \"" + name + "\" has a negative size" };
     }
-    const std::int64_t end = input.GetRemaining() - size;
-    if (name == "channels" && type == "chlist")
+    input.Need(size);
+    const std::int64_t end = input.GetPosition() + size;
+    bool good = HasSizeOfType(input, type, size);
+    if (good)
     {
-      ReadChannels(input, part);
+      ReadValue(input, name, type, size, part);
+      good = input.GetPosition() <= end && (type != "chlist" || input.GetPosition() == end);
     }
-    else if (name == "dataWindow" && type == "box2i")
+    if (!good)
     {
-      ReadWindow(input, part);
+      throw Error{ Fault::Damaged,
+        "attribute \"" + name + "\" has another size than its type \"" + type + "\"" };
     }
-    else if (name == "tiles" && type == "tiledesc")
-    {
-      ReadTiles(input, part);
-    }
-    else if (name == "compression" && type == "compression")
-    {
-      part.Compression = input.ReadByte();
-    }
-    else if (name == "type" && type == "string")
-    {
-      part.Type = input.ReadText(size);
-    }
-    const std::int64_t rest = input.GetRemaining() - end;
-    if (rest < 0)
-    {
-      throw Error{ Fault::Damaged, "attribute \"" + name + "\" is longer than its stated size" };
-    }
-    input.Skip(rest);
+    input.Skip(end - input.GetPosition());
   }
   return any;
 }
@@ -317,7 +404,7 @@ double CountChunks(const Part& part, bool tiled)
 // Whether the header is one at all, before anything is computed from it.
 void CheckHeader(const Part& part, bool tiled)
 {
-  if (!part.HasChannels || !part.HasWindow || part.BytesPerPixel == 0)
+  if (!part.HasChannels || !part.HasWindow || part.BytesPerPixel == 0.0)
   {
     throw Error{ Fault::Damaged, "the header has no channels or no data window" };
   }
@@ -332,6 +419,21 @@ void CheckHeader(const Part& part, bool tiled)
 }
 
 //------------------------------------------------------------------------------
+double CountPixels(const Part& part)
+{
+  return static_cast<double>(part.Width) * static_cast<double>(part.Height);
+}
+
+//------------------------------------------------------------------------------
+// OpenEXR's buffers hold a whole chunk even where the image is smaller.
+double CountChunkBytes(const Part& part, bool tiled)
+{
+  const std::int64_t width = tiled ? part.TileWidth : part.Width;
+  const std::int64_t height = tiled ? part.TileHeight : Limits[part.Compression].Lines;
+  return static_cast<double>(width) * static_cast<double>(height) * part.BytesPerPixel;
+}
+
+//------------------------------------------------------------------------------
 void CheckSizes(const Part& part, bool tiled, double chunks, std::int64_t remaining)
 {
   const Error tooShort{ Fault::Truncated,
@@ -339,18 +441,12 @@ void CheckSizes(const Part& part, bool tiled, double chunks, std::int64_t remain
   // Each chunk has an offset, a place, a size and at least one byte of data.
   const double data = static_cast<double>(remaining) - chunks * (8 + 8);
   const CompressionLimits& limits = Limits[part.Compression];
-  const double bytesPerPixel = static_cast<double>(part.BytesPerPixel);
-  const double pixels =
-    static_cast<double>(part.Width) * static_cast<double>(part.Height) * bytesPerPixel;
+  const double pixels = CountPixels(part) * part.BytesPerPixel;
   if (data < chunks || pixels > limits.Ratio * data)
   {
     throw tooShort;
   }
-  // OpenEXR's buffers hold a whole chunk even where the image is smaller.
-  const std::int64_t chunkWidth = tiled ? part.TileWidth : part.Width;
-  const std::int64_t chunkHeight = tiled ? part.TileHeight : limits.Lines;
-  const double chunk =
-    static_cast<double>(chunkWidth) * static_cast<double>(chunkHeight) * bytesPerPixel;
+  const double chunk = CountChunkBytes(part, tiled);
   if (chunk > std::max(AlwaysAllowedChunk, AllowedChunkRatio * pixels))
   {
     throw Error{ Fault::Unsupported,
@@ -361,10 +457,8 @@ void CheckSizes(const Part& part, bool tiled, double chunks, std::int64_t remain
 
 //------------------------------------------------------------------------------
 // All chunks must begin after the tables and within the file, the last one must end there too.
-void CheckOffsets(Input& input, double chunks, double chunksOfAllParts, int chunkHeader)
+void CheckOffsets(Input& input, double chunks, std::int64_t tablesEnd, int chunkHeader)
 {
-  const std::int64_t tablesEnd =
-    input.GetPosition() + static_cast<std::int64_t>(chunksOfAllParts) * 8;
   std::int64_t last = 0;
   for (auto i = static_cast<std::int64_t>(chunks); i > 0; --i)
   {
@@ -390,46 +484,101 @@ void CheckOffsets(Input& input, double chunks, double chunksOfAllParts, int chun
 }
 
 //------------------------------------------------------------------------------
-// The first part is read, so that it must be sound; OpenEXR allocates tables for all.
-void CheckParts(Input& input, const std::vector<Part>& parts, std::uint32_t version)
+// Each value becomes one of 4 bytes.
+void CheckMemory(const Part& part, bool tiled, const Wish& wish)
 {
-  const bool multiPart = (version & MultiPartFlag) != 0;
-  const auto isTiled = [&](const Part& part)
+  const double shrinkage = tiled ? std::ldexp(1.0, -2 * std::min(wish.Level, 31)) : 1.0;
+  const double needed =
+    4.0 * part.NumberOfChannels * CountPixels(part) * shrinkage + CountChunkBytes(part, tiled);
+  const std::string need = "it needs " + TransportMemory::Format(needed) + " of memory, ";
+  if (needed > wish.MemoryLimit)
   {
-    return multiPart ? (part.Type == "tiledimage" || part.Type == "deeptile")
-                     : (version & TiledFlag) != 0;
-  };
-  double chunksOfAllParts = 0.0;
-  for (const Part& part : parts)
-  {
-    CheckHeader(part, isTiled(part));
-    chunksOfAllParts += CountChunks(part, isTiled(part));
+    throw Error{ Fault::TooLarge,
+      need + "more than MemoryLimit (" + TransportMemory::Format(wish.MemoryLimit) +
+        ") lets it; raise that if there is the memory" };
   }
-  const Part& first = parts.front();
-  if (first.Type.rfind("deep", 0) == 0 || (!multiPart && (version & DeepFlag)))
+  const double available =
+    needed > AlwaysAllowedChunk ? TransportMemory::GetAvailableBytes() : needed;
+  if (needed > available)
+  {
+    throw Error{ Fault::TooLarge,
+      need + "and " + TransportMemory::Format(available) +
+        " are free; read it on a machine with more memory" };
+  }
+}
+
+//------------------------------------------------------------------------------
+// Which kinds of parts there are is said by their types, or where there is but one, by flags.
+bool IsTiled(const Part& part, std::uint32_t version)
+{
+  return (version & MultiPartFlag) != 0 ? part.Type == "tiledimage" || part.Type == "deeptile"
+                                        : (version & TiledFlag) != 0;
+}
+
+//------------------------------------------------------------------------------
+void CheckType(const Part& part, std::uint32_t version, const Wish& wish)
+{
+  if ((version & MultiPartFlag) == 0 && (version & DeepFlag) != 0)
   {
     throw Error{ Fault::Unsupported, "deep images are not supported; flatten the image first" };
   }
-  if (!first.Subsampled.empty())
+  if (part.Type.rfind("deep", 0) == 0)
   {
     throw Error{ Fault::Unsupported,
-      "channel \"" + first.Subsampled +
-        "\" is subsampled; save the image with full-size channels" };
+      "deep images are not supported, and part " + std::to_string(wish.Part) + " (\"" + part.Name +
+        "\", " + part.Type + ") is one; flatten it first, or choose another part" };
   }
-  const bool tiled = isTiled(first);
-  const double chunks = CountChunks(first, tiled);
+}
+
+//------------------------------------------------------------------------------
+// The part that is read must be sound; OpenEXR allocates tables for all.
+void CheckParts(Input& input, const std::vector<Part>& parts, std::uint32_t version,
+  const Wish& wish)
+{
+  const bool multiPart = (version & MultiPartFlag) != 0;
+  double chunksBefore = 0.0;
+  double chunksOfAllParts = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const Part& part = parts[i];
+    // Of an unknown type, OpenEXR would believe the number of chunks that it names.
+    if (multiPart && part.Type != "scanlineimage" && part.Type != "tiledimage" &&
+      part.Type != "deepscanline" && part.Type != "deeptile")
+    {
+      throw Error{ Fault::Unsupported,
+        "part " + std::to_string(i) + " is of the unknown type \"" + part.Type + "\"" };
+    }
+    CheckHeader(part, IsTiled(part, version));
+    const double chunks = CountChunks(part, IsTiled(part, version));
+    chunksBefore += i < static_cast<std::size_t>(wish.Part) ? chunks : 0.0;
+    chunksOfAllParts += chunks;
+  }
+  if (static_cast<std::size_t>(wish.Part) >= parts.size())
+  {
+    throw Error{ Fault::NoSuchPart,
+      "part " + std::to_string(wish.Part) + " is wanted, but the last one is part " +
+        std::to_string(parts.size() - 1) };
+  }
+  const Part& part = parts[wish.Part];
+  CheckType(part, version, wish);
+  const bool tiled = IsTiled(part, version);
+  const double chunks = CountChunks(part, tiled);
   const std::int64_t remaining = input.GetRemaining();
   if (chunksOfAllParts * 8 > static_cast<double>(remaining))
   {
     throw Error{ Fault::Truncated,
       "the file is truncated or damaged: it is too short for the image its header describes" };
   }
-  CheckSizes(first, tiled, chunks, remaining);
-  CheckOffsets(input, chunks, chunksOfAllParts, (multiPart ? 4 : 0) + (tiled ? 20 : 8));
+  CheckSizes(part, tiled, chunks, remaining);
+  const std::int64_t tables = input.GetPosition();
+  input.Skip(static_cast<std::int64_t>(chunksBefore) * 8);
+  CheckOffsets(input, chunks, tables + static_cast<std::int64_t>(chunksOfAllParts) * 8,
+    (multiPart ? 4 : 0) + (tiled ? 20 : 8));
+  CheckMemory(part, tiled, wish);
 }
 
 //------------------------------------------------------------------------------
-void CheckAll(const std::string& fileName)
+void CheckAll(const std::string& fileName, const Wish& wish, Findings& findings)
 {
   Input input(fileName);
   if (input.GetRemaining() < 8 || input.ReadInt() != MagicNumber)
@@ -452,21 +601,25 @@ void CheckAll(const std::string& fileName)
   {
     throw Error{ Fault::Damaged, "the header is empty" };
   }
-  CheckParts(input, parts, version);
+  for (const Part& found : parts)
+  {
+    findings.PartNames.push_back(found.Name);
+  }
+  CheckParts(input, parts, version, wish);
 }
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome Check(const std::string& fileName, Fault& fault)
+Outcome Check(const std::string& fileName, const Wish& wish, Findings& findings)
 {
-  fault = Fault::None;
+  findings = {};
   try
   {
-    CheckAll(fileName);
+    CheckAll(fileName, wish, findings);
   }
   catch (const Error& error)
   {
-    fault = error.Kind;
+    findings.Kind = error.Kind;
     return Outcome::Failed(error.Problem);
   }
   return Outcome::Done();

@@ -32,19 +32,6 @@ std::string GetSuffix(int component, int components)
 }
 
 //------------------------------------------------------------------------------
-std::string GetChannelName(vtkDataArray* array, int component, bool scalars)
-{
-  const int components = array->GetNumberOfComponents();
-  const bool colors = components == 3 || components == 4;
-  if (scalars && (components == 1 || colors))
-  {
-    return components == 1 ? "Y" : GetSuffix(component, components);
-  }
-  const std::string name = array->GetName() ? array->GetName() : (scalars ? "Scalars" : "");
-  return components == 1 || name.empty() ? name : name + '.' + GetSuffix(component, components);
-}
-
-//------------------------------------------------------------------------------
 bool HoldsIntegers(vtkDataArray* array)
 {
   return array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
@@ -97,6 +84,42 @@ Outcome CheckValues(const WrittenChannel& channel)
 } // namespace
 
 //------------------------------------------------------------------------------
+std::string WrittenChannels::GetName(vtkDataArray* array, int component, bool scalars)
+{
+  const int components = array->GetNumberOfComponents();
+  const bool colors = components == 3 || components == 4;
+  if (scalars && (components == 1 || colors))
+  {
+    return components == 1 ? "Y" : GetSuffix(component, components);
+  }
+  const std::string name = array->GetName() ? array->GetName() : (scalars ? "Scalars" : "");
+  return components == 1 || name.empty() ? name : name + '.' + GetSuffix(component, components);
+}
+
+//------------------------------------------------------------------------------
+Outcome WrittenChannels::CheckArrays(vtkImageData* image)
+{
+  vtkPointData* points = image->GetPointData();
+  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = points->GetAbstractArray(i);
+    const std::string named =
+      std::string("point array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
+    if (!vtkDataArray::SafeDownCast(array))
+    {
+      return Outcome::Failed(named + "holds no numbers, as pixels do; remove it from the image");
+    }
+    if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
+    {
+      return Outcome::Failed(named + "has " + std::to_string(array->GetNumberOfTuples()) +
+        " values for " + std::to_string(image->GetNumberOfPoints()) +
+        " points; give it one for each");
+    }
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
 std::vector<WrittenChannel> WrittenChannels::List(vtkImageData* image, Imf::PixelType type,
   vtkDataArray* weights)
 {
@@ -109,7 +132,7 @@ std::vector<WrittenChannel> WrittenChannels::List(vtkImageData* image, Imf::Pixe
     for (int component = 0; component < components; ++component)
     {
       WrittenChannel channel;
-      channel.Name = GetChannelName(array, component, array == points->GetScalars());
+      channel.Name = GetName(array, component, array == points->GetScalars());
       channel.Source = array;
       channel.Component = component;
       channel.Type = FindType(channel, type);

@@ -36,6 +36,12 @@ struct WrittenChannel
 
 namespace WrittenChannels
 {
+/// The channel that a component of an array becomes.
+std::string GetName(vtkDataArray* array, int component, bool scalars);
+
+/// Fails where a point array is not of numbers, or shorter or longer than the points.
+Outcome CheckArrays(vtkImageData* image);
+
 /// The channels of an image, of `type` where that can hold them; `weights` may be null.
 std::vector<WrittenChannel> List(vtkImageData* image, Imf::PixelType type, vtkDataArray* weights);
 

@@ -3,6 +3,8 @@
 """vtkViewFactors from Python: single factors, groups, closure, files, and what errors say."""
 
 import os
+import resource
+import stat
 import tempfile
 import unittest
 
@@ -228,6 +230,45 @@ class TestViewFactors(unittest.TestCase):
         self.assertFalse(factors.Save(self.path("no/such/cube.factors")))
         self.take_error("cube.factors", "cannot be written", "folder must exist")
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_save_replaces_files_alone(self):
+        factors = self.make_factors(make_cube())
+        file = self.path("cube.factors")
+        self.assertTrue(factors.Save(file))
+        os.chmod(file, 0o640)
+        os.symlink("cube.factors", self.path("link"))
+        self.assertTrue(factors.Save(self.path("link")))
+        self.assertTrue(os.path.islink(self.path("link")))
+        self.assertEqual(os.stat(file).st_mode & 0o777, 0o640)
+        os.link(file, self.path("twin"))
+        self.assertFalse(factors.Save(file))
+        self.take_error("cannot be written", "hard links")
+        os.mkfifo(self.path("pipe"))
+        for name in (self.path("pipe"), self.folder, "/dev/null"):
+            self.assertFalse(factors.Save(name))
+            self.take_error("cannot be written", "folder or device")
+        self.assertTrue(stat.S_ISFIFO(os.lstat(self.path("pipe")).st_mode))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["cube.factors", "link", "pipe", "twin"])
+
+    def test_save_on_a_full_disk(self):
+        factors = self.make_factors(make_cube())
+        file = self.path("cube.factors")
+        self.assertTrue(factors.Save(file))
+        with open(file, "rb") as stream:
+            before = stream.read()
+        # Python ignores the signal: a write beyond the limit fails as on a full disk.
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        for room in (0, 100, len(before) - 1):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
+            try:
+                saved = factors.Save(file)
+            finally:
+                resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+            self.assertFalse(saved)
+            self.take_error("cannot be written", "make room")
+        with open(file, "rb") as stream:
+            self.assertEqual(stream.read(), before)
+        self.assertEqual(os.listdir(self.folder), ["cube.factors"])
 
     def test_errors_of_load(self):
         factors = self.make_factors(make_cube())

@@ -22,7 +22,7 @@
 #include "ExactRows.h"
 #include "Links/Links.h"
 #include "Support/Ranks.h"
-#include "Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 #include "ViewFactorScenes.h"
 #include "ViewFactors/DenseViewFactors.h"
 #include "ViewFactors/HierarchicalViewFactors.h"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/AtlasMetrics.h"
 
+#include "Common/Heartbeat.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkDataArray.h"
@@ -51,13 +53,16 @@ Triangle Measure(vtkPolyData* surface, vtkDataArray* coordinates, const vtkIdTyp
 } // namespace
 
 //------------------------------------------------------------------------------
-AtlasMetrics::AtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates)
+AtlasMetrics::AtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates,
+  const Monitor& monitor)
 {
+  Heartbeat heart(monitor);
   std::vector<Triangle> triangles;
   double area = 0.0;
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
+    heart.Beat();
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     cells->GetCurrentCell(size, ids);

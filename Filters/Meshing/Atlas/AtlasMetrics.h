@@ -4,6 +4,8 @@
 #ifndef AtlasMetrics_h
 #define AtlasMetrics_h
 
+#include "Shared/Monitor.h"
+
 class vtkDataArray;
 class vtkPolyData;
 
@@ -19,7 +21,9 @@ struct AtlasMetrics
 
   /// `surface` has triangles only; texture coordinates lie in [0,1]^2, and no triangle is without
   /// area there. A chart may be turned over, as others than vtkSurfaceAtlas do it.
-  AtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates);
+  /// Throws Heartbeat::Stopped when the monitor says so.
+  AtlasMetrics(vtkPolyData* surface, vtkDataArray* textureCoordinates,
+    const Monitor& monitor = {});
 };
 } // namespace LightTransport
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/AtlasOutput.h"
 
+#include "Common/Heartbeat.h"
 #include "Shared/ArrayNames.h"
 
 #include "vtkCellArray.h"
@@ -44,7 +45,7 @@ class AtlasOutput::SurfaceWriter
 {
 public:
   SurfaceWriter(const AtlasOutput& parts, vtkPolyData* output);
-  void WriteChart(int id, const AtlasQuadtree::Chart& chart);
+  void WriteChart(int id, const AtlasQuadtree::Chart& chart, Heartbeat& heart);
   void Finish();
 
 private:
@@ -175,12 +176,14 @@ vtkIdType AtlasOutput::SurfaceWriter::AddPoint(const AtlasQuadtree::Chart& chart
 }
 
 //------------------------------------------------------------------------------
-void AtlasOutput::SurfaceWriter::WriteChart(int id, const AtlasQuadtree::Chart& chart)
+void AtlasOutput::SurfaceWriter::WriteChart(int id, const AtlasQuadtree::Chart& chart,
+  Heartbeat& heart)
 {
   // Input points that coincide may differ in their data, so each is there by itself.
   std::map<std::pair<std::size_t, vtkIdType>, vtkIdType> known;
   for (std::size_t i = 0; i < chart.Disc.Triangles.size(); ++i)
   {
+    heart.Beat();
     const std::size_t source = this->Parts.Surface.Sources[chart.Disc.Sources[i]];
     const vtkIdType cell = this->Parts.Soup.CellIds[source];
     vtkIdType corners[3];
@@ -229,13 +232,14 @@ AtlasOutput::AtlasOutput(vtkPolyData* input, const TriangleSoup& soup, const Atl
 }
 
 //------------------------------------------------------------------------------
-void AtlasOutput::WriteSurface(vtkPolyData* output) const
+void AtlasOutput::WriteSurface(vtkPolyData* output, const Monitor& monitor) const
 {
+  Heartbeat heart(monitor, 256);
   SurfaceWriter writer(*this, output);
   int id = 0;
   for (const AtlasQuadtree::Chart& chart : this->Quadtree.GetCharts())
   {
-    writer.WriteChart(id++, chart);
+    writer.WriteChart(id++, chart, heart);
   }
   writer.Finish();
   output->GetFieldData()->PassData(this->Input->GetFieldData());

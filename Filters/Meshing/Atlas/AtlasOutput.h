@@ -5,6 +5,7 @@
 #define AtlasOutput_h
 
 #include "Atlas/AtlasQuadtree.h"
+#include "Shared/Monitor.h"
 
 class vtkPolyData;
 class vtkTable;
@@ -18,7 +19,8 @@ public:
   AtlasOutput(vtkPolyData* input, const TriangleSoup& soup, const AtlasSurface& surface,
     const AtlasQuadtree& quadtree);
 
-  void WriteSurface(vtkPolyData* output) const;
+  /// Throws Heartbeat::Stopped when the monitor says so.
+  void WriteSurface(vtkPolyData* output, const Monitor& monitor) const;
   void WriteTable(vtkTable* table) const;
 
 private:

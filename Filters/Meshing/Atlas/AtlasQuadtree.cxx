@@ -65,19 +65,16 @@ AtlasQuadtree::AtlasQuadtree(const AtlasSurface& surface, int resolution, double
 }
 
 //------------------------------------------------------------------------------
-Outcome AtlasQuadtree::Build(const Monitor& monitor)
+Outcome AtlasQuadtree::Build(Watch& watch)
 {
   std::vector<int> level(1, 0);
   double done = 0.0;
   while (!level.empty())
   {
-    if (!monitor.Report(done / this->Surface.Area))
-    {
-      return Outcome::Aborted();
-    }
+    watch.Report(done / this->Surface.Area);
     const std::size_t first = this->Charts.size();
     std::vector<int> divided;
-    if (Outcome found = this->FindNodesToDivide(level, divided); !found)
+    if (Outcome found = this->FindNodesToDivide(level, divided, watch); !found)
     {
       return found;
     }
@@ -85,25 +82,23 @@ Outcome AtlasQuadtree::Build(const Monitor& monitor)
     {
       done += this->Nodes[this->Charts[chart].Node].Area;
     }
-    if (!monitor.Report(done / this->Surface.Area))
-    {
-      return Outcome::Aborted();
-    }
-    level = this->Divide(divided);
+    watch.Report(done / this->Surface.Area);
+    level = this->Divide(divided, watch);
   }
   return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
 // Make charts of the nodes that can be charts, and find the others.
-Outcome AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level, std::vector<int>& others)
+Outcome AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level, std::vector<int>& others,
+  const Watch& watch)
 {
   std::vector<Chart> charts(level.size());
   std::vector<char> made(level.size(), 0);
   std::vector<std::string> problems(level.size());
   ForEach(level.size(),
     [&](std::size_t i)
-    { made[i] = this->MakeChart(this->Nodes[level[i]], charts[i], problems[i]); });
+    { made[i] = this->MakeChart(this->Nodes[level[i]], charts[i], problems[i], watch); });
 
   for (std::size_t i = 0; i < level.size(); ++i)
   {
@@ -132,9 +127,10 @@ Outcome AtlasQuadtree::FindNodesToDivide(const std::vector<int>& level, std::vec
 }
 
 //------------------------------------------------------------------------------
-bool AtlasQuadtree::MakeChart(const Node& node, Chart& chart, std::string& problem)
+bool AtlasQuadtree::MakeChart(const Node& node, Chart& chart, std::string& problem,
+  const Watch& watch)
 {
-  ChartDisc piece(this->Surface, node.Faces, this->Owners, this->Local);
+  ChartDisc piece(this->Surface, node.Faces, this->Owners, this->Local, watch);
   if (piece.GetNumberOfComponents() > 1)
   {
     problem = std::to_string(piece.GetNumberOfComponents()) + " separate parts are too small";
@@ -163,7 +159,7 @@ bool AtlasQuadtree::MakeChart(const Node& node, Chart& chart, std::string& probl
   chart.Disc = piece.GetDisc();
   chart.Points = piece.GetPoints();
   SquareMap map;
-  if (!map.Map(chart.Disc, problem))
+  if (!map.Map(chart.Disc, problem, watch))
   {
     return false;
   }
@@ -221,12 +217,14 @@ double AtlasQuadtree::GetArea(const std::vector<int>& faces) const
 
 //------------------------------------------------------------------------------
 // Replace each piece by its two halves, one of which may be empty.
-std::vector<AtlasQuadtree::Piece> AtlasQuadtree::Bisect(const std::vector<Piece>& pieces)
+std::vector<AtlasQuadtree::Piece> AtlasQuadtree::Bisect(const std::vector<Piece>& pieces,
+  const Watch& watch)
 {
   std::vector<std::array<std::vector<int>, 2>> halves(pieces.size());
   ForEach(pieces.size(),
     [&](std::size_t i)
     {
+      watch.Check();
       const Piece& piece = pieces[i];
       if (piece.Faces.size() < 2)
       {
@@ -239,7 +237,7 @@ std::vector<AtlasQuadtree::Piece> AtlasQuadtree::Bisect(const std::vector<Piece>
         ? 0.0
         : std::min(0.49,
             std::max(0.5 / (LargestDensity * density), 1.0 - 0.5 * LargestDensity / density));
-      SurfaceBisection bisection(this->Surface, this->Owners, this->Local);
+      SurfaceBisection bisection(this->Surface, this->Owners, this->Local, watch);
       halves[i] = bisection.Divide(piece.Faces, share, density);
     });
   std::vector<Piece> result;
@@ -260,7 +258,7 @@ std::vector<AtlasQuadtree::Piece> AtlasQuadtree::Bisect(const std::vector<Piece>
 
 //------------------------------------------------------------------------------
 // Quarter the nodes; returns their children.
-std::vector<int> AtlasQuadtree::Divide(const std::vector<int>& nodes)
+std::vector<int> AtlasQuadtree::Divide(const std::vector<int>& nodes, const Watch& watch)
 {
   std::vector<Piece> pieces;
   for (const int node : nodes)
@@ -269,7 +267,7 @@ std::vector<int> AtlasQuadtree::Divide(const std::vector<int>& nodes)
     pieces.push_back(
       { std::move(this->Nodes[node].Faces), side * side, this->Nodes[node].Size <= SmallestBlock });
   }
-  pieces = this->Bisect(this->Bisect(pieces));
+  pieces = this->Bisect(this->Bisect(pieces, watch), watch);
 
   std::vector<int> children;
   for (std::size_t i = 0; i < pieces.size(); ++i)

@@ -12,7 +12,6 @@
 
 #include "Atlas/AtlasSurface.h"
 #include "Atlas/SquareMap.h"
-#include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 
 #include <array>
@@ -51,8 +50,8 @@ public:
   AtlasQuadtree(const AtlasSurface& surface, int resolution, double maximumStretch);
 
   /// Divide the surface until all leaves are charts. Fails when the resolution is too small. The
-  /// monitor hears the share of the surface that is done.
-  Outcome Build(const Monitor& monitor);
+  /// watch hears the share of the surface that is done.
+  Outcome Build(Watch& watch);
 
   /// Parents come before their children.
   const std::vector<Node>& GetNodes() const { return this->Nodes; }
@@ -68,13 +67,14 @@ private:
     bool IsLast;
   };
 
-  Outcome FindNodesToDivide(const std::vector<int>& level, std::vector<int>& others);
-  bool MakeChart(const Node& node, Chart& chart, std::string& problem);
+  Outcome FindNodesToDivide(const std::vector<int>& level, std::vector<int>& others,
+    const Watch& watch);
+  bool MakeChart(const Node& node, Chart& chart, std::string& problem, const Watch& watch);
   bool Place(const Node& node, const SquareMap& map, Chart& chart) const;
   bool IsFlatEnough(const std::vector<int>& faces) const;
   double GetArea(const std::vector<int>& faces) const;
-  std::vector<Piece> Bisect(const std::vector<Piece>& pieces);
-  std::vector<int> Divide(const std::vector<int>& nodes);
+  std::vector<Piece> Bisect(const std::vector<Piece>& pieces, const Watch& watch);
+  std::vector<int> Divide(const std::vector<int>& nodes, const Watch& watch);
 
   const AtlasSurface& Surface;
   int Resolution;

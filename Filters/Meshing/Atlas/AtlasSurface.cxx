@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <sstream>
+#include <string>
+#include <unordered_set>
 
 namespace LightTransport
 {
@@ -18,6 +22,16 @@ constexpr double EdgesAcrossSurface = 24.0;
 constexpr double EdgesAcrossComponent = 4.0;
 constexpr double MaximumPiecesOfEdge = 64.0;
 
+// The diagonal between two rungs of a narrow ladder is as much longer than the piece between them.
+constexpr double LengthOfDiagonal = 1.05;
+
+// Nor is it halved when it is shorter than so many steps between neighbouring numbers of the size
+// of the coordinates: its middle must differ from its ends.
+constexpr double LeastStepsOfEdge = 1024.0;
+
+// Beyond this an atlas takes more than a few minutes and a few gigabytes.
+constexpr std::size_t MostTriangles = 20000000;
+
 //------------------------------------------------------------------------------
 std::uint64_t MakeKey(std::size_t a, std::size_t b)
 {
@@ -27,21 +41,32 @@ std::uint64_t MakeKey(std::size_t a, std::size_t b)
 } // namespace
 
 //------------------------------------------------------------------------------
-AtlasSurface::AtlasSurface(const TriangleSoup& soup)
-  : Points(soup.Points), Triangles(soup.Triangles), Sources(soup.Triangles.size())
+Outcome AtlasSurface::Build(const TriangleSoup& soup, const Watch& watch)
 {
+  this->Points = soup.Points;
+  this->Triangles = soup.Triangles;
+  this->Sources.resize(soup.Triangles.size());
   std::iota(this->Sources.begin(), this->Sources.end(), 0);
-  this->FindNeighbors();
   this->FindGeometry();
-  std::vector<double> longest = this->FindLongestEdges();
-  while (this->HalveLongEdges(longest))
+  if (Outcome checked = this->CheckAreas(soup); !checked)
   {
+    return checked;
   }
-  if (!this->HalvedEdges.empty())
+  this->FindNeighbors(watch);
+  std::vector<double> longest = this->FindLongestEdges(watch);
+  while (this->HalveLongEdges(longest, watch))
   {
-    this->FindNeighbors();
-    this->FindGeometry();
+    if (this->Triangles.size() > MostTriangles)
+    {
+      return Outcome::Failed("The surface has " + std::to_string(soup.Triangles.size()) +
+        " triangles, and more than " + std::to_string(MostTriangles) +
+        " once the edges are halved that are long beside it or beside its parts: pass it through "
+        "vtkPatchMesher first, or remove small parts.");
+    }
+    this->FindNeighbors(watch);
   }
+  this->FindGeometry();
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -80,7 +105,7 @@ std::vector<std::array<int, 3>> AtlasSurface::GetNeighborsWithin(const std::vect
 }
 
 //------------------------------------------------------------------------------
-void AtlasSurface::FindNeighbors()
+void AtlasSurface::FindNeighbors(const Watch& watch)
 {
   struct Side
   {
@@ -98,7 +123,12 @@ void AtlasSurface::FindNeighbors()
       sides.push_back({ MakeKey(triangle[edge], triangle[(edge + 1) % 3]), face, edge });
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.Key < b.Key; });
+  std::sort(sides.begin(), sides.end(),
+    [&watch](const Side& a, const Side& b)
+    {
+      watch.Check();
+      return a.Key < b.Key;
+    });
   this->Neighbors.assign(this->Triangles.size(), { -1, -1, -1 });
   for (std::size_t i = 0; i + 1 < sides.size(); ++i)
   {
@@ -132,9 +162,37 @@ void AtlasSurface::FindGeometry()
 }
 
 //------------------------------------------------------------------------------
-// How long the edges of each face may be.
-std::vector<double> AtlasSurface::FindLongestEdges() const
+// Stretch, normals and metrics are made of squares of areas.
+Outcome AtlasSurface::CheckAreas(const TriangleSoup& soup) const
 {
+  const auto canBeSquared = [](double area) { return std::isnormal(area * area); };
+  const auto bad = std::find_if_not(this->Areas.begin(), this->Areas.end(), canBeSquared);
+  if (bad != this->Areas.end())
+  {
+    std::ostringstream text;
+    text << "Cell " << soup.CellIds[bad - this->Areas.begin()] << " has a triangle of area "
+         << *bad << ", whose square no double holds: give coordinates whose size is nearer to 1.";
+    return Outcome::Failed(text.str());
+  }
+  return canBeSquared(this->Area)
+    ? Outcome::Done()
+    : Outcome::Failed("The area of the surface is so large that no double holds its square: give "
+                      "coordinates whose size is nearer to 1.");
+}
+
+//------------------------------------------------------------------------------
+// How long the edges of each face may be.
+std::vector<double> AtlasSurface::FindLongestEdges(const Watch& watch) const
+{
+  double largest = 0.0;
+  for (const TriangleSoup::Point& point : this->Points)
+  {
+    for (const double value : point)
+    {
+      largest = std::max(largest, std::abs(value));
+    }
+  }
+  const double shortest = LeastStepsOfEdge * std::numeric_limits<double>::epsilon() * largest;
   std::vector<double> lengths(this->Triangles.size(), -1.0);
   std::vector<int> component;
   for (int first = 0; first < this->GetNumberOfFaces(); ++first)
@@ -149,6 +207,7 @@ std::vector<double> AtlasSurface::FindLongestEdges() const
     double longest = 0.0;
     for (std::size_t i = 0; i < component.size(); ++i)
     {
+      watch.Check();
       area += this->Areas[component[i]];
       for (int edge = 0; edge < 3; ++edge)
       {
@@ -161,8 +220,9 @@ std::vector<double> AtlasSurface::FindLongestEdges() const
         }
       }
     }
-    const double length = std::max(longest / MaximumPiecesOfEdge,
-      std::min(std::sqrt(this->Area) / EdgesAcrossSurface, std::sqrt(area) / EdgesAcrossComponent));
+    const double length = std::max({ shortest, LengthOfDiagonal * longest / MaximumPiecesOfEdge,
+      std::min(std::sqrt(this->Area) / EdgesAcrossSurface,
+        std::sqrt(area) / EdgesAcrossComponent) });
     for (const int face : component)
     {
       lengths[face] = length;
@@ -189,10 +249,75 @@ int AtlasSurface::FindLongestHalvedEdge(std::size_t face, const Middles& middles
   return found;
 }
 
-//------------------------------------------------------------------------------
-// Halve all edges that are too long, once. Returns whether there were any.
-bool AtlasSurface::HalveLongEdges(std::vector<double>& longest)
+// The edge between two faces of one triangle of the soup that are both long in two sides, at
+// opposite ends of the edge.
+struct AtlasSurface::Diagonal
 {
+  std::array<int, 2> Faces;
+  std::array<std::size_t, 2> Ends; ///< as the first face goes around
+};
+
+//------------------------------------------------------------------------------
+// Of a face with exactly two edges that are too long, `edge` and another, the other; -1 else.
+int AtlasSurface::FindOtherLongEdge(int face, int edge, double longest) const
+{
+  int found = -1;
+  int number = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    if (this->GetEdgeLength(face, i) > longest)
+    {
+      ++number;
+      found = i == edge ? found : i;
+    }
+  }
+  return number == 2 && this->GetEdgeLength(face, edge) > longest ? found : -1;
+}
+
+//------------------------------------------------------------------------------
+// No face has more than one.
+std::vector<AtlasSurface::Diagonal> AtlasSurface::FindDiagonals(
+  const std::vector<double>& longest) const
+{
+  std::vector<Diagonal> diagonals;
+  std::vector<bool> isTaken(this->Triangles.size(), false);
+  for (int face = 0; face < this->GetNumberOfFaces(); ++face)
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const int other = this->Neighbors[face][edge];
+      if (other <= face || isTaken[face] || isTaken[other] ||
+        this->Sources[other] != this->Sources[face])
+      {
+        continue;
+      }
+      const std::array<int, 3>& back = this->Neighbors[other];
+      const int opposite = static_cast<int>(std::find(back.begin(), back.end(), face) - back.begin());
+      const int here = this->FindOtherLongEdge(face, edge, longest[face]);
+      const int there = this->FindOtherLongEdge(other, opposite, longest[other]);
+      // Both sides come after the edge, or both before it, as their faces go around.
+      if (here >= 0 && there >= 0 && (here - edge + 3) % 3 == (there - opposite + 3) % 3)
+      {
+        const TriangleSoup::Triangle& t = this->Triangles[face];
+        diagonals.push_back({ { face, other }, { t[edge], t[(edge + 1) % 3] } });
+        isTaken[face] = true;
+        isTaken[other] = true;
+      }
+    }
+  }
+  return diagonals;
+}
+
+//------------------------------------------------------------------------------
+// Find middles for the edges that are too long, but for those that are kept.
+AtlasSurface::Middles AtlasSurface::HalveEdges(const std::vector<double>& longest,
+  const std::vector<Diagonal>& kept)
+{
+  std::unordered_set<std::uint64_t> keys;
+  for (const Diagonal& diagonal : kept)
+  {
+    keys.insert(MakeKey(diagonal.Ends[0], diagonal.Ends[1]));
+  }
   Middles middles;
   for (int face = 0; face < this->GetNumberOfFaces(); ++face)
   {
@@ -200,8 +325,9 @@ bool AtlasSurface::HalveLongEdges(std::vector<double>& longest)
     {
       const std::size_t a = this->Triangles[face][edge];
       const std::size_t b = this->Triangles[face][(edge + 1) % 3];
-      if (this->GetEdgeLength(face, edge) > longest[face] &&
-        middles.emplace(MakeKey(a, b), this->Points.size()).second)
+      const std::uint64_t key = MakeKey(a, b);
+      if (this->GetEdgeLength(face, edge) > longest[face] && keys.count(key) == 0 &&
+        middles.emplace(key, this->Points.size()).second)
       {
         const Vector middle = this->GetEdgeMiddle(face, edge);
         this->Points.push_back({ middle[0], middle[1], middle[2] });
@@ -209,19 +335,85 @@ bool AtlasSurface::HalveLongEdges(std::vector<double>& longest)
       }
     }
   }
-  // Cut a triangle at its longest halved side; its parts keep the sides that are still to be cut.
+  return middles;
+}
+
+//------------------------------------------------------------------------------
+// Cut a face at its longest halved side; its parts keep the sides that are still to be cut.
+void AtlasSurface::CutFace(std::size_t face, const Middles& middles, std::vector<double>& longest)
+{
+  for (int edge = this->FindLongestHalvedEdge(face, middles); edge >= 0;
+       edge = this->FindLongestHalvedEdge(face, middles))
+  {
+    const TriangleSoup::Triangle t = this->Triangles[face];
+    const std::size_t middle = middles.at(MakeKey(t[edge], t[(edge + 1) % 3]));
+    this->Triangles[face][(edge + 1) % 3] = middle;
+    this->Triangles.push_back({ middle, t[(edge + 1) % 3], t[(edge + 2) % 3] });
+    this->Sources.push_back(this->Sources[face]);
+    longest.push_back(longest[face]);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Put a rung in the place of a diagonal whose faces have been cut, each into itself and a part,
+// unless that would turn a triangle over.
+void AtlasSurface::Replace(const Diagonal& diagonal, int firstPart, int secondPart)
+{
+  std::array<int, 2> faces{ -1, -1 };
+  std::array<std::size_t, 2> tips{ 0, 0 };
+  const int parts[2] = { firstPart, secondPart };
+  for (int side = 0; side < 2; ++side)
+  {
+    for (const int face : { diagonal.Faces[side], parts[side] })
+    {
+      const TriangleSoup::Triangle& t = this->Triangles[face];
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        if (t[(corner + 1) % 3] == diagonal.Ends[side] &&
+          t[(corner + 2) % 3] == diagonal.Ends[1 - side])
+        {
+          faces[side] = face;
+          tips[side] = t[corner];
+        }
+      }
+    }
+  }
+  const auto getNormal = [this](const TriangleSoup::Triangle& t)
+  {
+    const Vector a = this->GetPoint(t[0]);
+    return Vector((this->GetPoint(t[1]) - a).cross(this->GetPoint(t[2]) - a));
+  };
+  const TriangleSoup::Triangle first{ tips[0], diagonal.Ends[0], tips[1] };
+  const TriangleSoup::Triangle second{ tips[1], diagonal.Ends[1], tips[0] };
+  const Vector normal = getNormal(this->Triangles[faces[0]]);
+  if (getNormal(first).dot(normal) > 0.0 && getNormal(second).dot(normal) > 0.0)
+  {
+    this->Triangles[faces[0]] = first;
+    this->Triangles[faces[1]] = second;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Halve all edges that are too long, once. Returns whether there were any.
+bool AtlasSurface::HalveLongEdges(std::vector<double>& longest, const Watch& watch)
+{
+  const std::vector<Diagonal> diagonals = this->FindDiagonals(longest);
+  watch.Check();
+  const Middles middles = this->HalveEdges(longest, diagonals);
+  std::vector<int> parts(this->Triangles.size(), -1);
+  // The parts of cut faces follow below: they have nothing more to cut but what their face leaves.
   for (std::size_t face = 0; face < this->Triangles.size() && !middles.empty(); ++face)
   {
-    for (int edge = this->FindLongestHalvedEdge(face, middles); edge >= 0;
-         edge = this->FindLongestHalvedEdge(face, middles))
+    watch.Check();
+    if (face < parts.size())
     {
-      const TriangleSoup::Triangle t = this->Triangles[face];
-      const std::size_t middle = middles.at(MakeKey(t[edge], t[(edge + 1) % 3]));
-      this->Triangles[face][(edge + 1) % 3] = middle;
-      this->Triangles.push_back({ middle, t[(edge + 1) % 3], t[(edge + 2) % 3] });
-      this->Sources.push_back(this->Sources[face]);
-      longest.push_back(longest[face]);
+      parts[face] = static_cast<int>(this->Triangles.size());
     }
+    this->CutFace(face, middles, longest);
+  }
+  for (const Diagonal& diagonal : diagonals)
+  {
+    this->Replace(diagonal, parts[diagonal.Faces[0]], parts[diagonal.Faces[1]]);
   }
   return !middles.empty();
 }

@@ -4,11 +4,16 @@
  * The surface that an atlas is made for: oriented manifold triangles that know their neighbours.
  * Edges that are long beside the surface, or beside their component, are halved at first: charts
  * are made of whole triangles, and few large ones leave no choice where to cut.
+ *
+ * A triangle that is long in two sides becomes a ladder: the diagonals between its rungs are not
+ * halved but replaced by rungs, so that the triangles double where they would else treble each time
+ * that their sides are halved.
  */
 #ifndef AtlasSurface_h
 #define AtlasSurface_h
 
 #include "Common/TriangleSoup.h"
+#include "Common/Watch.h"
 
 #include <Eigen/Core>
 
@@ -24,8 +29,9 @@ class AtlasSurface
 public:
   using Vector = Eigen::Vector3d;
 
-  /// Take the triangles of a soup without defects.
-  explicit AtlasSurface(const TriangleSoup& soup);
+  /// Take the triangles of a soup without defects. Fails where the areas are beyond the numbers
+  /// that can be reckoned with, or where halving makes too many triangles.
+  Outcome Build(const TriangleSoup& soup, const Watch& watch);
 
   int GetNumberOfFaces() const { return static_cast<int>(this->Triangles.size()); }
 
@@ -61,13 +67,21 @@ public:
     const std::vector<int>& owners, std::vector<int>& local) const;
 
 private:
-  void FindNeighbors();
-  void FindGeometry();
-  std::vector<double> FindLongestEdges() const;
   /// The point in the middle of each halved edge, by the two points of the edge.
   using Middles = std::unordered_map<std::uint64_t, std::size_t>;
+  struct Diagonal;
+
+  void FindNeighbors(const Watch& watch);
+  void FindGeometry();
+  Outcome CheckAreas(const TriangleSoup& soup) const;
+  std::vector<double> FindLongestEdges(const Watch& watch) const;
+  int FindOtherLongEdge(int face, int edge, double longest) const;
+  std::vector<Diagonal> FindDiagonals(const std::vector<double>& longest) const;
   int FindLongestHalvedEdge(std::size_t face, const Middles& middles) const;
-  bool HalveLongEdges(std::vector<double>& longest);
+  Middles HalveEdges(const std::vector<double>& longest, const std::vector<Diagonal>& kept);
+  void CutFace(std::size_t face, const Middles& middles, std::vector<double>& longest);
+  void Replace(const Diagonal& diagonal, int firstPart, int secondPart);
+  bool HalveLongEdges(std::vector<double>& longest, const Watch& watch);
 };
 } // namespace LightTransport
 

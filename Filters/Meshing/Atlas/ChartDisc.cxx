@@ -12,9 +12,10 @@ namespace LightTransport
 {
 //------------------------------------------------------------------------------
 ChartDisc::ChartDisc(const AtlasSurface& surface, const std::vector<int>& faces,
-  const std::vector<int>& owners, std::vector<int>& local)
+  const std::vector<int>& owners, std::vector<int>& local, const Watch& watch)
   : Surface(surface), Faces(faces), Neighbors(surface.GetNeighborsWithin(faces, owners, local))
 {
+  watch.Check();
   this->UncutNeighbors = this->Neighbors;
   this->NumberPoints();
 }

@@ -23,9 +23,9 @@ class ChartDisc
 {
 public:
   /// `owners` tells the piece that each face of the surface belongs to; `local` is room for one
-  /// number per face, of which those of this piece are used.
+  /// number per face, of which those of this piece are used. All but the watch must outlive this.
   ChartDisc(const AtlasSurface& surface, const std::vector<int>& faces,
-    const std::vector<int>& owners, std::vector<int>& local);
+    const std::vector<int>& owners, std::vector<int>& local, const Watch& watch);
 
   int GetNumberOfComponents() const { return this->NumberOfComponents; }
   bool IsClosed() const { return this->NumberOfBorderEdges == 0; }

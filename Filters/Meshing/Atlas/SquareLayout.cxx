@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/SquareLayout.h"
 
-#include "Atlas/StepSolver.h"
 #include "Atlas/StretchElement.h"
 
 #include <Eigen/Geometry>
@@ -107,8 +106,9 @@ Eigen::Matrix<double, 2, 3> GetShapeGradients(const Shape& shape)
 } // namespace
 
 //------------------------------------------------------------------------------
-SquareLayout::SquareLayout(const SquareMap::Disc& disc, const std::vector<unsigned char>& sides)
-  : Surface(disc), Sides(sides)
+SquareLayout::SquareLayout(const SquareMap::Disc& disc, const std::vector<unsigned char>& sides,
+  const Watch& watch)
+  : Surface(disc), Sides(sides), Watcher(watch)
 {
   double area = 0.0;
   for (const auto& triangle : disc.Triangles)
@@ -196,8 +196,27 @@ bool SquareLayout::Balance(SpringKind kind)
 }
 
 //------------------------------------------------------------------------------
+// The equations of a coordinate have the same shape whatever the springs.
+StepSolver<3>& SquareLayout::GetSolver(int axis, const std::vector<std::array<int, 2>>& unknowns,
+  int numberOfUnknowns)
+{
+  if (!this->Solvers[axis])
+  {
+    std::vector<StepSolver<3>::Unknowns> elements;
+    for (const auto& triangle : this->Surface.Triangles)
+    {
+      elements.push_back(
+        { unknowns[triangle[0]][axis], unknowns[triangle[1]][axis], unknowns[triangle[2]][axis] });
+    }
+    this->Solvers[axis] =
+      std::make_unique<StepSolver<3>>(std::move(elements), numberOfUnknowns);
+  }
+  return *this->Solvers[axis];
+}
+
+//------------------------------------------------------------------------------
 // Both coordinates are found apart from each other, as steps from zero where they are free.
-bool SquareLayout::Solve(std::vector<Coordinates>& uv) const
+bool SquareLayout::Solve(std::vector<Coordinates>& uv)
 {
   const Freedom freedom(this->Sides);
   uv.resize(this->Sides.size());
@@ -207,13 +226,8 @@ bool SquareLayout::Solve(std::vector<Coordinates>& uv) const
   }
   for (int axis = 0; axis < 2; ++axis)
   {
-    std::vector<StepSolver<3>::Unknowns> elements;
-    for (const auto& triangle : this->Surface.Triangles)
-    {
-      elements.push_back({ freedom.Unknowns[triangle[0]][axis], freedom.Unknowns[triangle[1]][axis],
-        freedom.Unknowns[triangle[2]][axis] });
-    }
-    StepSolver<3> solver(std::move(elements), freedom.Numbers[axis]);
+    this->Watcher.Check();
+    StepSolver<3>& solver = this->GetSolver(axis, freedom.Unknowns, freedom.Numbers[axis]);
     solver.Clear();
     for (std::size_t i = 0; i < this->Springs.size(); ++i)
     {
@@ -395,6 +409,7 @@ bool SquareLayout::Descend(const std::vector<Coordinates>& step, double slope, d
   double next = this->MeasureSquaredStretch(uv);
   while (!(next <= value + 1e-4 * length * slope))
   {
+    this->Watcher.Check();
     length *= 0.5;
     if (length < 1e-8)
     {
@@ -425,6 +440,7 @@ void SquareLayout::Minimize(int maximumNumberOfIterations)
   std::vector<Coordinates> step(this->UV.size());
   for (int iteration = 0; iteration < maximumNumberOfIterations; ++iteration)
   {
+    this->Watcher.Check();
     solver.Clear();
     for (std::size_t i = 0; i < this->Shapes.size(); ++i)
     {

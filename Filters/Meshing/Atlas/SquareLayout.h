@@ -15,7 +15,10 @@
 #define SquareLayout_h
 
 #include "Atlas/SquareMap.h"
+#include "Atlas/StepSolver.h"
 
+#include <array>
+#include <memory>
 #include <vector>
 
 namespace LightTransport
@@ -42,8 +45,9 @@ public:
     Uniform
   };
 
-  /// Both must outlive this object.
-  SquareLayout(const SquareMap::Disc& disc, const std::vector<unsigned char>& sides);
+  /// All must outlive this object.
+  SquareLayout(const SquareMap::Disc& disc, const std::vector<unsigned char>& sides,
+    const Watch& watch);
 
   /// Place all points where the springs balance. False if rounding does not allow it.
   bool Balance(SpringKind kind);
@@ -78,17 +82,22 @@ private:
   double GetSquaredStretch(std::size_t triangle, const std::vector<Coordinates>& uv) const;
   std::vector<double> GetPointStretch(const std::vector<Coordinates>& uv) const;
   void MakeConformalSprings();
-  bool Solve(std::vector<Coordinates>& uv) const;
+  StepSolver<3>& GetSolver(int axis, const std::vector<std::array<int, 2>>& unknowns,
+    int numberOfUnknowns);
+  bool Solve(std::vector<Coordinates>& uv);
   double GetLargestStep(const std::vector<Coordinates>& step) const;
   double MeasureSquaredStretch(const std::vector<Coordinates>& uv) const;
   bool Descend(const std::vector<Coordinates>& step, double slope, double& value);
 
   const SquareMap::Disc& Surface;
   const std::vector<unsigned char>& Sides;
+  const Watch& Watcher;
   std::vector<Shape> Shapes;
   /// Per triangle: its part in the springs of the edges opposite to its corners.
   std::vector<std::array<double, 3>> Springs;
   std::vector<Coordinates> UV;
+  /// Of the springs' balance, for each coordinate.
+  std::array<std::unique_ptr<StepSolver<3>>, 2> Solvers;
 };
 } // namespace LightTransport
 

@@ -309,9 +309,9 @@ std::set<Corners> GetCandidates(const Border& border)
 // A disc with its corners chosen, on its way to the square.
 struct Trial
 {
-  Trial(const Disc& disc, const Border& border, const Corners& corners)
+  Trial(const Disc& disc, const Border& border, const Corners& corners, const Watch& watch)
     : SquareCorners(corners), Halved(disc), Sides(GetSides(border, corners, disc.Points.size())),
-      Layout(HalveEdgesAlongSides(this->Halved, this->Sides), this->Sides)
+      Layout(HalveEdgesAlongSides(this->Halved, this->Sides), this->Sides, watch)
   {
   }
 
@@ -345,7 +345,7 @@ void KeepBest(Trials& trials, std::size_t number, Step&& step)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool SquareMap::Map(Disc& disc, std::string& problem)
+bool SquareMap::Map(Disc& disc, std::string& problem, const Watch& watch)
 {
   const Border border(disc);
   if (border.GetSize() < 4)
@@ -360,7 +360,7 @@ bool SquareMap::Map(Disc& disc, std::string& problem)
     Trials trials;
     for (const Corners& corners : candidates)
     {
-      trials.push_back(std::make_unique<Trial>(disc, border, corners));
+      trials.push_back(std::make_unique<Trial>(disc, border, corners, watch));
     }
     KeepBest(trials, Finalists,
       [&](SquareLayout& layout)

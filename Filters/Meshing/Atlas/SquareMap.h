@@ -14,6 +14,7 @@
 #define SquareMap_h
 
 #include "Common/TriangleSoup.h"
+#include "Common/Watch.h"
 
 #include <array>
 #include <cstddef>
@@ -49,7 +50,7 @@ public:
    * when rounding leaves a triangle without area or turned over (decided by exact predicates)
    * whatever weights are tried.
    */
-  bool Map(Disc& disc, std::string& problem);
+  bool Map(Disc& disc, std::string& problem, const Watch& watch = {});
 
   /// One per point of the disc, in [0,1]^2; triangles keep their orientation.
   const std::vector<Coordinates>& GetCoordinates() const { return this->UV; }

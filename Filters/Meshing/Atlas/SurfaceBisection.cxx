@@ -52,8 +52,8 @@ struct SurfaceBisection::Cut
 
 //------------------------------------------------------------------------------
 SurfaceBisection::SurfaceBisection(const AtlasSurface& surface, const std::vector<int>& owners,
-  std::vector<int>& local)
-  : Surface(surface), Owners(owners), Local(local)
+  std::vector<int>& local, const Watch& watch)
+  : Surface(surface), Owners(owners), Local(local), Watcher(watch)
 {
 }
 
@@ -224,6 +224,7 @@ std::vector<double> SurfaceBisection::FindDistances(int start) const
   {
     while (!queue.empty())
     {
+      this->Watcher.Check();
       const Entry entry = queue.top();
       queue.pop();
       const int face = entry.second;
@@ -326,7 +327,11 @@ SurfaceBisection::Cut SurfaceBisection::FindBestCut(const std::vector<double>& v
   std::vector<int> order(size);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-    [&values](int a, int b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
+    [&](int a, int b)
+    {
+      this->Watcher.Check();
+      return values[a] != values[b] ? values[a] < values[b] : a < b;
+    });
   std::vector<int> ranks(size);
   for (std::size_t i = 0; i < size; ++i)
   {
@@ -374,6 +379,7 @@ void SurfaceBisection::Smooth(std::vector<char>& sides) const
   std::iota(queue.begin(), queue.end(), 0);
   while (!queue.empty())
   {
+    this->Watcher.Check();
     const int face = queue.back();
     queue.pop_back();
     double gain = 0.0;
@@ -414,6 +420,7 @@ void SurfaceBisection::JoinCrumbs(std::vector<char>& sides, char side) const
   std::vector<std::size_t> sizes(this->NumberOfComponents, 0);
   for (int first = 0; first < static_cast<int>(sides.size()); ++first)
   {
+    this->Watcher.Check();
     ++sizes[this->Components[first]];
     if (sides[first] != side || parts[first] >= 0)
     {

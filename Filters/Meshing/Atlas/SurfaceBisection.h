@@ -29,7 +29,7 @@ public:
    * different pieces may be divided at the same time.
    */
   SurfaceBisection(const AtlasSurface& surface, const std::vector<int>& owners,
-    std::vector<int>& local);
+    std::vector<int>& local, const Watch& watch);
 
   /**
    * Halves of a piece of at least two faces. `share` is the smallest share of the area that a half
@@ -61,6 +61,7 @@ private:
   const AtlasSurface& Surface;
   const std::vector<int>& Owners;
   std::vector<int>& Local;
+  const Watch& Watcher;
 
   std::vector<int> Faces;
   /// The rest is numbered as Faces is.

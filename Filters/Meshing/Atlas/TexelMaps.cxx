@@ -3,7 +3,9 @@
 #include "Atlas/TexelMaps.h"
 
 #include "Atlas/TexelPieces.h"
+#include "Common/Heartbeat.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/TransportMemory.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -17,6 +19,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkTriangle.h"
 
+#include <algorithm>
 #include <array>
 
 namespace LightTransport
@@ -25,11 +28,44 @@ namespace
 {
 using Triangle = std::array<vtkIdType, 3>;
 
+//------------------------------------------------------------------------------
+// Fails where the arrays of the maps do not fit into memory.
+Outcome CheckMemory(int resolution, const std::vector<TexelMaps::Source>& sources)
+{
+  int components = 3 + 3 + 1;
+  for (const TexelMaps::Source& source : sources)
+  {
+    components += source.Array->GetNumberOfComponents();
+  }
+  const double texels = static_cast<double>(resolution) * resolution;
+  const double bytes = texels * (static_cast<double>(sizeof(double)) * components + sizeof(int));
+  const std::string side = std::to_string(resolution);
+  return TransportMemory::CanAllocate(bytes)
+    ? Outcome::Done()
+    : Outcome::Failed("Maps of " + side + " x " + side + " texels need " +
+        TransportMemory::Format(bytes) + " of memory, which are not there: set a smaller " +
+        "Resolution, or give fewer arrays.");
+}
+
+//------------------------------------------------------------------------------
+template <typename Array, typename Value>
+void Fill(Array* array, Value value, const Monitor& monitor)
+{
+  constexpr vtkIdType part = 1 << 20;
+  Heartbeat heart(monitor, 1);
+  for (vtkIdType first = 0; first < array->GetNumberOfValues(); first += part)
+  {
+    heart.Beat();
+    std::fill_n(array->GetPointer(first), std::min(part, array->GetNumberOfValues() - first), value);
+  }
+}
+
 // The means of one array over all texels, as the pieces seen so far make them.
 class Mean
 {
 public:
-  Mean(const TexelMaps::Source& source, const char* name, vtkImageData* maps)
+  Mean(const TexelMaps::Source& source, const char* name, vtkImageData* maps,
+    const Monitor& monitor)
     : Source(source), Components(source.Array->GetNumberOfComponents()),
       Values(source.Array->GetNumberOfComponents())
   {
@@ -37,7 +73,7 @@ public:
     this->Means->SetNumberOfComponents(this->Components);
     this->Means->CopyComponentNames(source.Array);
     this->Means->SetNumberOfTuples(maps->GetNumberOfPoints());
-    this->Means->Fill(0.0);
+    Fill(this->Means.Get(), 0.0, monitor);
     maps->GetPointData()->AddArray(this->Means);
   }
 
@@ -91,12 +127,13 @@ void MakeGrid(int resolution, vtkImageData* maps)
 
 //------------------------------------------------------------------------------
 template <typename Array>
-vtkSmartPointer<Array> AddMap(const char* name, double value, vtkImageData* maps)
+vtkSmartPointer<Array> AddMap(const char* name, typename Array::ValueType value,
+  vtkImageData* maps, const Monitor& monitor)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfTuples(maps->GetNumberOfPoints());
-  array->Fill(value);
+  Fill(array.Get(), value, monitor);
   maps->GetPointData()->AddArray(array);
   return array;
 }
@@ -111,13 +148,15 @@ Triangle GetCorners(vtkPolyData* surface, vtkIdType cell)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkDoubleArray> MakeNormals(vtkPolyData* surface)
+vtkSmartPointer<vtkDoubleArray> MakeNormals(vtkPolyData* surface, const Monitor& monitor)
 {
+  Heartbeat heart(monitor);
   auto normals = vtkSmartPointer<vtkDoubleArray>::New();
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(surface->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
+    heart.Beat();
     const Triangle corners = GetCorners(surface, cell);
     vtkTriangle::ComputeNormal(surface->GetPoints(), 3, corners.data(),
       normals->GetPointer(3 * cell));
@@ -126,10 +165,12 @@ vtkSmartPointer<vtkDoubleArray> MakeNormals(vtkPolyData* surface)
 }
 
 //------------------------------------------------------------------------------
-void Normalize(vtkDataArray* vectors)
+void Normalize(vtkDataArray* vectors, const Monitor& monitor)
 {
+  Heartbeat heart(monitor);
   for (vtkIdType i = 0; i < vectors->GetNumberOfTuples(); ++i)
   {
+    heart.Beat();
     std::array<double, 3> vector;
     vectors->GetTuple(i, vector.data());
     vtkMath::Normalize(vector.data());
@@ -139,21 +180,28 @@ void Normalize(vtkDataArray* vectors)
 } // namespace
 
 //------------------------------------------------------------------------------
-void TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
-  const std::vector<Source>& sources)
+Outcome TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
+  const Monitor& monitor, const std::vector<Source>& sources)
 {
+  if (Outcome checked = CheckMemory(resolution, sources); !checked)
+  {
+    return checked;
+  }
+  const Monitor first = monitor.GetStage(0.0, 0.1);
+  const Monitor last = monitor.GetStage(0.9, 1.0);
   MakeGrid(resolution, maps);
-  const vtkSmartPointer<vtkDoubleArray> normals = MakeNormals(surface);
+  const vtkSmartPointer<vtkDoubleArray> normals = MakeNormals(surface, first);
   std::vector<Mean> means;
   means.emplace_back(TexelMaps::Source{ surface->GetPoints()->GetData(), true },
-    ArrayNames::TexelPosition, maps);
-  means.emplace_back(TexelMaps::Source{ normals, false }, ArrayNames::TexelNormal, maps);
+    ArrayNames::TexelPosition, maps, first);
+  means.emplace_back(TexelMaps::Source{ normals, false }, ArrayNames::TexelNormal, maps,
+    first);
   for (const Source& source : sources)
   {
-    means.emplace_back(source, source.Array->GetName(), maps);
+    means.emplace_back(source, source.Array->GetName(), maps, first);
   }
-  const auto areas = AddMap<vtkDoubleArray>(ArrayNames::TexelArea, 0.0, maps);
-  const auto charts = AddMap<vtkIntArray>(ArrayNames::ChartId, -1, maps);
+  const auto areas = AddMap<vtkDoubleArray>(ArrayNames::TexelArea, 0.0, maps, first);
+  const auto charts = AddMap<vtkIntArray>(ArrayNames::ChartId, -1, maps, first);
 
   vtkDataArray* chartOfCell = surface->GetCellData()->GetArray(ArrayNames::ChartId);
   vtkIdType cell = -1;
@@ -178,8 +226,10 @@ void TexelMaps::Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
         mean.Add(piece, piece.Area / area);
       }
       charts->SetValue(piece.Texel, chart);
-    });
-  Normalize(maps->GetPointData()->GetArray(ArrayNames::TexelNormal));
+    },
+    monitor.GetStage(0.1, 0.9));
+  Normalize(maps->GetPointData()->GetArray(ArrayNames::TexelNormal), last);
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

@@ -7,6 +7,9 @@
 #ifndef TexelMaps_h
 #define TexelMaps_h
 
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
+
 #include <string>
 #include <vector>
 
@@ -36,10 +39,11 @@ public:
    * - for each source, under its name, its mean (vtkDoubleArray, components as the source).
    * Texels without surface, in blocks that no chart has, hold 0.
    *
-   * The surface must have passed TexelPieces::Check.
+   * The surface must have passed TexelPieces::Check. Fails where there is no memory for the maps;
+   * throws Heartbeat::Stopped when the monitor says so.
    */
-  static void Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
-    const std::vector<Source>& sources = {});
+  static Outcome Make(vtkPolyData* surface, int resolution, vtkImageData* maps,
+    const Monitor& monitor, const std::vector<Source>& sources = {});
 
   /// Whether Make() itself makes an array of this name.
   static bool IsTexelMap(const std::string& name);

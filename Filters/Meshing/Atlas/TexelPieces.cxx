@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/TexelPieces.h"
 
+#include "Common/Heartbeat.h"
 #include "Shared/ArrayNames.h"
 
 #include "vtkCellArray.h"
@@ -100,7 +101,7 @@ Outcome CheckCoordinatesOf(vtkIdType cell, const Triangle& corners, vtkDataArray
 }
 
 //------------------------------------------------------------------------------
-Outcome CheckCoordinates(vtkPolyData* surface)
+Outcome CheckCoordinates(vtkPolyData* surface, const Monitor& monitor)
 {
   vtkDataArray* coordinates = GetCoordinates(surface);
   if (!coordinates || coordinates->GetNumberOfComponents() < 2)
@@ -109,9 +110,11 @@ Outcome CheckCoordinates(vtkPolyData* surface)
                            "components nor texture coordinates: make them with vtkSurfaceAtlas.");
   }
   Outcome outcome = Outcome::Done();
+  Heartbeat heart(monitor);
   ForEachTriangle(surface,
     [&](vtkIdType cell, const Triangle& corners)
     {
+      heart.Beat();
       if (outcome)
       {
         outcome = CheckCoordinatesOf(cell, corners, coordinates);
@@ -343,8 +346,9 @@ std::array<double, 3> GetCentroid(const Polygon& polygon)
 class Divider
 {
 public:
-  Divider(int resolution, const TexelPieces::Visitor& visitor)
-    : Resolution(resolution), Visitor(visitor)
+  Divider(int resolution, const TexelPieces::Visitor& visitor, const Monitor& monitor,
+    vtkIdType numberOfCells)
+    : Resolution(resolution), Visitor(visitor), Watcher(monitor), NumberOfCells(numberOfCells)
   {
   }
 
@@ -364,6 +368,7 @@ private:
     {
       this->Piece.Texel =
         range.First[0] + static_cast<vtkIdType>(this->Resolution) * range.First[1];
+      this->Beat();
       this->Piece.Area = std::max(area, std::numeric_limits<double>::min());
       this->Piece.Weights = GetCentroid(polygon);
       this->Visitor(this->Piece);
@@ -390,20 +395,35 @@ private:
     }
   }
 
+  // A triangle may have millions of pieces, so these are what is counted.
+  void Beat()
+  {
+    constexpr std::size_t interval = 16384;
+    if (++this->NumberOfPieces % interval == 0 &&
+      !this->Watcher.Report(
+        static_cast<double>(this->Piece.Cell) / static_cast<double>(this->NumberOfCells)))
+    {
+      throw Heartbeat::Stopped();
+    }
+  }
+
   int Resolution;
   const TexelPieces::Visitor& Visitor;
+  const Monitor& Watcher;
+  vtkIdType NumberOfCells;
+  std::size_t NumberOfPieces = 0;
   TexelPieces::Piece Piece;
 };
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome TexelPieces::Check(vtkPolyData* surface, int resolution)
+Outcome TexelPieces::Check(vtkPolyData* surface, int resolution, const Monitor& monitor)
 {
   if (Outcome checked = CheckCells(surface); !checked)
   {
     return checked;
   }
-  if (Outcome checked = CheckCoordinates(surface); !checked)
+  if (Outcome checked = CheckCoordinates(surface, monitor); !checked)
   {
     return checked;
   }
@@ -430,10 +450,11 @@ int TexelPieces::GetSmallestResolution(vtkPolyData* surface)
 }
 
 //------------------------------------------------------------------------------
-void TexelPieces::Visit(vtkPolyData* surface, int resolution, const Visitor& visitor)
+void TexelPieces::Visit(vtkPolyData* surface, int resolution, const Visitor& visitor,
+  const Monitor& monitor)
 {
   vtkDataArray* coordinates = GetCoordinates(surface);
-  Divider divider(resolution, visitor);
+  Divider divider(resolution, visitor, monitor, surface->GetNumberOfCells());
   Polygon polygon;
   polygon.Size = 3;
   for (int i = 0; i < 3; ++i)

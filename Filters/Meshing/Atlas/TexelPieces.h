@@ -12,6 +12,7 @@
 #ifndef TexelPieces_h
 #define TexelPieces_h
 
+#include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 #include "vtkType.h"
 
@@ -45,7 +46,7 @@ public:
    * around counter-clockwise) and `resolution` is a power of two, not above the maximum, at which
    * no texel belongs to two charts.
    */
-  static Outcome Check(vtkPolyData* surface, int resolution);
+  static Outcome Check(vtkPolyData* surface, int resolution, const Monitor& monitor = {});
 
   /// The fewest texels a side, a power of two, at which the rectangles around all charts end
   /// between texels; more than the maximum if there is none. Surfaces whose charts fill blocks of a
@@ -55,9 +56,11 @@ public:
   /**
    * Visit all pieces, cell after cell, of a surface that has passed the check. The areas of a
    * cell's pieces add up to its area, and the means of their weights, so weighted, to 1/3, both to
-   * rounding. No piece lies in a texel that only touches the cell, whatever the rounding.
+   * rounding. No piece lies in a texel that only touches the cell, whatever the rounding. Throws
+   * Heartbeat::Stopped when the monitor says so.
    */
-  static void Visit(vtkPolyData* surface, int resolution, const Visitor& visitor);
+  static void Visit(vtkPolyData* surface, int resolution, const Visitor& visitor,
+    const Monitor& monitor = {});
 };
 } // namespace LightTransport
 

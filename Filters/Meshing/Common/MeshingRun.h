@@ -4,9 +4,10 @@
 #ifndef MeshingRun_h
 #define MeshingRun_h
 
+#include "Common/Heartbeat.h"
 #include "Shared/Attempt.h"
 #include "Shared/Outcome.h"
-#include "vtkDataSet.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -29,23 +30,38 @@ public:
   {
     if (this->Result)
     {
-      this->Result = Attempt(step, this->WhatToDo);
+      this->Result = Attempt([&step]() { return HearAbort(step); }, this->WhatToDo);
     }
   }
 
   const Outcome& GetOutcome() const { return this->Result; }
 
 private:
+  /// A job that nobody wants any more ends by an exception of its own.
+  template <typename Step>
+  static Outcome HearAbort(const Step& step)
+  {
+    try
+    {
+      return step();
+    }
+    catch (const Heartbeat::Stopped&)
+    {
+      return Outcome::Aborted();
+    }
+  }
+
   Advice WhatToDo;
   Outcome Result = Outcome::Done();
 };
 
 //------------------------------------------------------------------------------
 /// Of data distributed over several processes a piece may be empty, which is no error.
-inline bool IsEmptyPiece(vtkDataSet* input, vtkInformation* output)
+inline bool IsEmptyPiece(vtkDataObject* input, vtkInformation* output)
 {
   vtkInformationIntegerKey* pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return input->GetNumberOfCells() == 0 && output->Has(pieces) && output->Get(pieces) > 1;
+  return input->GetNumberOfElements(vtkDataObject::CELL) == 0 && output->Has(pieces) &&
+    output->Get(pieces) > 1;
 }
 } // namespace MeshingRun
 } // namespace LightTransport

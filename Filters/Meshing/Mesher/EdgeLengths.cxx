@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/EdgeLengths.h"
 
+#include "Common/Heartbeat.h"
 #include "Mesher/PointVectors.h"
 
 #include <Eigen/Geometry>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -41,13 +43,16 @@ double EdgeLengths::GetLengthForCurvature(double curvature, double error, double
   double longest)
 {
   // Written so that curvature 0 gives the longest length and a negative root the shortest.
-  const double length2 = 6.0 * error / curvature - 3.0 * error * error;
-  return std::sqrt(std::min(std::max(length2, shortest * shortest), longest * longest));
+  const double length2 = curvature > 0.0 ? 6.0 * error / curvature - 3.0 * error * error
+                                         : std::numeric_limits<double>::max();
+  return std::min(std::max(std::sqrt(std::max(0.0, length2)), shortest), longest);
 }
 
 //------------------------------------------------------------------------------
-void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths)
+void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths,
+  const Monitor& monitor)
 {
+  Heartbeat heart(monitor);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   for (std::size_t i = 0; i < lengths.size(); ++i)
@@ -67,6 +72,7 @@ void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vecto
     }
     for (const std::size_t triangle : surface.GetTrianglesAround(from))
     {
+      heart.Beat();
       const SourceSurface::Triangle& corners = surface.Triangles[triangle];
       for (int i = 0; i < 3; ++i)
       {

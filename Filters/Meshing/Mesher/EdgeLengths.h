@@ -6,6 +6,7 @@
 #define EdgeLengths_h
 
 #include "Mesher/SourceSurface.h"
+#include "Shared/Monitor.h"
 
 #include <vector>
 
@@ -23,9 +24,10 @@ double GetLengthForCurvature(double curvature, double error, double shortest, do
 /**
  * Shorten the lengths so that along every path on the surface they grow by at most `grading` per
  * unit of distance: a sweep from the shortest length on, like Dijkstra's, through triangles
- * instead of along edges (as in fast marching).
+ * instead of along edges (as in fast marching). Throws Heartbeat::Stopped when aborted.
  */
-void Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths);
+void Grade(const SourceSurface& surface, double grading, std::vector<double>& lengths,
+  const Monitor& monitor = Monitor());
 
 /// How many triangles with edges of these lengths cover one triangle of the surface.
 double CountTriangles(const SourceSurface& surface, std::size_t triangle,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/IsotropicRemesher.h"
 
+#include "Common/Heartbeat.h"
 #include "Mesher/EdgeLengths.h"
 #include "Mesher/RemeshingSteps.h"
 #include "Mesher/WorkingMesh.h"
@@ -96,7 +97,7 @@ double FindSplit(const WorkingMesh& work, Edge edge)
 
 //------------------------------------------------------------------------------
 // Longest edges come first: it keeps triangles from getting thin.
-void SplitEdges(WorkingMesh& work)
+void SplitEdges(WorkingMesh& work, Heartbeat& heart)
 {
   std::priority_queue<std::pair<double, Edge>> queue;
   const auto add = [&](Edge edge)
@@ -115,6 +116,7 @@ void SplitEdges(WorkingMesh& work)
     const std::pair<double, Edge> longest = queue.top();
     const Edge edge = longest.second;
     queue.pop();
+    heart.Beat();
     const double part = FindSplit(work, edge);
     if (longest.first != work.GetLength(edge) || !(part > 0.0))
     {
@@ -298,8 +300,27 @@ void IsotropicRemesher::SetPlanarRegions(const std::vector<std::size_t>& regions
 }
 
 //------------------------------------------------------------------------------
-double IsotropicRemesher::Prepare(double factor, double grading)
+void IsotropicRemesher::KeepCreases(const std::vector<bool>& points)
 {
+  WorkingMesh& work = this->Meshes->Original;
+  for (const Edge edge : work.Mesh.edges())
+  {
+    if (!work.Kept[edge] &&
+      (points[work.Mesh.vertex(edge, 0)] || points[work.Mesh.vertex(edge, 1)]))
+    {
+      const Face a = work.Mesh.face(work.Mesh.halfedge(edge, 0));
+      const Face b = work.Mesh.face(work.Mesh.halfedge(edge, 1));
+      work.Kept[edge] = IsSharp(work, a, b, 1.0);
+    }
+  }
+  this->Meshes->MarkFixed();
+  FindParts(work);
+}
+
+//------------------------------------------------------------------------------
+double IsotropicRemesher::Prepare(double factor, double grading, const Monitor& monitor)
+{
+  Heartbeat heart(monitor);
   this->Meshes->Work.reset(new WorkingMesh(this->Meshes->Original));
   WorkingMesh& work = *this->Meshes->Work;
   for (const Vertex vertex : work.Mesh.vertices())
@@ -310,11 +331,11 @@ double IsotropicRemesher::Prepare(double factor, double grading)
   {
     work.Ceilings[face] *= factor;
   }
-  SplitEdges(work);
+  SplitEdges(work, heart);
   // Lengths that have become shorter may split edges once more, which shortens others a little.
   for (int i = 0; i < 2; ++i)
   {
-    SplitEdges(work);
+    SplitEdges(work, heart);
     LimitToKeptEdges(work);
     this->Sources = ToSources(work);
     this->Lengths.clear();
@@ -322,7 +343,7 @@ double IsotropicRemesher::Prepare(double factor, double grading)
     {
       this->Lengths.push_back(work.Lengths[vertex]);
     }
-    EdgeLengths::Grade(this->Sources, grading, this->Lengths);
+    EdgeLengths::Grade(this->Sources, grading, this->Lengths, monitor);
     for (const Vertex vertex : work.Mesh.vertices())
     {
       work.Lengths[vertex] = this->Lengths[vertex];
@@ -382,8 +403,9 @@ std::size_t IsotropicRemesher::GetNumberOfTriangles() const
 }
 
 //------------------------------------------------------------------------------
-IsotropicRemesher::Result IsotropicRemesher::GetResult() const
+IsotropicRemesher::Result IsotropicRemesher::GetResult(const Monitor& monitor) const
 {
+  Heartbeat heart(monitor);
   WorkingMesh& work = *this->Meshes->Work;
   const RemeshingSteps steps(work, this->Sources, this->Lengths, Monitor());
   Result result;
@@ -391,6 +413,7 @@ IsotropicRemesher::Result IsotropicRemesher::GetResult() const
     work.Mesh.number_of_vertices() + work.Mesh.number_of_removed_vertices(), None);
   for (const Face face : work.Mesh.faces())
   {
+    heart.Beat();
     TriangleSoup::Triangle triangle;
     int corner = 0;
     for (const Vertex vertex : work.Mesh.vertices_around_face(work.Mesh.halfedge(face)))

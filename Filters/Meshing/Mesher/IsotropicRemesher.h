@@ -5,7 +5,8 @@
  * is remeshed on its own and projected onto itself only.
  *
  * Call Build(), SetLengths(), Prepare() and Remesh() in this order; Prepare() starts anew from what
- * SetLengths() left. All methods throw what CGAL throws (std::exception).
+ * SetLengths() left. All methods throw what CGAL throws (std::exception), and Heartbeat::Stopped
+ * when a monitor aborts them.
  */
 #ifndef IsotropicRemesher_h
 #define IsotropicRemesher_h
@@ -50,12 +51,16 @@ public:
   void SetPlanarRegions(const std::vector<std::size_t>& regions, const std::vector<double>& lengths,
     bool keepBorders);
 
+  /// Also keep the edges at `points` of GetSurface() that are not flat: there patches will lie in
+  /// the triangles of the surface.
+  void KeepCreases(const std::vector<bool>& points);
+
   /**
    * Multiply all lengths by `factor`, split the edges to keep, limit the lengths to what these
    * allow and to the `grading`, and tell the parts apart. Returns how many triangles will come out,
    * about.
    */
-  double Prepare(double factor, double grading);
+  double Prepare(double factor, double grading, const Monitor& monitor);
 
   /// The fractions that the monitor hears are estimates.
   Outcome Remesh(int numberOfIterations, const Monitor& monitor);
@@ -75,7 +80,7 @@ public:
     std::vector<std::size_t> SourcesOfPoints;
     std::vector<std::size_t> SourcesOfTriangles;
   };
-  Result GetResult() const;
+  Result GetResult(const Monitor& monitor) const;
 
 private:
   struct Internals;

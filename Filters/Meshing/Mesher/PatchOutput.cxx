@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/PatchOutput.h"
 
+#include "Common/Heartbeat.h"
 #include "Mesher/SourceSurface.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
@@ -18,9 +19,74 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
+PatchPart::PatchPart(const RemeshToTarget::Result& all, std::size_t first, std::size_t last)
+{
+  const IsotropicRemesher::Result& patches = all.Patches;
+  const auto isMine = [&](std::size_t patch) {
+    return patches.SourcesOfTriangles[patch] >= first && patches.SourcesOfTriangles[patch] < last;
+  };
+  std::vector<std::size_t> indices(patches.Points.size(), SourceSurface::None);
+  for (std::size_t i = 0; i < patches.Triangles.size(); ++i)
+  {
+    if (!isMine(i))
+    {
+      continue;
+    }
+    TriangleSoup::Triangle triangle = patches.Triangles[i];
+    for (std::size_t& corner : triangle)
+    {
+      if (indices[corner] == SourceSurface::None)
+      {
+        indices[corner] = this->Patches.Points.size();
+        this->Patches.Points.push_back(patches.Points[corner]);
+        this->Patches.SourcesOfPoints.push_back(patches.SourcesOfPoints[corner] - first);
+      }
+      corner = indices[corner];
+    }
+    this->Patches.Triangles.push_back(triangle);
+    this->Patches.SourcesOfTriangles.push_back(patches.SourcesOfTriangles[i] - first);
+  }
+  for (const auto& pair : all.CrossingsWithin)
+  {
+    this->NumberOfCrossingsWithin += isMine(pair.first);
+  }
+  for (const auto& pair : all.CrossingsBetween)
+  {
+    this->NumberOfCrossingsBetween += isMine(pair.first) || isMine(pair.second);
+  }
+}
+
+//------------------------------------------------------------------------------
+void PatchSummary::Add(const PatchSummary& other)
+{
+  this->NumberOfPatches += other.NumberOfPatches;
+  this->Repairs.Add(other.Repairs);
+  this->NumberOfCrossingsWithin += other.NumberOfCrossingsWithin;
+  this->NumberOfCrossingsBetween += other.NumberOfCrossingsBetween;
+  this->Length = other.Length;
+}
+
+//------------------------------------------------------------------------------
+void PatchSummary::Write(vtkFieldData* fields) const
+{
+  const auto add = [fields](const char* name, vtkIdType number)
+  { FieldValues::AddAs<vtkIdTypeArray>(fields, name, { number }); };
+  const RepairCounts& counts = this->Repairs;
+  add("NumberOfPatches", this->NumberOfPatches);
+  add("NumberOfDroppedTriangles", counts.NumberOfDroppedTriangles);
+  add("NumberOfReversedTriangles", counts.NumberOfReversedTriangles);
+  add("NumberOfSplitPoints", counts.NumberOfSplitPoints);
+  add("NumberOfFilledHoles", counts.NumberOfFilledHoles);
+  add("NumberOfInputSelfIntersections", counts.NumberOfSelfIntersections);
+  add("NumberOfSelfIntersections", this->NumberOfCrossingsWithin);
+  add("NumberOfIntersectionsBetweenComponents", this->NumberOfCrossingsBetween);
+  FieldValues::Add(fields, "TargetEdgeLength", this->Length);
+}
+
+//------------------------------------------------------------------------------
 PatchOutput::PatchOutput(vtkPolyData* input, const TriangleSoup& soup,
-  const IsotropicRemesher::Result& patches)
-  : Input(input), Soup(soup), Patches(patches)
+  const IsotropicRemesher::Result& patches, const Monitor& monitor)
+  : Input(input), Soup(soup), Patches(patches), Watcher(monitor)
 {
 }
 
@@ -59,8 +125,10 @@ void PatchOutput::WriteCellData(vtkPolyData* output) const
   ids->SetNumberOfTuples(size);
   to->CopyAllOn();
   to->CopyAllocate(from, size);
+  Heartbeat heart(this->Watcher);
   for (vtkIdType i = 0; i < size; ++i)
   {
+    heart.Beat();
     const vtkIdType cell = this->Soup.CellIds[this->Patches.SourcesOfTriangles[i]];
     to->CopyData(from, cell, i);
     ids->SetValue(i, cell);
@@ -86,8 +154,10 @@ void PatchOutput::WritePointData(vtkPolyData* output) const
   to->InterpolateAllocate(from, static_cast<vtkIdType>(this->Patches.Points.size()));
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(3);
+  Heartbeat heart(this->Watcher);
   for (std::size_t i = 0; i < this->Patches.Points.size(); ++i)
   {
+    heart.Beat();
     const TriangleSoup::Triangle& source = this->Soup.Triangles[this->Patches.SourcesOfPoints[i]];
     SourceSurface::Place place = SourceSurface::GetClosest(this->Soup.Points[source[0]],
       this->Soup.Points[source[1]], this->Soup.Points[source[2]], this->Patches.Points[i]);
@@ -98,21 +168,5 @@ void PatchOutput::WritePointData(vtkPolyData* output) const
     to->InterpolatePoint(from, static_cast<vtkIdType>(i), ids, place.Weights.data());
   }
   to->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-}
-
-//------------------------------------------------------------------------------
-void PatchOutput::WriteSummary(const RepairCounts& counts, double length, vtkPolyData* output) const
-{
-  vtkFieldData* fields = output->GetFieldData();
-  const auto add = [fields](const char* name, vtkIdType number)
-  { FieldValues::AddAs<vtkIdTypeArray>(fields, name, { number }); };
-  add("NumberOfPatches", output->GetNumberOfCells());
-  add("NumberOfDroppedTriangles", counts.NumberOfDroppedTriangles);
-  add("NumberOfReversedTriangles", counts.NumberOfReversedTriangles);
-  add("NumberOfSplitPoints", counts.NumberOfSplitPoints);
-  add("NumberOfFilledHoles", counts.NumberOfFilledHoles);
-  add("NumberOfSelfIntersections", counts.NumberOfSelfIntersections);
-  add("NumberOfIntersectionsBetweenComponents", counts.NumberOfIntersectionsBetweenComponents);
-  FieldValues::Add(fields, "TargetEdgeLength", length);
 }
 } // namespace LightTransport

@@ -20,14 +20,21 @@ struct PatchTarget
     Array
   };
 
+  /// The default length is such a part of the diagonal of the bounding box.
+  static constexpr double DefaultPartsOfDiagonal = 50.0;
+
   LengthSource SizeField;
   double TargetEdgeLength;
+  /// Whether it is a default, which may be too long for small components.
+  bool IsDefaultLength;
   double MinimumEdgeLength;
   double ApproximationError;
   double Grading;
   bool CoarsePlanarRegions;
   vtkIdType TargetNumberOfPatches;
   int NumberOfIterations;
+  /// Whether patches may cross where the surface does not.
+  bool AllowsCrossings;
   /// The length at each input point; of no meaning unless the size field is an array.
   std::vector<double> LengthsOfPoints;
 };

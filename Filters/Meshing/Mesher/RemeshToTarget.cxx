@@ -3,6 +3,8 @@
 #include "Mesher/RemeshToTarget.h"
 
 #include "Mesher/EdgeLengths.h"
+#include "Mesher/LengthCorrection.h"
+#include "Mesher/PatchCheck.h"
 #include "Mesher/WantedLengths.h"
 
 #include <algorithm>
@@ -55,8 +57,8 @@ Outcome CheckTargetNumber(vtkIdType number)
 Outcome RemeshToLengths(IsotropicRemesher& remesher, const PatchTarget& target,
   const Monitor& monitor)
 {
-  remesher.Prepare(1.0, target.Grading);
-  return remesher.Remesh(target.NumberOfIterations, monitor);
+  remesher.Prepare(1.0, target.Grading, monitor);
+  return remesher.Remesh(target.NumberOfIterations, monitor.GetStage(0.1, 1.0));
 }
 
 //------------------------------------------------------------------------------
@@ -70,11 +72,11 @@ public:
   }
 
   /// Prepare the surface so that `number` triangles are to be expected.
-  void Prepare(double number)
+  void Prepare(double number, const Monitor& monitor)
   {
     const double tolerance = 0.003;
     const int steps = 8;
-    this->Expected = this->Remesher.Prepare(this->Factor, this->Grading);
+    this->Expected = this->Remesher.Prepare(this->Factor, this->Grading, monitor);
     // The number goes with the factor to this power, or a smaller one near edges to keep.
     double power = 2.0;
     for (int i = 0; i < steps && std::abs(this->Expected / number - 1.0) > tolerance; ++i)
@@ -82,7 +84,7 @@ public:
       const double change = std::pow(this->Expected / number, 1.0 / power);
       const double before = this->Expected;
       this->Factor *= change;
-      this->Expected = this->Remesher.Prepare(this->Factor, this->Grading);
+      this->Expected = this->Remesher.Prepare(this->Factor, this->Grading, monitor);
       const double measured = std::log(before / this->Expected) / std::log(change);
       power = std::min(std::max(measured, 0.3), 2.2);
     }
@@ -111,11 +113,11 @@ Outcome RemeshToNumber(IsotropicRemesher& remesher, const PatchTarget& target, d
   double result = 2.0 * number;
   for (int i = 0; i < passes && result > (1.0 + tolerance) * number; ++i)
   {
-    search.Prepare(number / excess);
     // One correction is the rule.
     const double begin = 1.0 - std::pow(0.5, i);
-    const double end = begin + 0.5 * (1.0 - begin);
-    if (Outcome remeshed = remesher.Remesh(target.NumberOfIterations, monitor.GetStage(begin, end));
+    const Monitor stage = monitor.GetStage(begin, begin + 0.5 * (1.0 - begin));
+    search.Prepare(number / excess, stage);
+    if (Outcome remeshed = remesher.Remesh(target.NumberOfIterations, stage.GetStage(0.1, 1.0));
         !remeshed)
     {
       return remeshed;
@@ -129,34 +131,192 @@ Outcome RemeshToNumber(IsotropicRemesher& remesher, const PatchTarget& target, d
   return remesher.AdjustNumberOfTriangles(static_cast<std::size_t>(number),
     monitor.GetStage(1.0, 1.0));
 }
+
+//------------------------------------------------------------------------------
+// Remeshes, looks at the patches, and does so again with what that calls for.
+class CheckedRemeshing
+{
+public:
+  CheckedRemeshing(IsotropicRemesher& remesher, const TriangleSoup& soup, const PatchTarget& target)
+    : Remesher(remesher), Soup(soup), Target(target), Surface(remesher.GetSurface()), Check(soup)
+  {
+  }
+
+  Outcome FindLengths()
+  {
+    if (Outcome known = WantedLengths::Find(this->Remesher, this->Surface, this->Soup, this->Target,
+          this->Lengths);
+        !known)
+    {
+      return known;
+    }
+    const bool fromArray = this->Target.SizeField == PatchTarget::LengthSource::Array;
+    this->Length = fromArray ? EdgeLengths::GetMeanLength(this->Surface, this->Lengths)
+                             : this->Target.TargetEdgeLength;
+    WantedLengths::FreePlanarRegions(this->Remesher, this->Surface, this->Target,
+      this->Soup.GetDiagonal(), this->Lengths);
+    return Outcome::Done();
+  }
+
+  Outcome Run(const Monitor& monitor, RemeshToTarget::Result& result)
+  {
+    // What is left after so many rounds is no matter of lengths.
+    const int rounds = 7;
+    bool again = true;
+    for (int round = 0; round < rounds && again; ++round)
+    {
+      // The first round is the rule.
+      const double begin = 1.0 - std::pow(0.2, round);
+      const Monitor stage = monitor.GetStage(begin, begin + 0.8 * (1.0 - begin));
+      if (Outcome done = this->Remesh(stage.GetStage(0.0, 0.8), result); !done)
+      {
+        return done;
+      }
+      result.Patches = this->Remesher.GetResult(stage.GetStage(0.8, 0.85));
+      this->Findings = this->Check.Compare(result.Patches, stage.GetStage(0.85, 0.95));
+      again = this->Correct(round, result.Patches, stage.GetStage(0.95, 1.0));
+    }
+    return this->Conclude(result);
+  }
+
+private:
+  Outcome Remesh(const Monitor& monitor, RemeshToTarget::Result& result)
+  {
+    this->Remesher.SetLengths(this->Lengths);
+    const double number = EdgeLengths::EstimateNumberOfTriangles(this->Surface, this->Lengths);
+    const bool toNumber = this->Target.TargetNumberOfPatches > 0 && std::isfinite(number);
+    if (Outcome checked = toNumber ? CheckTargetNumber(this->Target.TargetNumberOfPatches)
+                                   : CheckNumberOfTriangles(number, this->Target);
+        !checked)
+    {
+      return checked;
+    }
+    double factor = 1.0;
+    Outcome remeshed = toNumber
+      ? RemeshToNumber(this->Remesher, this->Target, number, monitor, factor)
+      : RemeshToLengths(this->Remesher, this->Target, monitor);
+    result.Length = factor * this->Length;
+    return remeshed;
+  }
+
+  // Whether there is something to do again.
+  bool Correct(int round, const IsotropicRemesher::Result& patches, const Monitor& monitor)
+  {
+    const bool isDefault = this->Target.IsDefaultLength &&
+      this->Target.TargetNumberOfPatches == 0 &&
+      this->Target.SizeField != PatchTarget::LengthSource::Array;
+    bool again = isDefault &&
+      LengthCorrection::ShortenInComponents(this->Surface, this->Check, this->Findings.Losses,
+        LargestLoss, this->Lengths);
+    if (!this->Findings.NewCrossings.empty())
+    {
+      this->Uncross(round, patches, monitor);
+      again = true;
+    }
+    return again;
+  }
+
+  // Shorter lengths, then patches in the triangles of the surface, there and at last all over.
+  void Uncross(int round, const IsotropicRemesher::Result& patches, const Monitor& monitor)
+  {
+    const std::vector<TriangleCrossings::Pair>& crossings = this->Findings.NewCrossings;
+    const int lastOfHalving = 2;
+    const int lastOfPlaces = 4;
+    const std::vector<bool> points = round <= lastOfPlaces
+      ? LengthCorrection::FindPoints(this->Surface, this->Check, patches, crossings, monitor)
+      : LengthCorrection::FindPointsOfComponents(this->Surface, this->Check, patches, crossings);
+    if (round <= lastOfHalving)
+    {
+      LengthCorrection::Halve(points, this->Lengths);
+    }
+    else
+    {
+      this->Remesher.KeepCreases(points);
+    }
+  }
+
+  Outcome Conclude(RemeshToTarget::Result& result)
+  {
+    const std::vector<std::size_t>& components = this->Check.GetComponents();
+    const auto getComponent = [&](std::size_t patch)
+    { return components[result.Patches.SourcesOfTriangles[patch]]; };
+    for (const TriangleCrossings::Pair& pair : this->Findings.Crossings)
+    {
+      const bool within = getComponent(pair.First) == getComponent(pair.Second);
+      (within ? result.CrossingsWithin : result.CrossingsBetween)
+        .emplace_back(pair.First, pair.Second);
+    }
+    if (const std::string losses = this->DescribeLosses(); !losses.empty())
+    {
+      result.Warnings.push_back(losses);
+    }
+    if (this->Findings.NewCrossings.empty())
+    {
+      return Outcome::Done();
+    }
+    const std::string crossings = this->DescribeCrossings(result.Patches);
+    if (!this->Target.AllowsCrossings)
+    {
+      return Outcome::Failed(crossings +
+        "give a smaller TargetEdgeLength or FeatureAngle, or set SelfIntersections to Keep.");
+    }
+    result.Warnings.push_back(crossings + "give a smaller TargetEdgeLength or FeatureAngle.");
+    return Outcome::Done();
+  }
+
+  std::string DescribeCrossings(const IsotropicRemesher::Result& patches) const
+  {
+    const TriangleCrossings::Pair& first = this->Findings.NewCrossings[0];
+    const CGAL::Bbox_3 box = TriangleCrossings::Intersect(
+      TriangleCrossings::GetBox(patches.Points, patches.Triangles[first.First]),
+      TriangleCrossings::GetBox(patches.Points, patches.Triangles[first.Second]));
+    std::ostringstream text;
+    text << this->Findings.NewCrossings.size()
+         << " pairs of patches cross where the surface does not, the first near ("
+         << 0.5 * (box.xmin() + box.xmax()) << ", " << 0.5 * (box.ymin() + box.ymax()) << ", "
+         << 0.5 * (box.zmin() + box.zmax()) << "), however short edges are there: ";
+    return text.str();
+  }
+
+  std::string DescribeLosses() const
+  {
+    const std::vector<double>& losses = this->Findings.Losses;
+    const auto many =
+      std::count_if(losses.begin(), losses.end(), [](double loss) { return loss > LargestLoss; });
+    if (many == 0)
+    {
+      return {};
+    }
+    const auto worst = std::max_element(losses.begin(), losses.end());
+    const TriangleSoup::Point center =
+      this->Check.GetCenter(static_cast<std::size_t>(worst - losses.begin()));
+    std::ostringstream text;
+    text << many << " of " << losses.size() << " components lost more than " << 100.0 * LargestLoss
+         << " % of their area or volume, the most " << std::round(100.0 * *worst)
+         << " %, by the one around (" << center[0] << ", " << center[1] << ", " << center[2]
+         << "): give a smaller TargetEdgeLength, more patches, or lengths by curvature.";
+    return text.str();
+  }
+
+  static constexpr double LargestLoss = 0.05;
+
+  IsotropicRemesher& Remesher;
+  const TriangleSoup& Soup;
+  const PatchTarget& Target;
+  const SourceSurface Surface;
+  PatchCheck Check;
+  PatchCheck::Findings Findings;
+  std::vector<double> Lengths;
+  double Length = 0.0;
+};
 } // namespace
 
 //------------------------------------------------------------------------------
 Outcome RemeshToTarget::Run(IsotropicRemesher& remesher, const TriangleSoup& soup,
-  const PatchTarget& target, const Monitor& monitor, double& length)
+  const PatchTarget& target, const Monitor& monitor, Result& result)
 {
-  const SourceSurface surface = remesher.GetSurface();
-  std::vector<double> lengths;
-  if (Outcome known = WantedLengths::Find(remesher, surface, soup, target, lengths); !known)
-  {
-    return known;
-  }
-  const double meanLength = EdgeLengths::GetMeanLength(surface, lengths);
-  WantedLengths::FreePlanarRegions(remesher, surface, target, soup.GetDiagonal(), lengths);
-  remesher.SetLengths(lengths);
-  const double number = EdgeLengths::EstimateNumberOfTriangles(surface, lengths);
-  const bool fromArray = target.SizeField == PatchTarget::LengthSource::Array;
-  const bool toNumber = target.TargetNumberOfPatches > 0 && std::isfinite(number);
-  if (Outcome checked = toNumber ? CheckTargetNumber(target.TargetNumberOfPatches)
-                                 : CheckNumberOfTriangles(number, target);
-      !checked)
-  {
-    return checked;
-  }
-  double factor = 1.0;
-  Outcome remeshed = toNumber ? RemeshToNumber(remesher, target, number, monitor, factor)
-                              : RemeshToLengths(remesher, target, monitor);
-  length = factor * (fromArray ? meanLength : target.TargetEdgeLength);
-  return remeshed;
+  CheckedRemeshing remeshing(remesher, soup, target);
+  const Outcome found = remeshing.FindLengths();
+  return found ? remeshing.Run(monitor, result) : found;
 }
 } // namespace LightTransport

@@ -266,14 +266,14 @@ bool RemeshingSteps::CanCollapse(Halfedge h) const
 //------------------------------------------------------------------------------
 RemeshingSteps::Halfedge RemeshingSteps::FindCollapse(Edge edge) const
 {
-  if (CGAL::Euler::does_satisfy_link_condition(edge, this->Mesh))
+  // The link condition looks at all edges around both ends, which may be many: it comes last.
+  for (const unsigned int side : { 0u, 1u })
   {
-    for (const unsigned int side : { 0u, 1u })
+    if (this->CanCollapse(this->Mesh.halfedge(edge, side)))
     {
-      if (this->CanCollapse(this->Mesh.halfedge(edge, side)))
-      {
-        return this->Mesh.halfedge(edge, side);
-      }
+      return CGAL::Euler::does_satisfy_link_condition(edge, this->Mesh)
+        ? this->Mesh.halfedge(edge, side)
+        : WorkingMesh::Surface::null_halfedge();
     }
   }
   return WorkingMesh::Surface::null_halfedge();

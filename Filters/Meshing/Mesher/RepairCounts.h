@@ -16,6 +16,16 @@ struct RepairCounts
   vtkIdType NumberOfFilledHoles = 0;
   vtkIdType NumberOfSelfIntersections = 0;
   vtkIdType NumberOfIntersectionsBetweenComponents = 0;
+
+  void Add(const RepairCounts& other)
+  {
+    this->NumberOfDroppedTriangles += other.NumberOfDroppedTriangles;
+    this->NumberOfReversedTriangles += other.NumberOfReversedTriangles;
+    this->NumberOfSplitPoints += other.NumberOfSplitPoints;
+    this->NumberOfFilledHoles += other.NumberOfFilledHoles;
+    this->NumberOfSelfIntersections += other.NumberOfSelfIntersections;
+    this->NumberOfIntersectionsBetweenComponents += other.NumberOfIntersectionsBetweenComponents;
+  }
 };
 } // namespace LightTransport
 

@@ -15,13 +15,6 @@ namespace
 using SurfaceRepair::Settings;
 
 //------------------------------------------------------------------------------
-double ChooseHoleSize(double wanted, const TriangleSoup& soup)
-{
-  const double partsOfDiagonal = 100.0;
-  return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
-}
-
-//------------------------------------------------------------------------------
 Outcome CheckDefects(const TriangleSoup& soup)
 {
   const std::string defects = soup.DescribeDefects();
@@ -43,7 +36,7 @@ Outcome RepairDefects(const Settings& settings, const Monitor& monitor, Triangle
     return Outcome::Aborted();
   }
 
-  const double size = ChooseHoleSize(settings.HoleSize, soup);
+  const double size = SurfaceRepair::ChooseHoleSize(settings.HoleSize, soup);
   ManifoldRepair surface;
   if (Outcome built = surface.Build(soup); !built)
   {
@@ -112,8 +105,8 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
       "Set SelfIntersections to Resolve (with Repair on) or Keep, or repair the surface first.");
   }
   ManifoldRepair::Intersections left;
-  if (Outcome resolved = surface.ResolveSelfIntersections(ChooseHoleSize(settings.HoleSize, soup),
-        monitor.GetStage(0.5, 1.0), left);
+  if (Outcome resolved = surface.ResolveSelfIntersections(
+        SurfaceRepair::ChooseHoleSize(settings.HoleSize, soup), monitor.GetStage(0.5, 1.0), left);
       !resolved)
   {
     return resolved;
@@ -127,6 +120,13 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
   return Outcome::Done();
 }
 } // namespace
+
+//------------------------------------------------------------------------------
+double SurfaceRepair::ChooseHoleSize(double wanted, const TriangleSoup& soup)
+{
+  const double partsOfDiagonal = 100.0;
+  return wanted > 0.0 ? wanted : soup.GetDiagonal() / partsOfDiagonal;
+}
 
 //------------------------------------------------------------------------------
 Outcome SurfaceRepair::Run(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,

@@ -32,6 +32,9 @@ struct Settings
   Intersections SelfIntersections;
 };
 
+/// The size that is used: `wanted`, or the default for a soup.
+double ChooseHoleSize(double wanted, const TriangleSoup& soup);
+
 /// Make a soup an oriented manifold that does not intersect itself, or fail with what is in the
 /// way.
 Outcome Run(const Settings& settings, const Monitor& monitor, TriangleSoup& soup,

@@ -3,7 +3,7 @@
 #include "Links/LinkOperators.h"
 
 #include "Support/Ranks.h"
-#include "Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDeviceLinkOperator.h"
 #include "vtkExchangeMatrix.h"

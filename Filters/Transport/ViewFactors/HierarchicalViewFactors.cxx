@@ -6,7 +6,7 @@
 #include "Links/Links.h"
 #include "Scene/PatchScene.h"
 #include "Support/Ranks.h"
-#include "Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 #include "ViewFactors/LinkRefinement.h"
 #include "ViewFactors/Openings.h"
 #include "ViewFactors/ViewFactorClosure.h"

@@ -5,7 +5,7 @@
 #include "Scene/PatchScene.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
-#include "Support/TransportMemory.h"
+#include "Shared/TransportMemory.h"
 #include "ViewFactors/PairVisibility.h"
 #include "ViewFactors/ThresholdSearch.h"
 

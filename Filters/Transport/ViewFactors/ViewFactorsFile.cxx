@@ -3,9 +3,8 @@
 #include "ViewFactors/ViewFactorsFile.h"
 
 #include "Links/Links.h"
-#include "Support/TransportMemory.h"
-
-#include <vtksys/SystemInformation.hxx>
+#include "Shared/FileReplacement.h"
+#include "Shared/TransportMemory.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -77,11 +76,10 @@ std::string MakeLine()
 }
 
 //------------------------------------------------------------------------------
-// What streams do not tell; `good` is whether all went well.
-std::error_code GetSystemError(bool good = false)
+// What streams do not tell.
+std::error_code GetSystemError()
 {
-  const int code = errno == 0 ? EIO : errno;
-  return { good ? 0 : code, std::generic_category() };
+  return { errno == 0 ? EIO : errno, std::generic_category() };
 }
 
 //------------------------------------------------------------------------------
@@ -176,13 +174,13 @@ bool IsUsable(const Tile& tile, vtkIdType numberOfPatches)
 class Writer
 {
 public:
-  explicit Writer(const std::filesystem::path& path)
-    : Stream(path, std::ios::binary | std::ios::trunc)
+  Outcome Write(const std::string& fileName, const Links& links)
   {
-  }
-
-  bool Write(const Links& links)
-  {
+    Outcome begun = this->File.Begin(fileName);
+    if (!begun)
+    {
+      return begun;
+    }
     this->PutHeader(links);
     this->PutValues(links.Matrix->GetAreas());
     for (Row row : Rows)
@@ -201,7 +199,7 @@ public:
     }
     for (const Tile& tile : links.Matrix->GetTiles())
     {
-      if (tile.Values && this->Stream)
+      if (tile.Values && !this->File.HasFailed())
       {
         const TileName name{ static_cast<Count>(tile.Row), static_cast<Count>(tile.Column) };
         this->Put(&name, sizeof(name));
@@ -210,15 +208,14 @@ public:
     }
     const Count sum = this->Sum.Get();
     this->Put(&sum, sizeof(sum));
-    this->Stream.close();
-    return !this->Stream.fail();
+    return this->File.Finish();
   }
 
 private:
   void Put(const void* data, std::size_t bytes)
   {
     this->Sum.Add(data, bytes);
-    this->Stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+    this->File.Write(data, bytes);
   }
 
   void PutValues(const std::vector<double>& values)
@@ -240,7 +237,7 @@ private:
     this->Put(&header, sizeof(header));
   }
 
-  std::ofstream Stream;
+  FileReplacement File;
   Checksum Sum;
 };
 
@@ -556,25 +553,19 @@ Outcome ViewFactorsFile::Write(const std::string& fileName, const Links& links)
       "\": the view factors are not complete, or negative, or not finite. Compute them again, in "
       "one process.");
   }
-  namespace fs = std::filesystem;
-  const fs::path path = fs::u8path(fileName);
-  const fs::path temporary = fs::u8path(
-    fileName + "." + std::to_string(vtksys::SystemInformation().GetProcessId()) + ".part");
-  errno = 0;
-  std::error_code problem = GetSystemError(Writer(temporary).Write(links));
-  if (!problem)
+  Outcome written = Outcome::Done();
+  try
   {
-    fs::rename(temporary, path, problem);
+    written = Writer().Write(fileName, links);
   }
-  if (!problem)
+  catch (const std::bad_alloc&)
   {
-    return Outcome::Done();
+    written = Outcome::Failed("there is not enough memory; save it on a machine with more");
   }
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
-  return Outcome::Failed("\"" + fileName + "\" cannot be written (" + problem.message() +
-    "). Its folder must exist, let you write, and have room for " +
-    TransportMemory::Format(links.Matrix->GetNumberOfBytes()) + ".");
+  return written
+    ? written
+    : Outcome::Failed("\"" + fileName + "\" cannot be written: " + written.GetMessage() +
+        " (it takes " + TransportMemory::Format(links.Matrix->GetNumberOfBytes()) + ").");
 }
 
 //------------------------------------------------------------------------------

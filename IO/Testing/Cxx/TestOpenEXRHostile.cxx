@@ -22,6 +22,7 @@
 #include <ImfTiledOutputFile.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -105,6 +106,7 @@ public:
   }
 
   const std::string& GetText() const { return this->Text; }
+  void SetMemoryLimit(int limit) { this->Reader->SetMemoryLimit(limit); }
 
 private:
   vtkNew<vtkOpenEXRReader> Reader;
@@ -307,6 +309,78 @@ bool TestPromises(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
+// 45,000 x 45,000 pixels of which all chunks are the same few bytes: long enough for what DWAB can
+// do, and more memory than is wanted, or than there is.
+bool TestBomb(const std::string& path)
+{
+  WriteSmall(path, vtkOpenEXRWriter::COMPRESSION_DWAB, false, false);
+  const std::size_t toWindow = std::strlen("dataWindow") + 1 + std::strlen("box2i") + 1 + 4;
+  const std::string file = Patch(Load(path), "dataWindow", toWindow, { 0, 0, 44999, 44999 });
+  std::string bomb = file.substr(0, FindHeaderEnd(file));
+  constexpr std::uint64_t chunks = (45000 + 255) / 256;
+  const std::uint64_t offset = bomb.size() + 8 * chunks;
+  for (std::uint64_t i = 0; i < chunks; ++i)
+  {
+    bomb.append(reinterpret_cast<const char*>(&offset), sizeof(offset));
+  }
+  const int chunk[2] = { 0, 40 };
+  bomb.append(reinterpret_cast<const char*>(chunk), sizeof(chunk));
+  Save(path, bomb + std::string(400000, '\0'));
+  Probe probe(path);
+  bool good = true;
+  probe.Read(true);
+  good &= Check(probe.GetText().find("more than MemoryLimit") != std::string::npos,
+    "a bomb: " + probe.GetText());
+  probe.SetMemoryLimit(std::numeric_limits<int>::max());
+  probe.Read(true);
+  good &= Check(!probe.GetText().empty() &&
+      probe.GetText().find("more than MemoryLimit") == std::string::npos,
+    "a bomb without a limit: " + probe.GetText());
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// Attributes of which the value is longer or shorter than they say: the library would read others
+// there, of any size.
+bool TestAttributeSizes(const std::string& path)
+{
+  WriteSmall(path, vtkOpenEXRWriter::COMPRESSION_ZIP, false, false);
+  const std::string whole = Load(path);
+  Probe probe(path);
+  bool good = true;
+  const auto expectError = [&](const std::string& content, const std::string& what)
+  {
+    Save(path, content);
+    const bool refused = probe.Read(true);
+    good &=
+      Check(refused && probe.GetText().find("another size than its type") != std::string::npos,
+        what + ": " + probe.GetText());
+  };
+  const auto makeAttribute =
+    [&](const std::string& type, const std::vector<std::uint32_t>& words, int size)
+  {
+    std::string attribute = "aaa" + std::string(1, '\0') + type + std::string(1, '\0');
+    attribute.append(reinterpret_cast<const char*>(&size), sizeof(size));
+    attribute.append(reinterpret_cast<const char*>(words.data()), words.size() * 4);
+    return std::string(whole).insert(8, attribute);
+  };
+  expectError(makeAttribute("float", { 1, 2 }, 8), "a float of 8 bytes");
+  expectError(makeAttribute("preview", { 20000, 20000, 0 }, 12), "a preview without pixels");
+  expectError(makeAttribute("stringvector", { 2000000000, 0 }, 8), "a huge string in a list");
+  expectError(makeAttribute("chlist", { 0, 0 }, 8), "channels with something behind");
+  // The pixels of these are no longer where the table of offsets says, which is found later.
+  for (const std::string& content : { makeAttribute("stringvector", { 4, 0x61616161 }, 8),
+         makeAttribute("preview", { 1, 1, 0 }, 12) })
+  {
+    Save(path, content);
+    probe.Read();
+    good &= Check(probe.GetText().find("another size than its type") == std::string::npos,
+      "attributes of the right size");
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
 bool TestTileSizes(const std::string& path)
 {
   WriteSmall(path, vtkOpenEXRWriter::COMPRESSION_ZIP, true, false);
@@ -368,6 +442,8 @@ int TestOpenEXRHostile(int argc, char* argv[])
   WriteParts(path);
   good &= TestKind(path, "two parts", true, false);
   good &= TestPromises(path);
+  good &= TestBomb(path);
+  good &= TestAttributeSizes(path);
   good &= TestTileSizes(path);
   good &= TestOffsets(path);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

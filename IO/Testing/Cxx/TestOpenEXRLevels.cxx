@@ -193,7 +193,8 @@ bool TestLevels(const std::string& path, int width, int height, bool weighted, b
     good &= Check(image->GetFieldData()->GetArray("Level")->GetComponent(0, 0) == level &&
         image->GetFieldData()->GetArray("NumberOfLevels")->GetComponent(0, 0) == levels,
       what + "field data");
-    good &= Check(CompareLevel(atlas, image, "Scalars", "RGB", mean) <= allowed, what + "colours");
+    good &=
+      Check(CompareLevel(atlas, image, "Scalars", "Scalars", mean) <= allowed, what + "colours");
     good &= Check(CompareLevel(atlas, image, "ChartId", "ChartId", GetFirst) == 0.0, what + "ids");
     good &=
       Check(CompareLevel(atlas, image, "PatchId", "PatchId", GetFirst) == 0.0, what + "uint ids");
@@ -224,7 +225,7 @@ bool TestIntegral(const std::string& path)
   for (int level = 0; level < 7; ++level)
   {
     const vtkSmartPointer<vtkImageData> image = ReadFile(path, level);
-    vtkDataArray* colors = image->GetPointData()->GetArray("RGB");
+    vtkDataArray* colors = image->GetPointData()->GetArray("Scalars");
     vtkDataArray* area = image->GetPointData()->GetArray("Area");
     double integral = 0.0;
     for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)

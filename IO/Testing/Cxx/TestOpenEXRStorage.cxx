@@ -152,8 +152,8 @@ double GetRelativeError(vtkDataArray* expected, vtkDataArray* found)
 //------------------------------------------------------------------------------
 bool CompareColors(vtkImageData* expected, vtkImageData* found, int compression, bool half)
 {
-  vtkDataArray* one = expected->GetPointData()->GetArray("RGBA");
-  vtkDataArray* other = found->GetPointData()->GetArray("RGBA");
+  vtkDataArray* one = expected->GetPointData()->GetArray("Colors");
+  vtkDataArray* other = found->GetPointData()->GetArray("Colors");
   switch (compression)
   {
     case vtkOpenEXRWriter::COMPRESSION_PXR24:
@@ -201,9 +201,8 @@ bool TestStorage(const std::string& path, vtkImageData* input, int type, Storage
   {
     for (const char* name : { "Colors", "Noise", "Ids" })
     {
-      const char* found = name == std::string("Colors") ? "RGBA" : name;
       good &= Check(
-        IsSame(input->GetPointData()->GetArray(name), expected[0]->GetPointData()->GetArray(found)),
+        IsSame(input->GetPointData()->GetArray(name), expected[0]->GetPointData()->GetArray(name)),
         std::string("no compression: ") + name);
     }
   }

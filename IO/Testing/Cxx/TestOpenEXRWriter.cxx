@@ -13,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkOpenEXRReader.h"
 #include "vtkOpenEXRWriter.h"
+#include "vtkStringArray.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkUnsignedIntArray.h"
 
@@ -27,6 +28,7 @@
 #if defined(__linux__)
 #include <csignal>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -125,8 +127,7 @@ bool TestNamedChannels(const std::string& path)
   for (int i = 0; i < points->GetNumberOfArrays(); ++i)
   {
     const std::string name = points->GetArrayName(i);
-    vtkDataArray* found =
-      result->GetPointData()->GetArray(name == "Scalars" ? "RGBA" : name.c_str());
+    vtkDataArray* found = result->GetPointData()->GetArray(name.c_str());
     good &= Check(Compare(points->GetArray(i), found) == 0.0, "array " + name + " is the same");
   }
   good &= Check(result->GetPointData()->GetArray("PatchId")->GetDataType() == VTK_UNSIGNED_INT,
@@ -198,7 +199,11 @@ bool ExpectOldFile(vtkOpenEXRWriter* writer, const std::string& path, const std:
   const std::string before = load();
   bool good = ExpectError(writer, message);
   good &= Check(!before.empty() && load() == before, "the older file is still there: " + message);
-  good &= Check(!std::filesystem::exists(path + ".part"), "nothing unfinished stays: " + message);
+  const std::filesystem::directory_iterator folder(std::filesystem::path(path).parent_path());
+  const bool clean = std::none_of(begin(folder), end(folder),
+    [](const auto& entry)
+    { return entry.path().filename().string().rfind(".unfinished-", 0) == 0; });
+  good &= Check(clean, "nothing unfinished stays: " + message);
   return good;
 }
 
@@ -230,8 +235,6 @@ bool TestFullDisk(const std::string& path)
         "room for " + std::to_string(room) + " bytes");
     }
   }
-  std::filesystem::create_symlink("/dev/full", path + ".part");
-  good &= ExpectOldFile(writer, path, "make room on the disk");
   writer->SetFileName("/dev/full");
   good &= ExpectError(writer, "the name is that of a folder or device");
   good &= Check(std::filesystem::is_character_file("/dev/full"), "a device stays one");
@@ -275,6 +278,87 @@ bool TestPermissions(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
+// Modes stay, the umask is heard, links of both kinds are treated with care, and what is no file is
+// left alone.
+bool TestTargets(const std::string& path)
+{
+  bool good = true;
+#if defined(__linux__)
+  namespace fs = std::filesystem;
+  const fs::path folder = path + ".targets";
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  const fs::path file = folder / "image.exr";
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(MakeImage(Extent, 1));
+  const auto write = [&](const fs::path& name)
+  {
+    writer->SetFileName(name.c_str());
+    return writer->Write() == 1;
+  };
+  const auto getMode = [](const fs::path& name)
+  { return static_cast<unsigned int>(fs::status(name).permissions()); };
+  const mode_t before = umask(0027);
+  good &= Check(write(file) && getMode(file) == 0640, "a new file has what the umask leaves");
+  umask(before);
+  fs::permissions(file, static_cast<fs::perms>(0604));
+  good &= Check(write(file) && getMode(file) == 0604, "an older file's mode stays");
+
+  // A chain of links, each relative to its own folder.
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("../image.exr", folder / "deep" / "near");
+  fs::create_symlink("deep/near", folder / "far");
+  good &= Check(write(folder / "far") && fs::is_symlink(folder / "far") &&
+      fs::is_symlink(folder / "deep" / "near") && getMode(file) == 0604,
+    "links stay");
+  fs::create_symlink("deep/new.exr", folder / "dangling");
+  good &= Check(write(folder / "dangling") && fs::is_symlink(folder / "dangling") &&
+      fs::is_regular_file(folder / "deep" / "new.exr"),
+    "a link to what is not there yet");
+  fs::create_symlink("loop", folder / "loop");
+  writer->SetFileName((folder / "loop").c_str());
+  good &= ExpectError(writer, "a symbolic link that leads nowhere");
+
+  fs::create_hard_link(file, folder / "twin.exr");
+  writer->SetFileName(file.c_str());
+  good &= ExpectOldFile(writer, file, "the file has 2 names (hard links)");
+  good &= Check(fs::hard_link_count(file) == 2, "hard links stay");
+  const fs::path pipe = folder / "pipe";
+  good &= Check(mkfifo(pipe.c_str(), 0600) == 0, "a pipe");
+  writer->SetFileName(pipe.c_str());
+  good &= ExpectError(writer, "the name is that of a folder or device");
+  good &= Check(fs::is_fifo(pipe), "a pipe stays one");
+  vtkNew<vtkOpenEXRReader> reader;
+  good &= Check(reader->CanReadFile(pipe.c_str()) == 0, "nobody waits for a pipe");
+  fs::remove_all(folder);
+#endif
+  return good;
+}
+
+//------------------------------------------------------------------------------
+// Arrays that do not fit the image.
+bool TestArrays(const std::string& path)
+{
+  const vtkSmartPointer<vtkImageData> image = MakeImage(Extent, 1);
+  vtkNew<vtkOpenEXRWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(path.c_str());
+  bool good = true;
+  for (const vtkIdType count : { image->GetNumberOfPoints() - 1, image->GetNumberOfPoints() + 1 })
+  {
+    image->GetPointData()->AddArray(MakeValues("Short", 1, count));
+    good &= ExpectError(writer, "point array \"Short\" has " + std::to_string(count) + " values");
+  }
+  image->GetPointData()->RemoveArray("Short");
+  vtkNew<vtkStringArray> names;
+  names->SetName("Names");
+  names->SetNumberOfTuples(image->GetNumberOfPoints());
+  image->GetPointData()->AddArray(names);
+  good &= ExpectError(writer, "point array \"Names\" holds no numbers");
+  return good;
+}
+
+//------------------------------------------------------------------------------
 bool TestReplacement(const std::string& path)
 {
   std::filesystem::remove(path);
@@ -289,7 +373,8 @@ bool TestReplacement(const std::string& path)
   writer->SetFileName(link.c_str());
   good &= Check(writer->Write() == 1, "a file through a link");
   good &= Check(std::filesystem::is_symlink(link), "the link stays");
-  good &= Check(ReadFile(path)->GetPointData()->GetArray("RGB"), "what it leads to is replaced");
+  good &= Check(ReadFile(path)->GetPointData()->GetScalars()->GetNumberOfComponents() == 3,
+    "what it leads to is replaced");
   std::filesystem::remove(link);
   writer->SetFileName(std::filesystem::path(path).parent_path().c_str());
   good &= ExpectError(writer, "the name is that of a folder or device");
@@ -301,7 +386,8 @@ bool TestReplacement(const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetInputData(MakeImage(Extent, 4));
   good &= Check(writer->Write() == 0, "an aborted writer says so");
-  good &= Check(ReadFile(path)->GetPointData()->GetArray("RGB"), "and the older file stays");
+  good &= Check(ReadFile(path)->GetPointData()->GetScalars()->GetNumberOfComponents() == 3,
+    "and the older file stays");
   return good;
 }
 
@@ -360,6 +446,8 @@ int TestOpenEXRWriter(int argc, char* argv[])
   good &= TestNamedChannels(path);
   good &= TestIntegers(path);
   good &= TestReplacement(path);
+  good &= TestTargets(path);
+  good &= TestArrays(path);
   good &= TestFullDisk(path);
   good &= TestPermissions(path);
   good &= TestErrors(GetPath(argc, argv, "TestOpenEXRWriterErrors.exr"));

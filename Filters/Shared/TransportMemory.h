@@ -9,7 +9,9 @@
 
 #include <vtksys/SystemInformation.hxx>
 
+#include <cstddef>
 #include <iomanip>
+#include <new>
 #include <sstream>
 #include <string>
 
@@ -23,6 +25,21 @@ inline double GetAvailableBytes()
   vtksys::SystemInformation system;
   system.RunMemoryCheck();
   return 1024.0 * 1024.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
+}
+
+/// Whether so many bytes are there, in the system and within the limits of this process, which
+/// show only when they are asked for. Nothing is kept.
+inline bool CanAllocate(double bytes)
+{
+  if (!(bytes <= GetAvailableBytes()))
+  {
+    return false;
+  }
+  // Volatile, so that no compiler leaves it out.
+  char* volatile probe = new (std::nothrow) char[static_cast<std::size_t>(bytes) + 1];
+  const bool granted = probe != nullptr;
+  delete[] probe;
+  return granted;
 }
 
 /// A number of bytes for messages.
