@@ -100,14 +100,13 @@ vtkSmartPointer<vtkLight> MakeLight(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeMesher(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeMesher(Choices& choices, double size)
 {
   auto mesher = vtkSmartPointer<vtkPatchMesher>::New();
-  // Absolute lengths: what fits the size of the surface is the default.
-  mesher->SetTargetEdgeLength(Choose(choices, 0.0, choices.Between(0.2, 2.0)));
+  mesher->SetTargetEdgeLength(Choose(choices, 0.0, size * choices.Between(0.02, 0.2)));
   mesher->SetSizeField(choices.Among({ 0, 0, 1, 2 }));
-  mesher->SetApproximationError(Choose(choices, 0.0, 1e-2));
-  mesher->SetMinimumEdgeLength(Choose(choices, 0.0, 0.1));
+  mesher->SetApproximationError(Choose(choices, 0.0, size * 1e-2));
+  mesher->SetMinimumEdgeLength(Choose(choices, 0.0, size * 0.02));
   mesher->SetGrading(Choose(choices, 0.3, 1.0));
   mesher->SetCoarsePlanarRegions(choices.Chance(3));
   mesher->SetTargetNumberOfPatches(choices.Among({ 0, 0, 0, 1, 100, 1000, VTK_INT_MAX, -1 }));
@@ -115,7 +114,7 @@ vtkSmartPointer<vtkAlgorithm> MakeMesher(Choices& choices)
   mesher->SetNumberOfIterations(choices.Index(4));
   mesher->SetRepair(!choices.Chance(6));
   mesher->SetFillHoles(!choices.Chance(3));
-  mesher->SetHoleSize(Choose(choices, 0.0, 1.0));
+  mesher->SetHoleSize(Choose(choices, 0.0, size * 0.2));
   mesher->SetSelfIntersections(choices.Index(3));
   mesher->SetFlipNormals(choices.Chance(4));
   ChooseArrays(choices, mesher, 2);
@@ -123,7 +122,7 @@ vtkSmartPointer<vtkAlgorithm> MakeMesher(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeAtlas(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeAtlas(Choices& choices, double)
 {
   auto atlas = vtkSmartPointer<vtkSurfaceAtlas>::New();
   atlas->SetResolution(choices.Among({ 16, 32, 64, 128, 1, 2, 17, 0, -1, VTK_INT_MAX }));
@@ -133,7 +132,7 @@ vtkSmartPointer<vtkAlgorithm> MakeAtlas(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeSurfaceToAtlas(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeSurfaceToAtlas(Choices& choices, double)
 {
   auto transfer = vtkSmartPointer<vtkSurfaceToAtlas>::New();
   transfer->SetResolution(choices.Among({ 0, 0, 8, 64, 3, -1, VTK_INT_MAX }));
@@ -141,7 +140,7 @@ vtkSmartPointer<vtkAlgorithm> MakeSurfaceToAtlas(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeAtlasToSurface(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeAtlasToSurface(Choices& choices, double)
 {
   auto transfer = vtkSmartPointer<vtkAtlasToSurface>::New();
   transfer->SetInputDataObject(1, MakeImage(choices));
@@ -149,7 +148,7 @@ vtkSmartPointer<vtkAlgorithm> MakeAtlasToSurface(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeViewFactors(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeViewFactors(Choices& choices, double)
 {
   auto factors = vtkSmartPointer<vtkViewFactors>::New();
   factors->SetTolerance(choices.Among({ 1e-1, 1e-2, 1e-3, 1e9 }));
@@ -164,7 +163,7 @@ vtkSmartPointer<vtkAlgorithm> MakeViewFactors(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeDirectIrradiance(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeDirectIrradiance(Choices& choices, double)
 {
   auto direct = vtkSmartPointer<vtkDirectIrradiance>::New();
   for (int k = choices.Index(3); k >= 0; --k)
@@ -187,7 +186,7 @@ vtkSmartPointer<vtkAlgorithm> MakeDirectIrradiance(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeRadiosity(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeRadiosity(Choices& choices, double)
 {
   auto radiosity = vtkSmartPointer<vtkRadiosity>::New();
   radiosity->SetSolver(choices.Index(6));
@@ -216,7 +215,7 @@ vtkSmartPointer<vtkAlgorithm> MakeRadiosity(Choices& choices)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAlgorithm> MakeScattering(Choices& choices)
+vtkSmartPointer<vtkAlgorithm> MakeScattering(Choices& choices, double)
 {
   auto scattering = vtkSmartPointer<vtkSubsurfaceScattering>::New();
   const auto color = [&](double standard, double usual) {
@@ -253,6 +252,15 @@ std::vector<vtkDataSet*> ListPieces(vtkDataObject* object)
     pieces.push_back(vtkDataSet::SafeDownCast(object));
   }
   return pieces;
+}
+
+//------------------------------------------------------------------------------
+// That of the first surface, or 1.
+double GetSize(vtkDataObject* object)
+{
+  const std::vector<vtkDataSet*> pieces = ListPieces(object);
+  const double size = pieces.empty() ? 0.0 : pieces[0]->GetLength();
+  return size > 0.0 && std::isfinite(size) ? size : 1.0;
 }
 
 //------------------------------------------------------------------------------
@@ -333,7 +341,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
   struct Kind
   {
-    vtkSmartPointer<vtkAlgorithm> (*Make)(Choices& choices);
+    vtkSmartPointer<vtkAlgorithm> (*Make)(Choices& choices, double size);
     bool TakesComposite;
   };
   constexpr Kind kinds[] = { { MakeMesher, true }, { MakeAtlas, false },
@@ -342,8 +350,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   BeQuiet();
   Choices choices(data, size);
   const Kind& kind = kinds[choices.Index(static_cast<int>(std::size(kinds)))];
-  const vtkSmartPointer<vtkAlgorithm> filter = kind.Make(choices);
   vtkSmartPointer<vtkDataObject> input = MakeAnyInput(choices, kind.TakesComposite);
+  const vtkSmartPointer<vtkAlgorithm> filter = kind.Make(choices, GetSize(input));
   Messages messages;
   vtkNew<vtkCallbackCommand> counter;
   counter->SetClientData(&messages);
@@ -365,7 +373,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     input->Print(std::cerr);
   }
   filter->Update();
-  CheckResults(filter->GetOutputDataObject(0), ListArrays(input),
+  // Arrays that are carried over are as they were, and the same goes for those of a second input.
+  std::set<std::string> given = ListArrays(input);
+  if (filter->GetNumberOfInputPorts() > 1 && filter->GetNumberOfInputConnections(1) > 0)
+  {
+    given.merge(ListArrays(filter->GetInputDataObject(1, 0)));
+  }
+  CheckResults(filter->GetOutputDataObject(0), given,
     messages.Errors == 0 && messages.Warnings == 0);
   return 0;
 }
