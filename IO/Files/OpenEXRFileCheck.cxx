@@ -348,8 +348,9 @@ bool ReadHeader(Input& input, Part& part)
     }
     if (!good)
     {
-      throw Error{ Fault::Damaged,
-        "attribute \"" + name + "\" has another size than its type \"" + type + "\"" };
+      std::string problem = "attribute \"" + name + "\" has another size than its type \"";
+      problem += type + '"';
+      throw Error{ Fault::Damaged, problem };
     }
     input.Skip(end - input.GetPosition());
   }
