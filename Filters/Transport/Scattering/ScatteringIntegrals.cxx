@@ -5,6 +5,7 @@
 #include "Shared/GaussLegendre.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -25,6 +26,10 @@ constexpr int PlaceBits = MantissaBits - PieceBits;
 /// Cuts after which the rules have the last word: sides are 2^-8 of what they were. Patches wider
 /// than some 300 mean free paths then get a worse error estimate, but never endless work.
 constexpr int MaximumDepth = 16;
+
+/// Copies of a part along an edge, after which the rules have the last word, too: halvings of an
+/// edge cost so little that there may be more of them.
+constexpr double MostCopies = 1 << 14;
 
 /// Of the rough value of a pair of triangles that has to be cut.
 constexpr double RoughTolerance = 0.1;
@@ -85,6 +90,28 @@ void PlaceSix(const Triangle& triangle, Vector* points)
     // Corner with weight 1 - 2 place, the two others with place.
     points[k] = 3.0 * place * triangle.Centroid + (1.0 - 3.0 * place) * triangle.Corners[k % 3];
   }
+}
+
+//------------------------------------------------------------------------------
+/// The last part is the one in the middle.
+std::array<Triangle, 4> CutInFour(const Triangle& whole)
+{
+  const Vector& p = whole.Corners[0];
+  const Vector& q = whole.Corners[1];
+  const Vector& r = whole.Corners[2];
+  const Vector pq = 0.5 * (p + q);
+  const Vector qr = 0.5 * (q + r);
+  const Vector rp = 0.5 * (r + p);
+  return { Triangle(p, pq, rp), Triangle(pq, q, qr), Triangle(rp, qr, r), Triangle(qr, rp, pq) };
+}
+
+//------------------------------------------------------------------------------
+/// Whether two corners are the same.
+bool ShareEdge(const Triangle& a, const Triangle& b)
+{
+  const auto isOfB = [&b](const Vector& corner)
+  { return std::find(b.Corners, b.Corners + 3, corner) != b.Corners + 3; };
+  return std::count_if(a.Corners, a.Corners + 3, isOfB) == 2;
 }
 } // namespace
 
@@ -213,13 +240,13 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
   {
     // Where a profile ends in underflow its parabolas may dip below 0.
     const Bands integral = (areas * value).max(0.0);
-    const Bands allowed =
-      goal.Absolute + goal.Relative * integral + (goal.Shared * integral).sqrt();
+    const Bands allowed = goal.Absolute / goal.Copies + goal.Relative * integral +
+      (goal.Shared * integral / goal.Copies).sqrt();
     const bool good = last || (areas * error <= allowed).all();
     if (good)
     {
-      sum.Value += integral;
-      const double worst = areas * error.maxCoeff();
+      sum.Value += goal.Copies * integral;
+      const double worst = goal.Copies * areas * error.maxCoeff();
       sum.SquaredError += worst * worst;
     }
     return good;
@@ -233,7 +260,7 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
   {
     const double nearest = std::max(0.0, std::sqrt(distance2) - a.Radius - b.Radius);
     peak = this->Evaluate(nearest * nearest).cast<double>();
-    if ((wide && areas * peak > goal.Absolute).any())
+    if ((wide && goal.Copies * areas * peak > goal.Absolute).any())
     {
       return false;
     }
@@ -270,19 +297,45 @@ void ScatteringIntegrals::AddParts(const Triangle& a, const Triangle& b, const G
   {
     return;
   }
+  if (ShareEdge(a, b))
+  {
+    this->AddPartsAlongEdge(a, b, goal, depth, sum);
+    return;
+  }
   const bool cutFirst = a.Radius >= b.Radius;
-  const Triangle& whole = cutFirst ? a : b;
   const Triangle& other = cutFirst ? b : a;
-  const Vector& p = whole.Corners[0];
-  const Vector& q = whole.Corners[1];
-  const Vector& r = whole.Corners[2];
-  const Vector pq = 0.5 * (p + q);
-  const Vector qr = 0.5 * (q + r);
-  const Vector rp = 0.5 * (r + p);
-  this->AddParts(Triangle(p, pq, rp), other, goal, depth - 1, sum);
-  this->AddParts(Triangle(pq, q, qr), other, goal, depth - 1, sum);
-  this->AddParts(Triangle(rp, qr, r), other, goal, depth - 1, sum);
-  this->AddParts(Triangle(qr, rp, pq), other, goal, depth - 1, sum);
+  for (const Triangle& part : CutInFour(cutFirst ? a : b))
+  {
+    this->AddParts(part, other, goal, depth - 1, sum);
+  }
+}
+
+//------------------------------------------------------------------------------
+// With both triangles cut in four, the parts at one half of the edge are those at the other half,
+// moved along the edge, and so is their integral: it is computed once. The work for a pair then
+// does not grow with its size in mean free paths, but with the logarithm of it.
+void ScatteringIntegrals::AddPartsAlongEdge(const Triangle& a, const Triangle& b, const Goal& goal,
+  int depth, Sum& sum) const
+{
+  Goal goalOfTwo = goal;
+  goalOfTwo.Copies *= 2.0;
+  bool isSecond = false;
+  const std::array<Triangle, 4> partsOfB = CutInFour(b);
+  for (const Triangle& partOfA : CutInFour(a))
+  {
+    for (const Triangle& partOfB : partsOfB)
+    {
+      if (!ShareEdge(partOfA, partOfB))
+      {
+        this->AddParts(partOfA, partOfB, goal, depth, sum);
+      }
+      else if (!isSecond)
+      {
+        this->AddParts(partOfA, partOfB, goalOfTwo, goalOfTwo.Copies < MostCopies ? depth : 0, sum);
+        isSecond = true;
+      }
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -85,9 +85,10 @@ private:
   };
 
   /// What the error of a part of an integral may be: Absolute + Relative v + sqrt(Shared v), v its
-  /// value.
+  /// value, or that of all its copies, whose errors are alike.
   struct Goal
   {
+    double Copies = 1.0;
     double Absolute = 0.0;
     double Relative = 0.0;
     Bands Shared = Bands::Zero();
@@ -104,6 +105,8 @@ private:
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
+  void AddPartsAlongEdge(const Triangle& a, const Triangle& b, const Goal& goal, int depth,
+    Sum& sum) const;
   void Tabulate(double maximumDistance);
 
   const ScatteringProfiles& Profiles;
