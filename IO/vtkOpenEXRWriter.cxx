@@ -6,6 +6,7 @@
 #include "Files/WrittenChannels.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
@@ -214,6 +215,10 @@ Outcome vtkOpenEXRWriter::CheckImage(vtkImageData* image) const
   if (image->GetNumberOfPoints() == 0)
   {
     return Outcome::Failed("the image is empty");
+  }
+  if (const std::string problem = InputArrays::DescribeLengths(image); !problem.empty())
+  {
+    return Outcome::Failed(problem);
   }
   if (extent[4] != extent[5])
   {

@@ -10,6 +10,7 @@
 #include "Mesher/SurfaceRepair.h"
 #include "Mesher/WantedLengths.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
@@ -251,7 +252,7 @@ Outcome vtkPatchMesher::ReadRegions(vtkInformationVector** inputs, std::vector<i
   {
     return Outcome::Failed("There is no cell array \"" + name +
       "\" to take the regions from: name a cell array of the input, or \"" + DefaultRegionArray +
-      "\", which may be missing.");
+      "\", which may be missing." + InputArrays::Suggest(input->GetCellData(), name));
   }
   if (auto numbers = vtkDataArray::SafeDownCast(array))
   {
@@ -281,7 +282,8 @@ Outcome vtkPatchMesher::ReadLengths(vtkInformationVector** inputs, std::vector<d
   if (!array || association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
     return Outcome::Failed("There is no numeric point array \"" + name +
-      "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature.");
+      "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature." +
+      InputArrays::Suggest(vtkPolyData::GetData(inputs[0])->GetPointData(), name));
   }
   return WantedLengths::Read(array, lengths);
 }

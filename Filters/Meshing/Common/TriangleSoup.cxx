@@ -3,6 +3,7 @@
 #include "Common/TriangleSoup.h"
 
 #include "Common/SoupEdges.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"
@@ -177,6 +178,10 @@ Outcome CheckInput(vtkPolyData* input)
     return Outcome::Failed(input->GetNumberOfCells() == 0
         ? "The input has no cells: give a surface made of polygons."
         : "The input has no polygons, only vertices or lines: give a surface made of polygons.");
+  }
+  if (Outcome checked = InputArrays::CheckLengths(input); !checked)
+  {
+    return checked;
   }
   double point[3];
   for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
