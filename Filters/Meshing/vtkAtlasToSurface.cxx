@@ -6,6 +6,7 @@
 #include "Atlas/TexelPieces.h"
 #include "Common/MeshingRun.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -192,6 +193,8 @@ int vtkAtlasToSurface::RequestData(vtkInformation*, vtkInformationVector** input
     "The texels could not be brought to the surface", "make the atlas again with vtkSurfaceAtlas" };
   int resolution = 0;
   MeshingRun::Steps steps(advice);
+  steps.Take([&]() { return InputArrays::CheckLengths(surface); });
+  steps.Take([&]() { return InputArrays::CheckLengths(image); });
   steps.Take([&]() { return FindResolution(image, resolution); });
   steps.Take([&]() { return TexelPieces::Check(surface, resolution, monitor); });
   steps.Take([&]() { return monitor.Check(0.1); });

@@ -10,6 +10,7 @@
 #include "Mesher/SurfaceRepair.h"
 #include "Mesher/WantedLengths.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
@@ -102,24 +103,6 @@ Outcome CheckLength(const char* name, double length, const char* remedy)
   {
     return Outcome::Failed(std::string(name) + " is " + std::to_string(length) +
       ": give a positive length, or 0 for " + remedy + ".");
-  }
-  return Outcome::Done();
-}
-
-//------------------------------------------------------------------------------
-// Arrays that are too short would be read beyond their end.
-Outcome CheckTuples(vtkDataSetAttributes* arrays, vtkIdType number, const char* what)
-{
-  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* array = arrays->GetAbstractArray(i);
-    if (array->GetNumberOfTuples() != number)
-    {
-      const std::string name = array->GetName() ? array->GetName() : "";
-      return Outcome::Failed("The " + std::string(what) + " array \"" + name + "\" has " +
-        std::to_string(array->GetNumberOfTuples()) + " tuples for " + std::to_string(number) + " " +
-        what + "s: give one tuple each, or remove the array.");
-    }
   }
   return Outcome::Done();
 }
@@ -400,15 +383,9 @@ Outcome vtkPatchMesher::ReadBlock(Block& block, const Monitor& monitor)
   vtkPolyData* input = block.Input;
   // The input's field data, also of what has no patches.
   block.Output->GetFieldData()->PassData(input->GetFieldData());
-  const Outcome checked = CheckTuples(input->GetCellData(), input->GetNumberOfCells(), "cell");
-  if (!checked)
+  if (Outcome checked = InputArrays::CheckLengths(input); !checked)
   {
     return checked;
-  }
-  if (Outcome points = CheckTuples(input->GetPointData(), input->GetNumberOfPoints(), "point");
-      !points)
-  {
-    return points;
   }
   if (Outcome lengths = this->ReadLengths(input, block.LengthOfPoint); !lengths)
   {
@@ -444,7 +421,7 @@ Outcome vtkPatchMesher::ReadRegions(vtkPolyData* input, std::vector<int>& region
   {
     return Outcome::Failed("There is no cell array \"" + name +
       "\" to take the regions from: name a cell array of the input, or \"" + DefaultRegionArray +
-      "\", which may be missing.");
+      "\", which may be missing." + InputArrays::Suggest(input->GetCellData(), name));
   }
   if (auto numbers = vtkDataArray::SafeDownCast(array))
   {
@@ -474,7 +451,8 @@ Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& len
   if (!array || association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
     return Outcome::Failed("There is no numeric point array \"" + name +
-      "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature.");
+      "\" to take edge lengths from: name one, or set SizeField to Uniform or Curvature." +
+      InputArrays::Suggest(input->GetPointData(), name));
   }
   return WantedLengths::Read(array, lengths);
 }

@@ -7,6 +7,7 @@
 #include "Common/MeshingRun.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -148,6 +149,7 @@ int vtkSurfaceToAtlas::RequestData(vtkInformation*, vtkInformationVector** input
     "The texel maps could not be made", "make the atlas again with vtkSurfaceAtlas" };
   MeshingRun::Steps steps(advice);
   steps.Take([&]() { return CheckResolution(resolution); });
+  steps.Take([&]() { return InputArrays::CheckLengths(surface); });
   steps.Take([&]() { return TexelPieces::Check(surface, resolution, monitor); });
   steps.Take([&]() { return monitor.Check(0.1); });
   steps.Take(

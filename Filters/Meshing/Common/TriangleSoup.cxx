@@ -5,6 +5,7 @@
 #include "Common/CoordinateRounding.h"
 #include "Common/PolygonTriangles.h"
 #include "Common/SoupEdges.h"
+#include "Shared/InputArrays.h"
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"
@@ -240,6 +241,10 @@ Outcome CheckInput(vtkPolyData* input)
     return Outcome::Failed(input->GetNumberOfCells() == 0
         ? "The input has no cells: give a surface made of polygons."
         : "The input has no polygons, only vertices or lines: give a surface made of polygons.");
+  }
+  if (Outcome checked = InputArrays::CheckLengths(input); !checked)
+  {
+    return checked;
   }
   const vtkIdType points = input->GetNumberOfPoints();
   for (vtkIdType i = 0; i < points; ++i)

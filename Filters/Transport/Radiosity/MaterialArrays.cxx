@@ -70,6 +70,11 @@ Outcome MaterialArrays::Read(const CellArrays& source, const PatchScene& scene,
   good = good ? this->CheckBands() : good;
   good = good ? this->CheckCombination() : good;
   good = good ? this->CheckTotals() : good;
+  if (good && !this->NearMisses.empty())
+  {
+    this->Warnings.push_back("Some arrays are not read, since others are asked for." +
+      this->NearMisses + " Then rename it.");
+  }
   good = good ? this->CheckRanges(scene) : good;
   return good ? this->CheckGivenFluxes(scene) : good;
 }
@@ -91,7 +96,9 @@ Outcome MaterialArrays::Gather(const CellArrays& source, const std::vector<std::
     {
       return read;
     }
+    this->NearMisses += ignored || array.IsThere() ? "" : source.Suggest(array.Name);
   }
+  this->HasFluxAlone = !this->IsThermal() && source.IsInput(this->Arrays[PRESCRIBED_NET_FLUX].Name);
   return Outcome::Done();
 }
 
@@ -190,14 +197,20 @@ Outcome MaterialArrays::CheckCombination() const
   {
     return Outcome::Failed("There is no reflectance: add a cell array " + this->Quote(REFLECTANCE) +
       " with values from 0 to 1 (or " + this->Quote(TEMPERATURE) + " and " +
-      this->Quote(EMISSIVITY) + ").");
+      this->Quote(EMISSIVITY) + ")." + this->NearMisses);
   }
   if (!this->IsThere(EMISSION) && !this->IsThere(DIRECT_IRRADIANCE) &&
     !this->Settings.HasBackground())
   {
+    if (this->HasFluxAlone)
+    {
+      return Outcome::Failed("There is a net flux (" + this->Quote(PRESCRIBED_NET_FLUX) +
+        ") but no temperature: add a cell array " + this->Quote(TEMPERATURE) +
+        ", in kelvin. Where the net flux is given its values do not count." + this->NearMisses);
+    }
     return Outcome::Failed("Nothing emits: add a cell array " + this->Quote(EMISSION) + ", or " +
       this->Quote(TEMPERATURE) + " and " + this->Quote(EMISSIVITY) + ", or " +
-      this->Quote(DIRECT_IRRADIANCE) + " from vtkDirectIrradiance.");
+      this->Quote(DIRECT_IRRADIANCE) + " from vtkDirectIrradiance." + this->NearMisses);
   }
   return Outcome::Done();
 }
@@ -210,7 +223,7 @@ Outcome MaterialArrays::CheckThermal() const
   {
     return Outcome::Failed("There is a temperature (" + temperature +
       ") but no emissivity: add a cell array " + this->Quote(EMISSIVITY) +
-      " with values from 0 to 1.");
+      " with values from 0 to 1." + this->NearMisses);
   }
   if (this->IsThere(EMISSION))
   {
@@ -226,7 +239,7 @@ Outcome MaterialArrays::CheckThermal() const
   {
     return Outcome::Failed("There is a net flux (" + this->Quote(PRESCRIBED_NET_FLUX) +
       "), but nothing says where it holds: add a cell array " + this->Quote(BOUNDARY_CONDITION) +
-      " with 0 (the temperature is given) or 1 (the net flux is given).");
+      " with 0 (the temperature is given) or 1 (the net flux is given)." + this->NearMisses);
   }
   return Outcome::Done();
 }

@@ -106,6 +106,8 @@ private:
   const MaterialSettings& Settings;
   BandArray Arrays[NUMBER_OF_ARRAYS];
   int Bands = 1;
+  bool HasFluxAlone = false; ///< a given net flux, but no temperatures
+  std::string NearMisses;    ///< arrays that may have been meant for those that are missing
   std::vector<std::string> Warnings;
 };
 } // namespace LightTransport

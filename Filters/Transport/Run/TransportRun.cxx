@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/TransportRun.h"
 
+#include "Scene/Leaves.h"
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
+#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace LightTransport
 {
@@ -55,6 +62,36 @@ Outcome TransportRun::Finish()
   if (this->Filter->GetProgress() < 1.0)
   {
     this->Filter->UpdateProgress(1.0);
+  }
+  return this->CheckResults();
+}
+
+//------------------------------------------------------------------------------
+// Products of numbers that are all right may be too large, and areas too small, for any number.
+Outcome TransportRun::CheckResults() const
+{
+  const std::vector<vtkPolyData*> inputs = Leaves::Get(this->Input);
+  const std::vector<vtkPolyData*> outputs = Leaves::Get(this->Output);
+  for (std::size_t block = 0; block < outputs.size(); ++block)
+  {
+    vtkCellData* results = outputs[block]->GetCellData();
+    for (int index = 0; index < results->GetNumberOfArrays(); ++index)
+    {
+      auto* array = vtkDoubleArray::SafeDownCast(results->GetAbstractArray(index));
+      if (!array || inputs[block]->GetCellData()->GetAbstractArray(array->GetName()) == array)
+      {
+        continue;
+      }
+      const double* begin = array->GetPointer(0);
+      if (!std::all_of(begin, begin + array->GetNumberOfValues(),
+            [](double value) { return std::isfinite(value); }))
+      {
+        return Outcome::Failed(std::string("The result \"") + array->GetName() +
+          "\" is not finite: coordinates, materials or lights are too large or too small to "
+          "compute "
+          "with. Use other units, such as MillimetersPerUnit, and look for values near 1e300.");
+      }
+    }
   }
   return Outcome::Done();
 }

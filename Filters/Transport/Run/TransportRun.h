@@ -85,6 +85,7 @@ protected:
 private:
   Outcome WarnOfScene();
   Outcome Finish();
+  Outcome CheckResults() const;
 };
 } // namespace LightTransport
 

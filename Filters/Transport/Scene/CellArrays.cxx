@@ -5,6 +5,7 @@
 #include "Scene/Leaves.h"
 #include "Scene/PatchScene.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/InputArrays.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -70,7 +71,8 @@ Outcome CellArrays::Read(const std::string& name, bool required, std::vector<dou
     return required || componentsOfBacks > 0
       ? Outcome::Failed("The input has no cell array \"" + name + "\"" +
           (componentsOfBacks > 0 ? ", but one for the backs: add it with the values of the fronts."
-                                 : "."))
+                                 : ".") +
+          this->Suggest(name))
       : Outcome::Done();
   }
   if (componentsOfBacks > 0 && componentsOfBacks != components)
@@ -81,6 +83,26 @@ Outcome CellArrays::Read(const std::string& name, bool required, std::vector<dou
   }
   values = this->Spread(fronts, componentsOfBacks > 0 ? backs : fronts, components);
   return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+std::string CellArrays::Suggest(const std::string& name) const
+{
+  std::string suggested;
+  for (vtkPolyData* data : Leaves::Get(this->Input))
+  {
+    suggested = suggested.empty() ? InputArrays::Suggest(data->GetCellData(), name) : suggested;
+  }
+  return suggested;
+}
+
+//------------------------------------------------------------------------------
+bool CellArrays::IsInput(const std::string& name) const
+{
+  const std::vector<vtkPolyData*> leaves = Leaves::Get(this->Input);
+  const bool isMine = std::any_of(leaves.begin(), leaves.end(),
+    [&](vtkPolyData* data) { return data->GetCellData()->HasArray(name.c_str()) != 0; });
+  return this->AllRanks.GetLargest(isMine ? 1 : 0) != 0;
 }
 
 //------------------------------------------------------------------------------

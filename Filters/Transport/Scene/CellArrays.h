@@ -37,6 +37,12 @@ public:
   Outcome Read(const std::string& name, bool required, std::vector<double>& values, int& components,
     bool* hasBack = nullptr) const;
 
+  /// InputArrays::Suggest for an array that is missing everywhere, as this rank knows it.
+  std::string Suggest(const std::string& name) const;
+
+  /// Whether any block of any rank has the array. Collective.
+  bool IsInput(const std::string& name) const;
+
   /**
    * A value per block of this rank's input, spread over the patches: one value for all patches of
    * all ranks. Blocks are those of Leaves. Collective.

@@ -5,6 +5,7 @@
 #include "Scene/Leaves.h"
 #include "Scene/PatchTree.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/InputArrays.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -115,6 +116,10 @@ Outcome CollectLocal(vtkDataObject* input, GatheredPolygons& polygons)
     {
       return Outcome::Failed(
         "The input has triangle strips: pass it through vtkTriangleFilter first.");
+    }
+    if (Outcome checked = InputArrays::CheckLengths(data); !checked)
+    {
+      return checked;
     }
     if (!CollectBlock(data, static_cast<int>(block), polygons))
     {

@@ -18,7 +18,10 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <new>
 #include <numeric>
 
 namespace LightTransport
@@ -48,14 +51,21 @@ void AppendPoints(vtkPolyData* input, const std::vector<vtkIdType>& sources, vtk
 }
 
 //------------------------------------------------------------------------------
+// SetNumberOfTuples of some builds of VTK aborts where there is no memory.
 template <typename Array>
 vtkSmartPointer<Array> MakeArray(const std::string& name, vtkIdType tuples, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  array->Fill(0.0);
+  const std::size_t count = static_cast<std::size_t>(tuples) * components;
+  using Value = typename Array::ValueType;
+  auto* values = static_cast<Value*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(Value)));
+  if (!values)
+  {
+    throw std::bad_alloc();
+  }
+  array->SetArray(values, static_cast<vtkIdType>(count), 0, Array::VTK_DATA_ARRAY_FREE);
   return array;
 }
 

@@ -608,6 +608,7 @@ void TestSurfaceErrors(Checker& check)
   {
     Surface square = atlasTest::MakeSquare(2, 0.0);
     square->GetPolys()->InsertNextCell({ 0, 1, 4, 3 });
+    square->GetCellData()->Initialize();
     square->Modified();
     ExpectRefusal(square, "Cell 8 is not a triangle", check);
   }
@@ -616,6 +617,7 @@ void TestSurfaceErrors(Checker& check)
     vtkNew<vtkCellArray> lines;
     lines->InsertNextCell({ 0, 1 });
     square->SetLines(lines);
+    square->GetCellData()->Initialize();
     ExpectRefusal(square, "vertices, lines or strips", check);
   }
   for (const double value : { -1e-9, 1.5, std::numeric_limits<double>::quiet_NaN() })

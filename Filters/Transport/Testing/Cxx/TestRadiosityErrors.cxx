@@ -3,6 +3,7 @@
 // Bad input: one clear error each, an empty output, and no abort.
 #include "LightTransportTesting.h"
 #include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
 #include "vtkExecutive.h"
 #include "vtkPointData.h"
 #include "vtkRadiosity.h"
@@ -81,6 +82,7 @@ void TestGeometry()
   {
     auto scene = MakeScene();
     scene->GetPolys()->InsertNextCell({ 0, 1, scene->GetNumberOfPoints() });
+    scene->GetCellData()->Initialize();
     Expect(scene, "points do not exist");
   }
   {
