@@ -6,6 +6,7 @@ set(LIGHTTRANSPORT_SLOW_TESTS
   "Build(Benchmarks|OnlyIO|OuterProjectWithTransportOnly)"
   PublicHeadersAreSelfContained
   RunOnlyIO
+  TestHostileInput
   TestLinkRefinement
   "TestOpenGLShooter(-OSMesa)?"
   "TestParallel-.*"

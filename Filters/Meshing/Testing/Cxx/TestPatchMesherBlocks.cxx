@@ -168,11 +168,11 @@ void TestBlockErrors(meshTest::Checker& check)
   vtkSmartPointer<vtkPolyData> sphere = MakeSphere(1.0, 0.0);
   AddArray(sphere, "Short", 1.0);
   sphere->GetCellData()->GetArray("Short")->SetNumberOfTuples(3);
-  expect(sphere, "\"Short\" has 3 tuples for");
+  expect(sphere, "\"Short\" has 3 tuples where");
   vtkNew<vtkMultiBlockDataSet> bad;
   bad->SetBlock(0, MakeSphere(1.0, 0.0));
   bad->SetBlock(1, sphere);
-  expect(bad, "Block 2: The cell array \"Short\"");
+  expect(bad, "Block 2: In the input the cell array \"Short\"");
 }
 
 //------------------------------------------------------------------------------
