@@ -15,7 +15,6 @@ from vtkmodules.vtkCommonCore import (
     vtkStringArray,
     vtkStringOutputWindow,
 )
-from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkLight
 
