@@ -25,9 +25,9 @@ constexpr int MantissaBits = 23;
 constexpr int PieceBits = 6;
 constexpr int PlaceBits = MantissaBits - PieceBits;
 
-/// Cuts after which the rules have the last word: sides are 2^-8 of what they were. Patches wider
-/// than some 300 mean free paths then get a worse error estimate, but never endless work.
-constexpr int MaximumDepth = 16;
+/// Cuts after which the rules have the last word: sides are 2^-6 of what they were. Patches wider
+/// than some 60 mean free paths then get a worse error estimate, but never endless work.
+constexpr int MaximumDepth = 12;
 
 /// A common edge, or an extent across, of more than this many of the profile's smallest scales
 /// would be cut into as many parts, and more: exact along the radius is cheaper.

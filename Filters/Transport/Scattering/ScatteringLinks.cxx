@@ -20,6 +20,8 @@ namespace
 {
 // An estimate of the links' error that exceeds their tolerance by more than this is warned of.
 constexpr double MostExcess = 2.0;
+// In millimetres: single precision holds no squares of more, or of less than its inverse.
+constexpr double LargestSize = 1e15;
 
 //------------------------------------------------------------------------------
 // What came of all ranks' parts.
@@ -45,6 +47,15 @@ void Summarize(ScatteringAssembly::Summary& summary, const Ranks& ranks, double 
   }
   links.Summaries = { { "NumberOfLinks", counts[0] }, { "LinksLeftOut", counts[1] },
     { "LinkErrorBound", bound } };
+}
+
+//------------------------------------------------------------------------------
+Outcome FailForSize(double size)
+{
+  std::ostringstream text;
+  text << "The surface is " << size << " mm from end to end, which must be between "
+       << 1.0 / LargestSize << " and " << LargestSize << ": check MillimetersPerUnit.";
+  return Outcome::Failed(text.str());
 }
 } // namespace
 
@@ -75,6 +86,10 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
 {
   const double begin = vtkTimerLog::GetUniversalTime();
   const double scale = scene.GetScale() * this->MillimetersPerUnit;
+  if (!(scale >= 1.0 / LargestSize) || !(scale <= LargestSize))
+  {
+    return FailForSize(scale);
+  }
   std::vector<double> areas = scene.GetAreas();
   for (double& area : areas)
   {

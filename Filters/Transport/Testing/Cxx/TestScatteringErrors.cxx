@@ -90,6 +90,11 @@ void TestOptics()
     [](Filter* filter) { filter->SetRefractiveIndex(0.99); });
   ExpectScattering(data, "MillimetersPerUnit is 0",
     [](Filter* filter) { filter->SetMillimetersPerUnit(0.0); });
+  for (const double bad : { 1e-300, 1e-17, 1e17, 1e300 })
+  {
+    ExpectScattering(data, "mm from end to end",
+      [bad](Filter* filter) { filter->SetMillimetersPerUnit(bad); });
+  }
 }
 
 //------------------------------------------------------------------------------
