@@ -127,8 +127,13 @@ void SplitEdges(WorkingMesh& work, Heartbeat& heart)
     const double wanted =
       GetNewLength(work, edge, (1.0 - part) * work.Lengths[from] + part * work.Lengths[to]);
     const Point& start = work.Mesh.point(from);
-    const Vertex vertex =
-      work.Split(work.Mesh.halfedge(edge), start + part * (work.Mesh.point(to) - start));
+    const Point middle = start + part * (work.Mesh.point(to) - start);
+    // Coordinates hold nothing shorter.
+    if (middle == start || middle == work.Mesh.point(to))
+    {
+      continue;
+    }
+    const Vertex vertex = work.Split(work.Mesh.halfedge(edge), middle);
     work.Lengths[vertex] = wanted;
     for (const Halfedge around : work.Mesh.halfedges_around_target(work.Mesh.halfedge(vertex)))
     {
