@@ -65,7 +65,7 @@ choose_vtk()
   if [ "$debian" = 12 ]; then
     packages+=(paraview-dev python3-paraview libopenmpi-dev libdouble-conversion-dev libfreetype-dev)
     # A display for ParaView's window, whose panels are tested.
-    packages+=(xvfb)
+    packages+=(xvfb xauth)
   else
     packages+=(libvtk9-dev python3-vtk9)
     # CMake's warnings for developers are about the packages of VTK and CGAL.

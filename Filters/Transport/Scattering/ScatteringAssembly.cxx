@@ -18,8 +18,8 @@ using Triangle = ScatteringIntegrals::Triangle;
 
 /// Rows of a tile that one thread works on at a time.
 constexpr int RowsPerStrip = 8;
-/// Calls of the monitor; the same on all ranks.
-constexpr int NumberOfBatches = 50;
+/// Calls of the monitor; the same on all ranks. The first tiles, of neighbours, take the longest.
+constexpr int NumberOfBatches = 500;
 
 ///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours. Those are
 /// closer than NeighbourReach times the sum of both radii; in a triangle mesh there are about 40.
