@@ -16,6 +16,7 @@
 #include <cctype>
 #include <cstddef>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,11 @@ inline std::string DescribeLengths(vtkDataSetAttributes* data, vtkIdType count,
     vtkAbstractArray* array = data->GetAbstractArray(index);
     if (array && array->GetNumberOfTuples() != count)
     {
-      const std::string name = array->GetName() ? array->GetName() : "";
-      return "the " + kind + " array \"" + name + "\" has " +
-        std::to_string(array->GetNumberOfTuples()) + " tuples where there are " +
-        std::to_string(count) + " " + kind + "s: give it one for each " + kind + ", or remove it";
+      std::ostringstream text;
+      text << "the " << kind << " array \"" << (array->GetName() ? array->GetName() : "")
+           << "\" has " << array->GetNumberOfTuples() << " tuples where there are " << count << ' '
+           << kind << "s: give it one for each " << kind << ", or remove it";
+      return text.str();
     }
   }
   return {};

@@ -326,7 +326,7 @@ void IsotropicRemesher::KeepCreases(const std::vector<bool>& points)
 double IsotropicRemesher::Prepare(double factor, double grading, const Monitor& monitor)
 {
   Heartbeat heart(monitor);
-  this->Meshes->Work.reset(new WorkingMesh(this->Meshes->Original));
+  this->Meshes->Work = std::make_unique<WorkingMesh>(this->Meshes->Original);
   WorkingMesh& work = *this->Meshes->Work;
   for (const Vertex vertex : work.Mesh.vertices())
   {

@@ -106,7 +106,7 @@ void PatchOutput::WriteGeometry(bool flip, vtkPolyData* output) const
   }
   vtkNew<vtkCellArray> cells;
   cells->AllocateExact(static_cast<vtkIdType>(this->Patches.Triangles.size()),
-    static_cast<vtkIdType>(3 * this->Patches.Triangles.size()));
+    3 * static_cast<vtkIdType>(this->Patches.Triangles.size()));
   for (const TriangleSoup::Triangle& triangle : this->Patches.Triangles)
   {
     const vtkIdType ids[3] = { static_cast<vtkIdType>(triangle[0]),
