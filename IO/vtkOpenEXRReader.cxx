@@ -8,6 +8,7 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/ZeroedArray.h"
 
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
@@ -34,7 +35,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <new>
@@ -64,23 +64,15 @@ vtkSmartPointer<vtkDataArray> NewArray(Imf::PixelType type)
 }
 
 //------------------------------------------------------------------------------
-// An array for the group's values, all 0. Its memory is not asked for through VTK, which ends the
-// process where there is none.
+// An array for the group's values, all 0.
 vtkSmartPointer<vtkDataArray> MakeArray(const ChannelGroup& group, const Imath::Box2i& window)
 {
   const vtkIdType width = vtkIdType(window.max.x) - window.min.x + 1;
   const vtkIdType height = vtkIdType(window.max.y) - window.min.y + 1;
-  const auto components = static_cast<vtkIdType>(group.Channels.size());
-  const vtkIdType values = width * height * components;
-  void* memory = std::calloc(static_cast<std::size_t>(values), BytesPerValue);
-  if (!memory)
-  {
-    throw std::bad_alloc();
-  }
   vtkSmartPointer<vtkDataArray> array = NewArray(group.Type);
   array->SetName(group.Name.c_str());
-  array->SetNumberOfComponents(static_cast<int>(components));
-  array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  array->SetNumberOfComponents(static_cast<int>(group.Channels.size()));
+  ZeroedArray::Fill(array, width * height);
   return array;
 }
 

@@ -11,6 +11,7 @@
 #include "Mesher/WantedLengths.h"
 #include "Shared/FilterMonitor.h"
 #include "Shared/InputArrays.h"
+#include "Shared/OutputLikeInput.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
@@ -227,19 +228,7 @@ vtkTypeBool vtkPatchMesher::ProcessRequest(vtkInformation* request, vtkInformati
   {
     return this->Superclass::ProcessRequest(request, inputs, outputs);
   }
-  const vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  if (!input)
-  {
-    return 0;
-  }
-  if (vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-      !output || !output->IsA(input->GetClassName()))
-  {
-    vtkSmartPointer<vtkDataObject> copy;
-    copy.TakeReference(input->NewInstance());
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), copy);
-  }
-  return 1;
+  return OutputLikeInput::Make(inputs, outputs) ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -383,10 +372,6 @@ Outcome vtkPatchMesher::ReadBlock(Block& block, const Monitor& monitor)
   vtkPolyData* input = block.Input;
   // The input's field data, also of what has no patches.
   block.Output->GetFieldData()->PassData(input->GetFieldData());
-  if (Outcome checked = InputArrays::CheckLengths(input); !checked)
-  {
-    return checked;
-  }
   if (Outcome lengths = this->ReadLengths(input, block.LengthOfPoint); !lengths)
   {
     return lengths;

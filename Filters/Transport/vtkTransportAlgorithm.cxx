@@ -3,6 +3,7 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Run/TransportRun.h"
+#include "Shared/OutputLikeInput.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -48,17 +49,9 @@ int vtkTransportAlgorithm::FillOutputPortInformation(int port, vtkInformation* i
 int vtkTransportAlgorithm::RequestDataObject(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
-  const vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  if (!input)
+  if (!OutputLikeInput::Make(inputs, outputs))
   {
     return 0;
-  }
-  if (vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-      !output || !output->IsA(input->GetClassName()))
-  {
-    vtkSmartPointer<vtkDataObject> copy;
-    copy.TakeReference(input->NewInstance());
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), copy);
   }
   if (this->GetNumberOfOutputPorts() > 1 && !vtkTable::GetData(outputs, 1))
   {

@@ -9,7 +9,6 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
@@ -17,8 +16,8 @@ import vtklighttransport as lt
 from vtklighttransport import commands
 
 from TestingTools import (
-    CUBE_CORNERS, CUBE_FACES, add_array, get_tuples, join_points, make_surface, read_surface,
-    write_surface)
+    CUBE_CORNERS, CUBE_FACES, FolderTestCase, add_array, get_tuples, join_points, make_surface,
+    read_surface, write_surface)
 
 
 def make_cube(outside=False, first=0.0):
@@ -31,15 +30,7 @@ def get_values(surface, name):
     return get_tuples(surface.GetCellData().GetArray(name))
 
 
-class TestCommandLine(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class TestCommandLine(FolderTestCase):
     def save(self, name, surface):
         self.assertTrue(write_surface(self.path(name), surface))
         return self.path(name)

@@ -7,10 +7,11 @@ import resource
 import signal
 import socket
 import stat
-import tempfile
 import unittest
 
 from vtklighttransport.replacement import replace_file
+
+from TestingTools import FolderTestCase
 
 NOBODY = 65534
 
@@ -29,15 +30,7 @@ def run_apart(work):
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
-class TestReplacement(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class TestReplacement(FolderTestCase):
     def make(self, name, content=b"old"):
         with open(self.path(name), "wb") as stream:
             stream.write(content)

@@ -9,7 +9,6 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 from xml.etree import ElementTree
 
@@ -19,7 +18,8 @@ import vtklighttransport as lt
 from vtklighttransport.arrays import (
     divide_triangles, get_area_vectors, get_cell_array, make_surface, set_cell_array)
 
-from TestingTools import CUBE_CORNERS, CUBE_FACES, read_picture, write_surface
+from TestingTools import (
+    CUBE_CORNERS, CUBE_FACES, FolderTestCase, read_picture, write_surface)
 
 NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all", "bytes",
            "links", "iterations", "error_bound")
@@ -41,15 +41,7 @@ def make_room(bands=3):
     return room
 
 
-class TestReport(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
-
+class TestReport(FolderTestCase):
     def save(self, name, surface):
         self.assertTrue(write_surface(self.path(name), surface))
         return self.path(name)

@@ -5,7 +5,6 @@
 import os
 import resource
 import stat
-import tempfile
 import unittest
 
 import vtklighttransport as lt
@@ -14,7 +13,7 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPolyData
 
-from TestingTools import add_array, make_box, make_surface
+from TestingTools import FolderTestCase, add_array, make_box, make_surface
 
 # Opposite and neighboring faces of a cube.
 OPPOSITE = 0.19982489569838746
@@ -51,15 +50,10 @@ def get_matrix(factors):
     return [[factors.GetViewFactor(i, j) for j in range(count)] for i in range(count)]
 
 
-class TestViewFactors(unittest.TestCase):
+class TestViewFactors(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.errors = []
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     @calldata_type(VTK_STRING)
     def on_error(self, _caller, _event, text):

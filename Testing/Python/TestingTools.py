@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces for tests, and what is in them; needs neither the package nor the plugin."""
 
+import os
+import tempfile
+import unittest
+
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -10,6 +14,18 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 # Of a cube seen from inside, whose corner number c is at (c & 1, c >> 1 & 1, c >> 2).
 CUBE_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CUBE_CORNERS = [(corner & 1, corner >> 1 & 1, corner >> 2) for corner in range(8)]
+
+
+class FolderTestCase(unittest.TestCase):
+    """Tests with an empty folder of their own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
 
 
 def make_box(low, high, outside=False, count=1):

@@ -325,6 +325,11 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
 {
   const double scale = std::sqrt(this->SquaredScale);
   const double wide = WidePair * scale;
+  // No edge is longer than its triangle's sphere is wide.
+  if (2.0 * std::min(a.Radius, b.Radius) < wide)
+  {
+    return false;
+  }
   EdgeNeighbours neighbours;
   ParallelTriangles sheets;
   std::function<Bands(const GaussLegendre&)> integrate;
@@ -350,12 +355,17 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
         rule);
     };
   }
-  return integrate && RefineRule(integrate, this->RelativeTolerance, tolerance, sum);
+  if (!integrate)
+  {
+    return false;
+  }
+  RefineRule(integrate, this->RelativeTolerance, tolerance, sum);
+  return true;
 }
 
 //------------------------------------------------------------------------------
 // The difference from the rule before is the error.
-bool ScatteringIntegrals::RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
+void ScatteringIntegrals::RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
   double relativeTolerance, double tolerance, Sum& sum)
 {
   static const GaussLegendre rules[] = { GaussLegendre(3), GaussLegendre(5), GaussLegendre(8),
@@ -375,7 +385,6 @@ bool ScatteringIntegrals::RefineRule(const std::function<Bands(const GaussLegend
   }
   sum.Value += value;
   sum.SquaredError += error * error;
-  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -110,7 +110,7 @@ private:
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
   /// For what cannot be cut at a bounded price; false for all else.
   bool AddWidePair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
-  static bool RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
+  static void RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
     double relativeTolerance, double tolerance, Sum& sum);
   void Tabulate(double maximumDistance);
 

@@ -6,6 +6,7 @@
 #include "Scene/PatchScene.h"
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/ZeroedArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -18,10 +19,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <map>
-#include <new>
 #include <numeric>
 
 namespace LightTransport
@@ -51,21 +49,13 @@ void AppendPoints(vtkPolyData* input, const std::vector<vtkIdType>& sources, vtk
 }
 
 //------------------------------------------------------------------------------
-// SetNumberOfTuples of some builds of VTK aborts where there is no memory.
 template <typename Array>
 vtkSmartPointer<Array> MakeArray(const std::string& name, vtkIdType tuples, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
-  const std::size_t count = static_cast<std::size_t>(tuples) * components;
-  using Value = typename Array::ValueType;
-  auto* values = static_cast<Value*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(Value)));
-  if (!values)
-  {
-    throw std::bad_alloc();
-  }
-  array->SetArray(values, static_cast<vtkIdType>(count), 0, Array::VTK_DATA_ARRAY_FREE);
+  ZeroedArray::Fill(array, tuples);
   return array;
 }
 
