@@ -262,10 +262,10 @@ Point SideJoiner::GetAxis(std::size_t side) const
 
 //------------------------------------------------------------------------------
 // From the line of a side, along `axis`, to the third corner of the triangle of another.
-Point SideJoiner::GetArm(std::size_t side, std::size_t ofSide, const Point& axis) const
+Point SideJoiner::GetArm(std::size_t leaf, std::size_t hinge, const Point& axis) const
 {
-  const Point& origin = this->Soup.Points[this->GetEnds(ofSide)[0]];
-  const std::size_t third = this->Soup.Triangles[side / 3][(side + 2) % 3];
+  const Point& origin = this->Soup.Points[this->GetEnds(hinge)[0]];
+  const std::size_t third = this->Soup.Triangles[leaf / 3][(leaf + 2) % 3];
   Point arm;
   vtkMath::Subtract(this->Soup.Points[third].data(), origin.data(), arm.data());
   const double along = vtkMath::Dot(arm.data(), axis.data());

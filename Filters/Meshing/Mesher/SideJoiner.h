@@ -78,7 +78,7 @@ private:
   void MatchSmooth(const Crowd& crowd);
   double FindAngles(Crowd& crowd) const;
   TriangleSoup::Point GetAxis(std::size_t side) const;
-  TriangleSoup::Point GetArm(std::size_t side, std::size_t ofSide,
+  TriangleSoup::Point GetArm(std::size_t leaf, std::size_t hinge,
     const TriangleSoup::Point& axis) const;
   double GetAngleTolerance(const TriangleSoup::Point& arm) const;
   bool AreTwins(std::size_t triangle, std::size_t other) const;

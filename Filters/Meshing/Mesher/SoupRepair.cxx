@@ -261,55 +261,48 @@ void SoupRepair::SplitTriangle(std::size_t triangle, std::array<std::vector<std:
 }
 
 //------------------------------------------------------------------------------
-// Turned copies of triangles, on open components smaller than that of what they are copies of, if
-// they share points with it; and whole components of copies that share points with nothing. So the
-// other side of a whole sheet stays, and so do solids that touch.
-void SoupRepair::DropStrayTwins()
+// Triangles with their corners in the same places, in sets of two and more.
+std::vector<std::vector<std::size_t>> SoupRepair::FindTwins() const
 {
-  std::map<Triangle, std::vector<std::size_t>> known;
   const std::vector<bool> isFirst = this->Soup.FindFirstOfDuplicates(this->Exact);
-  for (std::size_t i = 0; i < isFirst.size(); ++i)
+  if (std::find(isFirst.begin(), isFirst.end(), false) == isFirst.end())
   {
-    if (!isFirst[i])
-    {
-      Triangle corners = GetOrdered(this->Soup.Triangles[i], this->Exact);
-      std::sort(corners.begin(), corners.end());
-      known[corners];
-    }
+    return {}; // as most surfaces
   }
-  if (known.empty())
-  {
-    return;
-  }
-  std::vector<std::size_t> sizes(this->Soup.Triangles.size(), 0);
+  std::map<Triangle, std::vector<std::size_t>> known;
   for (std::size_t i = 0; i < this->Soup.Triangles.size(); ++i)
   {
-    ++sizes[this->Joiner->FindComponent(i)];
     Triangle corners = GetOrdered(this->Soup.Triangles[i], this->Exact);
     std::sort(corners.begin(), corners.end());
-    if (const auto found = known.find(corners); found != known.end())
+    known[corners].push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> twins;
+  for (auto& [corners, triangles] : known)
+  {
+    if (triangles.size() > 1)
     {
-      found->second.push_back(i);
+      twins.push_back(std::move(triangles));
     }
   }
-  struct Twins
-  {
-    std::vector<std::size_t> Copies; ///< that share points with what they are copies of
-    std::size_t NumberLoose = 0;     ///< that share none with anything
-    std::set<std::size_t> Others;
-  };
-  std::map<std::size_t, Twins> components;
+  return twins;
+}
+
+//------------------------------------------------------------------------------
+std::map<std::size_t, SoupRepair::ComponentTwins> SoupRepair::SortTwins(
+  const std::vector<std::vector<std::size_t>>& sets)
+{
+  std::map<std::size_t, ComponentTwins> components;
   PointComponents points(this->Soup);
-  for (const auto& [corners, triangles] : known)
+  for (const std::vector<std::size_t>& triangles : sets)
   {
     for (const std::size_t one : triangles)
     {
-      Twins& twins = components[this->Joiner->FindComponent(one)];
+      const std::size_t own = this->Joiner->FindComponent(one);
+      ComponentTwins& twins = components[own];
       bool isCopy = false;
       for (const std::size_t other : triangles)
       {
-        const std::size_t component = this->Joiner->FindComponent(other);
-        if (component != this->Joiner->FindComponent(one))
+        if (const std::size_t component = this->Joiner->FindComponent(other); component != own)
         {
           isCopy = isCopy || points.Find(one) == points.Find(other);
           twins.Others.insert(component);
@@ -327,25 +320,50 @@ void SoupRepair::DropStrayTwins()
       twins.NumberLoose += !isCopy && points.GetSize(one) == 1;
     }
   }
-  std::vector<bool> isOpen(sizes.size(), false);
+  return components;
+}
+
+//------------------------------------------------------------------------------
+std::vector<bool> SoupRepair::FindOpenComponents() const
+{
+  std::vector<bool> isOpen(this->Soup.Triangles.size(), false);
   for (std::size_t side = 0; side < this->Joiner->GetNumberOfSides(); ++side)
   {
     const std::size_t component = this->Joiner->FindComponent(side / 3);
     isOpen[component] = isOpen[component] || this->Joiner->GetPartner(side) == SideJoiner::None;
   }
+  return isOpen;
+}
+
+//------------------------------------------------------------------------------
+// Turned copies of triangles, on open components smaller than that of what they are copies of, if
+// they share points with it; and whole components of copies that share points with nothing. So the
+// other side of a whole sheet stays, and so do solids that touch.
+void SoupRepair::DropStrayTwins()
+{
+  const std::vector<std::vector<std::size_t>> sets = this->FindTwins();
+  if (sets.empty())
+  {
+    return;
+  }
+  const std::vector<bool> isOpen = this->FindOpenComponents();
+  std::vector<std::size_t> sizes(this->Soup.Triangles.size(), 0);
+  for (std::size_t i = 0; i < this->Soup.Triangles.size(); ++i)
+  {
+    ++sizes[this->Joiner->FindComponent(i)];
+  }
   std::vector<bool> kept(this->Soup.Triangles.size(), true);
   std::set<std::size_t> dropped;
-  for (const auto& [component, twins] : components)
+  for (const auto& [component, twins] : this->SortTwins(sets))
   {
-    const std::size_t others = std::accumulate(twins.Others.begin(), twins.Others.end(),
-      std::size_t(0), [&](std::size_t sum, std::size_t other) { return sum + sizes[other]; });
+    std::size_t others = 0;
+    for (const std::size_t other : twins.Others)
+    {
+      others += sizes[other];
+    }
     for (const std::size_t copy : twins.Copies)
     {
       kept[copy] = others <= sizes[component] || !isOpen[component];
-      for (std::size_t i = 0; i < 3 && !kept[copy]; ++i)
-      {
-        this->Soup.SplitPoints[this->Soup.Triangles[copy][i]] = true;
-      }
     }
     if (others > sizes[component] && twins.NumberLoose == sizes[component])
     {

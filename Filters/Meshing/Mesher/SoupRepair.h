@@ -14,6 +14,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace LightTransport
@@ -36,10 +37,22 @@ public:
   ///@}
 
 private:
+  /// Triangles of a component that have twins.
+  struct ComponentTwins
+  {
+    std::vector<std::size_t> Copies; ///< that share points with what they are copies of
+    std::size_t NumberLoose = 0;     ///< that share none with anything
+    std::set<std::size_t> Others;    ///< components that the twins are on
+  };
+
   void StartJoining();
   Outcome JoinNearSides(const Monitor& monitor);
   void SplitSides(const std::map<std::size_t, std::vector<std::size_t>>& splits);
   void SplitTriangle(std::size_t triangle, std::array<std::vector<std::size_t>, 3> points);
+  std::vector<std::vector<std::size_t>> FindTwins() const;
+  std::map<std::size_t, ComponentTwins> SortTwins(
+    const std::vector<std::vector<std::size_t>>& sets);
+  std::vector<bool> FindOpenComponents() const;
   void DropStrayTwins();
   std::vector<bool> FindReversed();
   bool AreOpposed(std::size_t side, std::size_t partner) const;
