@@ -38,6 +38,7 @@ constexpr const char* DirectIrradianceError = "DirectIrradianceError";
 constexpr const char* Irradiance = "Irradiance";
 constexpr const char* TransmittedIrradiance = "TransmittedIrradiance";
 constexpr const char* ScatteredIrradiance = "ScatteredIrradiance";
+constexpr const char* ScatteredIrradianceError = "ScatteredIrradianceError";
 ///@}
 } // namespace ArrayNames
 } // namespace LightTransport

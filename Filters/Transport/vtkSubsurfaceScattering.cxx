@@ -4,6 +4,8 @@
 
 #include "Links/LinkCache.h"
 #include "Links/LinkOperators.h"
+#include "Photons/ClosedSurface.h"
+#include "Photons/PhotonScattering.h"
 #include "Run/TransportRun.h"
 #include "Scattering/ScatteringLinks.h"
 #include "Scattering/ScatteringMaterials.h"
@@ -39,6 +41,10 @@ constexpr int Bands = 3;
 constexpr double IndexTolerance = 1e-6;
 // The links as a fraction of the progress.
 constexpr double LinksDone = 0.95;
+constexpr double MostAnisotropy = 0.99;
+// Light that photons lose on their way: of less nobody need know, and with more nothing is known.
+constexpr double LostShareToTell = 1e-4;
+constexpr double LostShareToFail = 0.02;
 
 //------------------------------------------------------------------------------
 /// A field data array of one of the data sets, or nullptr.
@@ -81,9 +87,17 @@ protected:
 
 private:
   Outcome CheckMedia() const;
+  Outcome CheckPhotons() const;
   Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEntering() const;
+  bool FollowsPhotons() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
+  std::vector<PhotonMedium> GetPhotonMedia() const;
+  Outcome ApplyLinks();
+  Outcome FollowPhotons();
+  void WarnOfPhotons() const;
+  void WriteLinks() const;
+  void WritePhotons(const SceneOutput& output) const;
 
   vtkSubsurfaceScattering* Owner;
   std::vector<ScatteringMedium> Media; ///< of each band
@@ -91,6 +105,7 @@ private:
   std::vector<double> Irradiance;
   std::vector<double> Scattered;
   ///@}
+  PhotonScattering::Result Photons;
   double ApplySeconds = 0.0;
   std::string DeviceUsed;
   std::string DeviceExplanation;
@@ -118,7 +133,8 @@ Outcome vtkSubsurfaceScattering::Run::Check()
   {
     this->Media.push_back({ scattering[band], absorption[band], index });
   }
-  return this->CheckMedia();
+  Outcome checked = this->CheckMedia();
+  return checked && this->FollowsPhotons() ? this->CheckPhotons() : checked;
 }
 
 //------------------------------------------------------------------------------
@@ -156,6 +172,28 @@ Outcome vtkSubsurfaceScattering::Run::CheckMedia() const
     text << "MillimetersPerUnit is " << unit
          << ": it must be above 0 (10 for a mesh in centimetres).";
     return Outcome::Failed(text.str());
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkSubsurfaceScattering::Run::CheckPhotons() const
+{
+  for (int band = 0; band < Bands; ++band)
+  {
+    const double anisotropy = this->Owner->Anisotropy[band];
+    if (!(std::abs(anisotropy) <= MostAnisotropy))
+    {
+      std::ostringstream text;
+      text << "Component " << band << " of Anisotropy is " << anisotropy << ": it must be between "
+           << -MostAnisotropy << " and " << MostAnisotropy << ".";
+      return Outcome::Failed(text.str());
+    }
+  }
+  if (this->Owner->Device == DEVICE_OPENGL)
+  {
+    return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "
+                           "CPU. Set Device to Auto.");
   }
   return Outcome::Done();
 }
@@ -226,6 +264,10 @@ void vtkSubsurfaceScattering::Run::CompareIndices() const
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::Link()
 {
+  if (this->FollowsPhotons())
+  {
+    return ClosedSurface::Check(this->Scene);
+  }
   const ScatteringLinks builder(this->Owner->Model, this->Media, this->Owner->MillimetersPerUnit,
     this->Owner->LinkTolerance);
   LinkCache& cache = *this->Owner->Links;
@@ -250,6 +292,71 @@ double vtkSubsurfaceScattering::Run::GetEntering() const
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::Compute()
 {
+  const double start = vtkTimerLog::GetUniversalTime();
+  Outcome done = this->FollowsPhotons() ? this->FollowPhotons() : this->ApplyLinks();
+  this->ApplySeconds = vtkTimerLog::GetUniversalTime() - start;
+  return done;
+}
+
+//------------------------------------------------------------------------------
+std::vector<PhotonMedium> vtkSubsurfaceScattering::Run::GetPhotonMedia() const
+{
+  const double scale = this->Scene.GetScale() * this->Owner->MillimetersPerUnit;
+  std::vector<PhotonMedium> media;
+  for (int band = 0; band < Bands; ++band)
+  {
+    const double anisotropy = this->Owner->Anisotropy[band];
+    media.push_back({ this->Media[band].Scattering * scale / (1.0 - anisotropy),
+      this->Media[band].Absorption * scale, anisotropy });
+  }
+  return media;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkSubsurfaceScattering::Run::FollowPhotons()
+{
+  std::vector<double> entering = this->Irradiance;
+  const double share = this->GetEntering();
+  for (double& irradiance : entering)
+  {
+    if (irradiance < 0.0)
+    {
+      return Outcome::Failed(
+        "The irradiance is negative on some polygons, which photons cannot be: "
+        "choose another Model for differences of light.");
+    }
+    irradiance *= share;
+  }
+  const PhotonScattering scattering(this->Scene, this->GetPhotonMedia(),
+    this->Media[0].RefractiveIndex);
+  const PhotonScattering::Settings settings{ this->Owner->TargetError, this->Owner->NumberOfPhotons,
+    static_cast<std::uint64_t>(this->Owner->Seed) };
+  Outcome done = scattering.Run(entering, settings, this->AllRanks,
+    this->Progress.GetMonitor().GetStage(0.0, LinksDone), this->Photons);
+  if (!done)
+  {
+    return done;
+  }
+  this->DeviceUsed = "CPU";
+  this->DeviceExplanation = "photons are followed on the CPU";
+  const double lost =
+    *std::max_element(this->Photons.LostShares.begin(), this->Photons.LostShares.end());
+  if (lost > LostShareToFail)
+  {
+    std::ostringstream text;
+    text << 100.0 * lost
+         << " % of the light is lost on its way: the surface crosses itself, or the body is more "
+            "than a million mean free paths wide. Unite its parts (vtkPatchMesher with Repair), or "
+            "check MillimetersPerUnit.";
+    return Outcome::Failed(text.str());
+  }
+  this->WarnOfPhotons();
+  return done;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkSubsurfaceScattering::Run::ApplyLinks()
+{
   enum Slot
   {
     INCIDENT,
@@ -258,7 +365,6 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
     SCATTERED,
     SCRATCH
   };
-  const double start = vtkTimerLog::GetUniversalTime();
   vtkExchange* exchange = this->Owner->Links->Get().GetExchange();
   vtkSmartPointer<vtkLinkOperator> links;
   if (Outcome made = LinkOperators::Make(static_cast<LinkDevice>(this->Owner->Device), exchange,
@@ -283,42 +389,108 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
     return Outcome::FailedAsReported();
   }
   this->DeviceUsed = links->GetDeviceName();
-  this->ApplySeconds = vtkTimerLog::GetUniversalTime() - start;
   return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScattering::Run::WarnOfPhotons() const
+{
+  const double lost =
+    *std::max_element(this->Photons.LostShares.begin(), this->Photons.LostShares.end());
+  std::ostringstream text;
+  if (lost > LostShareToTell)
+  {
+    text
+      << 100.0 * lost
+      << " % of the light is lost on its way (field data LostShare): the surface crosses itself, "
+         "or photons are scattered more than "
+      << PhotonWalk::MostScatterings << " times.";
+    this->Warn(text.str());
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::Write()
 {
   const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
-  SceneOutput(this->Scene, &points, this->Input, this->Output)
-    .AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
-
+  const SceneOutput output(this->Scene, &points, this->Input, this->Output);
   double enteringFlux[Bands] = {};
-  double leavingFlux[Bands] = {};
   const double entering = this->GetEntering();
   for (std::size_t k = 0; k < this->Irradiance.size(); ++k)
   {
-    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands];
-    enteringFlux[k % Bands] += area * entering * this->Irradiance[k];
-    leavingFlux[k % Bands] += area * this->Scattered[k];
+    enteringFlux[k % Bands] +=
+      this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands] * entering * this->Irradiance[k];
+  }
+  vtkFieldData* fields = this->GetOutputFields();
+  FieldValues::Add(fields, "EnteringFlux", enteringFlux, Bands);
+  FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
+  FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
+  this->Table->Initialize();
+  if (this->FollowsPhotons())
+  {
+    this->WritePhotons(output);
+  }
+  else
+  {
+    output.AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
+    this->WriteLinks();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScattering::Run::WriteLinks() const
+{
+  double leavingFlux[Bands] = {};
+  for (std::size_t k = 0; k < this->Scattered.size(); ++k)
+  {
+    leavingFlux[k % Bands] +=
+      this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands] * this->Scattered[k];
   }
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
-  FieldValues::Add(fields, "EnteringFlux", enteringFlux, Bands);
   FieldValues::Add(fields, "LeavingFlux", leavingFlux, Bands);
-  FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
-  FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
 
-  this->Table->Initialize();
   vtkFieldData* row = this->Table->GetRowData();
   FieldValues::Add(row, "Links", links.GetSummary("NumberOfLinks"));
   FieldValues::Add(row, "LinksLeftOut", links.GetSummary("LinksLeftOut"));
   FieldValues::Add(row, "LinkSeconds", links.GetSummary("LinkSeconds"));
   FieldValues::Add(row, "ApplySeconds", this->ApplySeconds);
   FieldValues::Add(row, "ErrorBound", links.GetSummary("LinkErrorBound"));
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScattering::Run::WritePhotons(const SceneOutput& output) const
+{
+  const PhotonScattering::Result& photons = this->Photons;
+  output.AddFaceArray(ArrayNames::ScatteredIrradiance, photons.Scattered, Bands);
+  output.AddFaceArray(ArrayNames::ScatteredIrradianceError, photons.Errors, Bands);
+  double leavingFlux[Bands] = {};
+  for (std::size_t k = 0; k < photons.Scattered.size(); ++k)
+  {
+    leavingFlux[k % Bands] +=
+      this->GetAreaUnit() * this->Scene.GetFaces().GetArea(k / Bands) * photons.Scattered[k];
+  }
+  const double count = std::max<double>(photons.Photons, 1.0);
+  const double error =
+    *std::max_element(photons.RelativeErrors.begin(), photons.RelativeErrors.end());
+  vtkFieldData* fields = this->GetOutputFields();
+  FieldValues::Add(fields, "LeavingFlux", leavingFlux, Bands);
+  FieldValues::Add(fields, "LeavingShare", photons.LeavingShares.data(), Bands);
+  FieldValues::Add(fields, "LeavingShareError", photons.LeavingShareErrors.data(), Bands);
+  FieldValues::Add(fields, "UnscatteredShare", photons.UnscatteredShares.data(), Bands);
+  FieldValues::Add(fields, "LostShare", photons.LostShares.data(), Bands);
+  FieldValues::Add(fields, "RelativeError", photons.RelativeErrors.data(), Bands);
+  FieldValues::Add(fields, "PhotonsTraced", static_cast<double>(photons.Photons));
+  FieldValues::Add(fields, "ScatteringsPerPhoton", photons.Counts.Scatterings / count);
+  FieldValues::Add(fields, "EntriesPerPhoton", photons.Counts.Entries / count);
+  FieldValues::Add(fields, "WalkSeconds", this->ApplySeconds);
+
+  vtkFieldData* row = this->Table->GetRowData();
+  FieldValues::Add(row, "Photons", static_cast<double>(photons.Photons));
+  FieldValues::Add(row, "WalkSeconds", this->ApplySeconds);
+  FieldValues::Add(row, "Error", error);
 }
 
 //------------------------------------------------------------------------------
@@ -374,6 +546,12 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
   os << indent << "MillimetersPerUnit: " << this->MillimetersPerUnit << "\n";
   os << indent << "Model: " << this->Model << "\n";
+  os << indent << "LinkMethod: " << this->LinkMethod << "\n";
+  os << indent << "Anisotropy: " << this->Anisotropy[0] << " " << this->Anisotropy[1] << " "
+     << this->Anisotropy[2] << "\n";
+  os << indent << "NumberOfPhotons: " << this->NumberOfPhotons << "\n";
+  os << indent << "TargetError: " << this->TargetError << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

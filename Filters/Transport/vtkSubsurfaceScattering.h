@@ -77,10 +77,18 @@ public:
     MATERIAL_WHOLEMILK = 12
   };
 
-  /// Diffuse reflectance profiles.
+  /// Diffuse reflectance profiles of a flat body, and photons in the body itself.
   enum ModelType
   {
-    MODEL_DIPOLE = 0
+    MODEL_DIPOLE = 0,
+    MODEL_MONTE_CARLO = 4
+  };
+
+  /// How the model is applied.
+  enum LinkMethodType
+  {
+    LINK_METHOD_AUTO = 0,
+    LINK_METHOD_DENSE = 1
   };
 
   /// What the input array holds.
@@ -157,9 +165,56 @@ public:
 
   ///@{
   /// The profile. Default MODEL_DIPOLE, the classical dipole of Jensen et al. 2001.
-  vtkSetClampMacro(Model, int, MODEL_DIPOLE, MODEL_DIPOLE);
+  vtkSetClampMacro(Model, int, MODEL_DIPOLE, MODEL_MONTE_CARLO);
   vtkGetMacro(Model, int);
   void SetModelToDipole() { this->SetModel(MODEL_DIPOLE); }
+  void SetModelToMonteCarlo() { this->SetModel(MODEL_MONTE_CARLO); }
+  ///@}
+
+  ///@{
+  /**
+   * Auto (the default) and Dense are the same for profiles. With MODEL_MONTE_CARLO Auto follows the
+   * light as it is.
+   */
+  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_DENSE);
+  vtkGetMacro(LinkMethod, int);
+  void SetLinkMethodToAuto() { this->SetLinkMethod(LINK_METHOD_AUTO); }
+  void SetLinkMethodToDense() { this->SetLinkMethod(LINK_METHOD_DENSE); }
+  ///@}
+
+  ///@{
+  /**
+   * Mean cosine of the angle by which photons are scattered (Henyey and Greenstein), of red, green
+   * and blue, for MODEL_MONTE_CARLO. ScatteringCoefficient stays the reduced one: photons are
+   * scattered 1 / (1 - Anisotropy) times as often. Default 0, 0, 0; range -0.99 to 0.99.
+   */
+  vtkSetVector3Macro(Anisotropy, double);
+  vtkGetVector3Macro(Anisotropy, double);
+  ///@}
+
+  ///@{
+  /**
+   * Photons of MODEL_MONTE_CARLO, all walks together; 0 (the default) for as many as TargetError
+   * asks.
+   */
+  vtkSetClampMacro(NumberOfPhotons, vtkIdType, 0, vtkIdType(1) << 30);
+  vtkGetMacro(NumberOfPhotons, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Standard error of the result of MODEL_MONTE_CARLO, relative, root mean square over the surface;
+   * the band where it is largest counts. Default 1e-2, range 1e-5 to 1.
+   */
+  vtkSetClampMacro(TargetError, double, 1e-5, 1.0);
+  vtkGetMacro(TargetError, double);
+  ///@}
+
+  ///@{
+  /// Of the random numbers of MODEL_MONTE_CARLO: the same seed gives the same result, on any number
+  /// of threads and ranks. Default 1.
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
   ///@}
 
   ///@{
@@ -213,6 +268,11 @@ private:
   double RefractiveIndex = 1.3;
   double MillimetersPerUnit = 1.0;
   int Model = MODEL_DIPOLE;
+  int LinkMethod = LINK_METHOD_AUTO;
+  double Anisotropy[3] = { 0.0, 0.0, 0.0 };
+  vtkIdType NumberOfPhotons = 0;
+  double TargetError = 1e-2;
+  int Seed = 1;
   double LinkTolerance = 1e-4;
   int Incidence = INCIDENCE_DIFFUSE;
   int Device = DEVICE_AUTO;

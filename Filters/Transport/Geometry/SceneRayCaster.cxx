@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/SceneRayCaster.h"
 
-#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "Geometry/Embree.h"
 
 #include <Eigen/Geometry>
 
@@ -21,11 +17,6 @@ namespace LightTransport
 namespace
 {
 using Vector = PatchScene::Vector;
-#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
-using QueryContext = RTCRayQueryContext;
-#else
-using QueryContext = RTCIntersectContext;
-#endif
 
 // Several times what the coordinates of boxes and rays lose in single precision, and what Embree's
 // arithmetic adds, in a scene whose diagonal is 1: a ray that meets a patch meets its box.
@@ -250,11 +241,7 @@ struct SceneRayCaster::Internals
     vtkIdType to) const
   {
     Segment segment(origin, target);
-#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
-    rtcInitRayQueryContext(&segment.Context);
-#else
-    rtcInitIntersectContext(&segment.Context);
-#endif
+    InitializeContext(segment.Context);
     segment.Scene = this->Scene;
     segment.Candidates = this->Candidates.data();
     segment.From = from;
@@ -350,14 +337,7 @@ bool SceneRayCaster::IsOccluded(const Vector& origin, const Vector& target, vtkI
   Segment segment = this->Internal->MakeSegment(origin, target, from, to);
   RTCRay ray;
   segment.SetRay(ray);
-#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.context = &segment.Context;
-  rtcOccluded1(this->Internal->Tree, &ray, &arguments);
-#else
-  rtcOccluded1(this->Internal->Tree, &segment.Context, &ray);
-#endif
+  FindOccluded(this->Internal->Tree, segment.Context, ray);
   return ray.tfar < 0.0f;
 }
 
@@ -369,16 +349,7 @@ vtkIdType SceneRayCaster::FindHit(const Vector& origin, const Vector& direction,
     this->Internal->MakeSegment(origin, origin + OutOfScene * direction.normalized(), from, -1);
   RTCRayHit hit;
   segment.SetRay(hit.ray);
-  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
-#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.context = &segment.Context;
-  rtcIntersect1(this->Internal->Tree, &hit, &arguments);
-#else
-  rtcIntersect1(this->Internal->Tree, &segment.Context, &hit);
-#endif
+  Intersect(this->Internal->Tree, segment.Context, hit);
   front = segment.IsFrontFirst();
   return front ? segment.Front.Patch : segment.Back.Patch;
 }

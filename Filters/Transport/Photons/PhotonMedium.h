@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PhotonMedium_h
+#define PhotonMedium_h
+
+namespace LightTransport
+{
+/// What photons of one band walk in. Lengths in the unit of the walk.
+struct PhotonMedium
+{
+  double Scattering; ///< coefficient as it is, not the reduced one
+  double Absorption;
+  double Anisotropy; ///< mean cosine of the angle of scattering (Henyey-Greenstein)
+
+  double GetExtinction() const { return this->Scattering + this->Absorption; }
+};
+} // namespace LightTransport
+
+#endif

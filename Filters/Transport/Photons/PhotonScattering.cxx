@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Photons/PhotonScattering.h"
+
+#include "Photons/MeshBoundary.h"
+#include "Photons/PhotonSource.h"
+#include "Photons/UniformPath.h"
+#include "Shared/Threads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace LightTransport
+{
+namespace
+{
+// Balls without surface need not be larger than this many free paths: few steps are longer.
+constexpr double FreePathsPerBall = 4.0;
+// What one thread takes at a time, and one rank.
+constexpr long long PhotonsPerTurn = 64;
+// Photons of the first look at the error, and at most by how much their number grows from look to
+// look.
+constexpr long long FirstPhotons = 1 << 14;
+constexpr double MostGrowth = 16.0;
+// More than are looked for, so that the next look is the last one as a rule.
+constexpr double Reserve = 1.03;
+// As many as the tally holds.
+constexpr double MostPhotons = 1u << 30;
+// Between two reports: a quarter of a second on one thread. A step at the surface costs as much as
+// several scatterings.
+constexpr double ScatteringsPerReport = 4e6;
+constexpr double WorkPerPhoton = 20.0;
+constexpr long long FirstTurn = 256;
+} // namespace
+
+//------------------------------------------------------------------------------
+/// Bands that share their photons, and these.
+class PhotonScattering::Group
+{
+public:
+  Group(const PhotonScattering& owner, const std::vector<int>& bands,
+    const PhotonBoundary& boundary, const std::vector<double>& entering)
+    : Owner(owner), Scene(owner.Scene), Bands(bands), Paths(owner.GetMedia(bands)),
+      Walk(boundary, owner.RefractiveIndex, owner.Media[bands[0]].Anisotropy),
+      Source(owner.Scene, owner.GetFlux(bands, entering), static_cast<int>(bands.size())),
+      Tally(owner.Scene.GetFaces(), static_cast<int>(bands.size()))
+  {
+    for (const int band : bands)
+    {
+      this->CanScatter.push_back(owner.Media[band].Scattering > 0.0);
+    }
+  }
+
+  Outcome Run(const Settings& settings, const Ranks& ranks, const Monitor& monitor);
+  void Collect(const Ranks& ranks, Result& result) const;
+
+private:
+  void Trace(long long count, std::uint64_t seed, const Ranks& ranks);
+
+  const PhotonScattering& Owner;
+  const PatchScene& Scene;
+  std::vector<int> Bands;
+  std::vector<bool> CanScatter;
+  UniformBands Paths;
+  PhotonWalk Walk;
+  PhotonSource Source;
+  PhotonTally Tally;
+  long long Photons = 0;
+  PhotonWalk::Counts Counts; ///< of all ranks
+};
+
+//------------------------------------------------------------------------------
+std::vector<std::vector<int>> PhotonScattering::GroupBands(
+  const std::vector<double>& entering) const
+{
+  const auto bands = static_cast<int>(this->Media.size());
+  std::vector<std::vector<int>> groups;
+  for (int band = 0; band < bands; ++band)
+  {
+    double flux = 0.0;
+    for (std::size_t k = band; k < entering.size(); k += bands)
+    {
+      flux += entering[k];
+    }
+    if (flux == 0.0)
+    {
+      continue;
+    }
+    const auto group = std::find_if(groups.begin(), groups.end(),
+      [&](const auto& others)
+      { return this->Media[others[0]].Anisotropy == this->Media[band].Anisotropy; });
+    if (group != groups.end())
+    {
+      group->push_back(band);
+    }
+    else
+    {
+      groups.push_back({ band });
+    }
+  }
+  return groups;
+}
+
+//------------------------------------------------------------------------------
+std::vector<PhotonMedium> PhotonScattering::GetMedia(const std::vector<int>& bands) const
+{
+  std::vector<PhotonMedium> media;
+  for (const int band : bands)
+  {
+    media.push_back(this->Media[band]);
+  }
+  return media;
+}
+
+//------------------------------------------------------------------------------
+/// What enters through each patch in some of the bands.
+std::vector<double> PhotonScattering::GetFlux(const std::vector<int>& bands,
+  const std::vector<double>& entering) const
+{
+  std::vector<double> flux;
+  for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
+  {
+    for (const int band : bands)
+    {
+      flux.push_back(entering[patch * this->Media.size() + band] * this->Scene.GetAreas()[patch]);
+    }
+  }
+  return flux;
+}
+
+//------------------------------------------------------------------------------
+Outcome PhotonScattering::Run(const std::vector<double>& entering, const Settings& settings,
+  const Ranks& ranks, const Monitor& monitor, Result& result) const
+{
+  result = this->MakeResult();
+  double extinction = std::numeric_limits<double>::infinity();
+  for (const PhotonMedium& medium : this->Media)
+  {
+    extinction = std::min(extinction, medium.GetExtinction());
+  }
+  MeshBoundary boundary;
+  Outcome done = boundary.Build(this->Scene, std::min(FreePathsPerBall / extinction, 1.0));
+  const std::vector<std::vector<int>> groups = this->GroupBands(entering);
+  const auto count = static_cast<double>(groups.size());
+  for (std::size_t k = 0; k < groups.size() && done; ++k)
+  {
+    Group group(*this, groups[k], boundary, entering);
+    Settings share = settings;
+    share.NumberOfPhotons = (settings.NumberOfPhotons + groups.size() - 1) / groups.size();
+    done = group.Run(share, ranks, monitor.GetStage(k / count, (k + 1) / count));
+    group.Collect(ranks, result);
+  }
+  return done;
+}
+
+//------------------------------------------------------------------------------
+Outcome PhotonScattering::Group::Run(const Settings& settings, const Ranks& ranks,
+  const Monitor& monitor)
+{
+  long long planned = settings.NumberOfPhotons > 0 ? settings.NumberOfPhotons : FirstPhotons;
+  long long turn = FirstTurn;
+  while (this->Photons < planned)
+  {
+    const long long count = std::min(turn, planned - this->Photons);
+    this->Trace(count, settings.Seed, ranks);
+    const double work = WorkPerPhoton + double(this->Counts.Scatterings) / this->Photons;
+    turn = std::max(static_cast<long long>(ScatteringsPerReport / work), PhotonsPerTurn);
+    if (settings.NumberOfPhotons == 0 && this->Photons == planned)
+    {
+      Result result = this->Owner.MakeResult();
+      this->Collect(ranks, result);
+      const double excess =
+        *std::max_element(result.RelativeErrors.begin(), result.RelativeErrors.end()) /
+        settings.TargetError;
+      const double wanted = this->Photons * std::min(Reserve * excess * excess, MostGrowth);
+      planned = static_cast<long long>(excess > 1.0 ? std::min(wanted, MostPhotons) : 0.0);
+    }
+    if (!monitor.Report(double(this->Photons) / std::max(planned, this->Photons)))
+    {
+      return Outcome::Aborted();
+    }
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// Every rank takes some of them.
+void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const Ranks& ranks)
+{
+  std::mutex mutex;
+  PhotonWalk::Counts all;
+  const auto work = [&](vtkIdType begin, vtkIdType end)
+  {
+    PhotonWalk::Counts counts;
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      if (k / PhotonsPerTurn % ranks.GetNumber() != ranks.GetMine())
+      {
+        continue;
+      }
+      PhotonRandom random(seed, this->Photons + k);
+      const PhotonSource::Photon photon =
+        this->Source.Start((k + random.Get()) / count, this->Walk, random);
+      const auto leader = static_cast<int>((this->Photons + k) % this->Paths.GetNumber());
+      UniformPath path(this->Paths, leader);
+      PhotonTally::Listener listener(this->Tally, photon);
+      this->Walk.Follow(photon.Start, true, path, random, listener, counts);
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    all.Add(counts);
+  };
+  Threads::For(0, count, PhotonsPerTurn, work);
+  double sums[] = { double(all.Scatterings), double(all.Entries), double(all.Rays) };
+  ranks.Sum(sums, 3);
+  this->Counts.Add({ static_cast<long long>(sums[0]), static_cast<long long>(sums[1]),
+    static_cast<long long>(sums[2]) });
+  this->Photons += count;
+}
+
+//------------------------------------------------------------------------------
+// Write the bands of this group to those of all.
+void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
+{
+  const PhotonTally::Totals totals = this->Tally.Collect(ranks);
+  const SceneFaces& faces = this->Scene.GetFaces();
+  const std::size_t all = result.RelativeErrors.size();
+  const std::size_t mine = this->Bands.size();
+  const auto count = static_cast<double>(this->Photons);
+  // Of a sum over photons, from that of squares.
+  const auto getDeviation = [count](double sum, double squares)
+  { return std::sqrt(std::max(squares - sum * sum / count, 0.0)); };
+  for (std::size_t k = 0; k < mine; ++k)
+  {
+    const int band = this->Bands[k];
+    double squares = 0.0;
+    double errors = 0.0;
+    for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
+    {
+      const double left = totals.Left[face * mine + k];
+      const double area = faces.GetArea(face);
+      if (area == 0.0)
+      {
+        continue;
+      }
+      const double perPhoton = this->Source.GetFlux(static_cast<int>(k)) / (count * area);
+      // What nothing has reached may be reached by the next photon.
+      const double deviation = left > 0.0 ? getDeviation(left, totals.LeftSquares[face * mine + k])
+                                          : (this->CanScatter[k] ? 1.0 : 0.0);
+      const double value = perPhoton * left;
+      const double error = perPhoton * deviation;
+      result.Scattered[face * all + band] = value;
+      result.Errors[face * all + band] = error;
+      squares += area * value * value;
+      errors += area * error * error;
+    }
+    result.RelativeErrors[band] = errors > 0.0 ? std::sqrt(errors / squares) : 0.0;
+    result.LeavingShares[band] = totals.Leaving[k] / count;
+    result.LeavingShareErrors[band] =
+      getDeviation(totals.Leaving[k], totals.LeavingSquares[k]) / count;
+    result.UnscatteredShares[band] = totals.Unscattered[k] / count;
+    result.LostShares[band] = totals.Lost[k] / count;
+  }
+  result.Photons += this->Photons;
+  result.Counts.Add(this->Counts);
+}
+
+//------------------------------------------------------------------------------
+PhotonScattering::Result PhotonScattering::MakeResult() const
+{
+  const std::size_t bands = this->Media.size();
+  const std::size_t faces = this->Scene.GetFaces().GetNumberOfFaces();
+  Result result;
+  for (auto* values : { &result.Scattered, &result.Errors })
+  {
+    values->assign(faces * bands, 0.0);
+  }
+  for (auto* values : { &result.RelativeErrors, &result.LeavingShares, &result.LeavingShareErrors,
+         &result.UnscatteredShares, &result.LostShares })
+  {
+    values->assign(bands, 0.0);
+  }
+  return result;
+}
+} // namespace LightTransport

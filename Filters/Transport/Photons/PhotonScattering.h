@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What leaves each face of a body when the light that enters it walks inside as photons, with its
+ * standard error. Bands of equal anisotropy share their photons. The same seed gives the same
+ * result on any number of threads and ranks.
+ */
+#ifndef PhotonScattering_h
+#define PhotonScattering_h
+
+#include "Photons/PhotonMedium.h"
+#include "Photons/PhotonTally.h"
+#include "Photons/PhotonWalk.h"
+#include "Scene/PatchScene.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
+#include "Support/Ranks.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace LightTransport
+{
+class PhotonScattering
+{
+public:
+  struct Settings
+  {
+    /// Standard error of a band relative to it, root mean square over the surface; the worst band
+    /// counts.
+    double TargetError = 1e-2;
+    /// 0: as many as TargetError needs.
+    long long NumberOfPhotons = 0;
+    std::uint64_t Seed = 1;
+  };
+
+  struct Result
+  {
+    ///@{ faces x bands, in the unit of the irradiance.
+    std::vector<double> Scattered;
+    std::vector<double> Errors;
+    ///@}
+    ///@{ Of each band.
+    std::vector<double> RelativeErrors;
+    std::vector<double> LeavingShares; ///< of what enters, what goes away for good after scattering
+    std::vector<double> LeavingShareErrors;
+    std::vector<double> UnscatteredShares;
+    std::vector<double> LostShares;
+    ///@}
+    long long Photons = 0;
+    PhotonWalk::Counts Counts;
+  };
+
+  /// `media` in scene units, one for each band. Fails where Embree does.
+  PhotonScattering(const PatchScene& scene, std::vector<PhotonMedium> media, double refractiveIndex)
+    : Scene(scene), Media(std::move(media)), RefractiveIndex(refractiveIndex)
+  {
+  }
+
+  /// `entering` irradiance, patches x bands, not negative. Collective.
+  Outcome Run(const std::vector<double>& entering, const Settings& settings, const Ranks& ranks,
+    const Monitor& monitor, Result& result) const;
+
+private:
+  class Group;
+
+  std::vector<std::vector<int>> GroupBands(const std::vector<double>& entering) const;
+  std::vector<PhotonMedium> GetMedia(const std::vector<int>& bands) const;
+  std::vector<double> GetFlux(const std::vector<int>& bands,
+    const std::vector<double>& entering) const;
+  Result MakeResult() const;
+
+  const PatchScene& Scene;
+  std::vector<PhotonMedium> Media;
+  double RefractiveIndex;
+};
+} // namespace LightTransport
+
+#endif

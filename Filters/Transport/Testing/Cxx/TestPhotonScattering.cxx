@@ -1,0 +1,366 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Monte Carlo in meshes, through the filter: its errors, its totals, and bodies of every kind.
+#include "LightTransportTesting.h"
+#include "MessageLog.h"
+#include "vtkExecutive.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkReverseSense.h"
+#include "vtkSMPTools.h"
+#include "vtkSubsurfaceScattering.h"
+
+#include <algorithm>
+#include <functional>
+
+using namespace LightTransportTesting;
+
+namespace
+{
+// Of a box with these corners, faces cut into as many quadrilaterals a side as the axis says.
+void AddBox(Surface& surface, const Point& low, const Point& high, int cuts = 1)
+{
+  const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+  surface.AddGrid(low, { 0, y, 0 }, { x, 0, 0 }, cuts, cuts);
+  surface.AddGrid({ low[0], low[1], high[2] }, { x, 0, 0 }, { 0, y, 0 }, cuts, cuts);
+  surface.AddGrid(low, { x, 0, 0 }, { 0, 0, z }, cuts, cuts);
+  surface.AddGrid({ low[0], high[1], low[2] }, { 0, 0, z }, { x, 0, 0 }, cuts, cuts);
+  surface.AddGrid(low, { 0, 0, z }, { 0, y, 0 }, cuts, cuts);
+  surface.AddGrid({ high[0], low[1], low[2] }, { 0, y, 0 }, { 0, 0, z }, cuts, cuts);
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeBox(const Point& low, const Point& high, int cuts = 1,
+  bool single = false)
+{
+  Surface surface(single);
+  AddBox(surface, low, high, cuts);
+  auto data = surface.Get();
+  AddArray(data, "Irradiance", { 1.0 });
+  return data;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeSphere(int levels)
+{
+  Surface surface;
+  AddSphere(surface, 1.0, levels, false);
+  auto data = surface.Get();
+  AddArray(data, "Irradiance", { 1.0 });
+  return data;
+}
+
+//------------------------------------------------------------------------------
+struct Run
+{
+  vtkNew<vtkSubsurfaceScattering> Filter;
+  vtkNew<MessageLog> Errors;
+  vtkNew<MessageLog> Warnings;
+
+  explicit Run(vtkDataObject* data)
+  {
+    this->Filter->SetInputDataObject(data);
+    this->Filter->SetModelToMonteCarlo();
+    this->Filter->SetNumberOfPhotons(20000);
+    this->Filter->AddObserver(vtkCommand::ErrorEvent, this->Errors);
+    this->Filter->AddObserver(vtkCommand::WarningEvent, this->Warnings);
+    this->Filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Errors);
+  }
+
+  void SetMedium(double scattering, double absorption, double index)
+  {
+    this->Filter->SetScatteringCoefficient(scattering, scattering, scattering);
+    this->Filter->SetAbsorptionCoefficient(absorption, absorption, absorption);
+    this->Filter->SetRefractiveIndex(index);
+  }
+
+  vtkDataArray* Get(const char* name) const
+  {
+    auto* output = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
+    vtkDataArray* array = output ? output->GetCellData()->GetArray(name) : nullptr;
+    Check(array != nullptr, std::string("the output has ") + name);
+    return array;
+  }
+  double GetNumber(const char* name) const
+  {
+    return GetSummary(this->Filter->GetOutputDataObject(0), name);
+  }
+  // What entered and is told of.
+  double GetAccounted() const
+  {
+    return this->GetNumber("LeavingShare") + this->GetNumber("UnscatteredShare") +
+      this->GetNumber("LostShare");
+  }
+};
+
+//------------------------------------------------------------------------------
+void CheckFails(Run& run, const std::string& part, const std::string& what)
+{
+  run.Filter->Update();
+  Check(run.Errors->GetAll().find(part) != std::string::npos,
+    what + " is refused with \"" + part + "\", not \"" + run.Errors->GetAll() + "\"");
+}
+
+//------------------------------------------------------------------------------
+void CheckWorks(Run& run, const std::string& what)
+{
+  run.Filter->Update();
+  Check(run.Errors->GetAll().empty() && run.Warnings->GetAll().empty(),
+    what + " says: " + run.Errors->GetAll() + run.Warnings->GetAll());
+}
+
+//------------------------------------------------------------------------------
+/// A sphere in even light: all patches get the same, and differ as their errors say.
+void TestErrorsOfPatches()
+{
+  Run run(MakeSphere(3));
+  run.Filter->SetMaterialToMarble();
+  run.Filter->SetMillimetersPerUnit(3.77);
+  run.Filter->SetNumberOfPhotons(300000);
+  CheckWorks(run, "a sphere of marble");
+  vtkDataArray* values = run.Get("ScatteredIrradiance");
+  vtkDataArray* errors = run.Get("ScatteredIrradianceError");
+  const vtkIdType patches = values->GetNumberOfTuples();
+  int beyond = 0;
+  for (int band = 0; band < 3; ++band)
+  {
+    double mean = 0.0, squares = 0.0;
+    for (vtkIdType patch = 0; patch < patches; ++patch)
+    {
+      mean += values->GetComponent(patch, band) / patches;
+    }
+    for (vtkIdType patch = 0; patch < patches; ++patch)
+    {
+      const double deviation =
+        (values->GetComponent(patch, band) - mean) / errors->GetComponent(patch, band);
+      squares += deviation * deviation / patches;
+      beyond += std::abs(deviation) > 3.0;
+    }
+    // Four deviations of chi square: sqrt(2 / 1280) = 0.04. Patches of the icosahedron's corners
+    // are not exactly like others.
+    CheckClose(squares, 1.0, 0.17,
+      "squares of deviations over errors, band " + std::to_string(band));
+  }
+  Check(beyond <= 25, std::to_string(beyond) + " of 3840 values beyond three errors (10 expected)");
+  CheckClose(run.GetNumber("PhotonsTraced"), 300000, 0.0, "photons as asked for");
+  CheckClose(run.GetNumber("LeavingFlux") / run.GetNumber("EnteringFlux"),
+    run.GetNumber("LeavingShare"), 1e-9, "what leaves patches leaves the body");
+}
+
+//------------------------------------------------------------------------------
+/// Large against the free path: as much as a half space in diffuse light (exact tables).
+void TestTotals()
+{
+  struct Case
+  {
+    double Albedo, Index, Reflectance, Mean;
+  };
+  for (const Case& test :
+    { Case{ 0.9, 1.5, 0.216112, 0.0917779 }, Case{ 0.8, 1.0, 0.341867, 0.0 } })
+  {
+    Run run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2));
+    run.SetMedium(test.Albedo, 1.0 - test.Albedo, test.Index);
+    run.Filter->SetMillimetersPerUnit(2e4);
+    run.Filter->SetNumberOfPhotons(100000);
+    CheckWorks(run, "a large box");
+    const double share = run.GetNumber("LeavingShare");
+    const double error = run.GetNumber("LeavingShareError");
+    Check(std::abs(share - test.Reflectance / (1.0 - test.Mean)) < 3.0 * error + 1e-5,
+      "a large box gives back " + std::to_string(share) + " +- " + std::to_string(error) + " of " +
+        std::to_string(test.Reflectance / (1.0 - test.Mean)));
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestTarget()
+{
+  Run run(MakeSphere(1));
+  run.Filter->SetNumberOfPhotons(0);
+  run.Filter->SetTargetError(0.02);
+  CheckWorks(run, "a target of 2 %");
+  const double photons = run.GetNumber("PhotonsTraced");
+  Check(run.GetNumber("RelativeError") <= 0.02 && run.GetNumber("RelativeError") > 0.01,
+    "an error of " + std::to_string(run.GetNumber("RelativeError")) + " where 0.02 was asked for");
+  run.Filter->SetTargetError(0.01);
+  run.Filter->Update();
+  CheckClose(run.GetNumber("PhotonsTraced") / photons, 4.0, 0.2, "photons for half the error");
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> GetResult(int threads, int seed)
+{
+  std::vector<double> result;
+  const auto work = [&]()
+  {
+    Run run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
+    run.Filter->SetSeed(seed);
+    run.Filter->SetAnisotropy(0.0, 0.5, 0.5);
+    run.Filter->Update();
+    vtkDataArray* values = run.Get("ScatteredIrradiance");
+    for (vtkIdType k = 0; values && k < 3 * values->GetNumberOfTuples(); ++k)
+    {
+      result.push_back(values->GetComponent(k / 3, k % 3));
+    }
+  };
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false }, work);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void TestSameBits()
+{
+  const std::vector<double> one = GetResult(1, 1);
+  Check(one == GetResult(3, 1), "the same bits on three threads");
+  Check(one != GetResult(1, 2), "other photons with another seed");
+}
+
+//------------------------------------------------------------------------------
+/// Nothing is absorbed: all must come out again, whatever the body.
+void TestBodies()
+{
+  const auto check = [](vtkDataObject* data, const std::string& what,
+                       const std::function<void(vtkSubsurfaceScattering*)>& change = {})
+  {
+    Run run(data);
+    run.SetMedium(1.0, 0.0, 1.4);
+    if (change)
+    {
+      change(run.Filter);
+    }
+    CheckWorks(run, what);
+    CheckClose(run.GetAccounted(), 1.0, 1e-6, what + ": all that enters");
+    Check(run.GetNumber("LostShare") < 1e-4, what + ": nothing is lost");
+  };
+  check(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }), "a box");
+  check(MakeBox({ 6e6, -4e6, 2e6 }, { 6e6 + 10, -4e6 + 10, 2e6 + 10 }, 3), "a box far away");
+  check(MakeBox({ 0.1, 0.7, 0.3 }, { 1.3, 1.9, 1.7 }, 3, true), "a box in single precision");
+  check(MakeBox({ 0, 0, 0 }, { 100, 0.01, 0.01 }, 1), "a needle");
+  check(MakeBox({ 0, 0, 0 }, { 10, 10, 1e-3 }, 4), "a thin sheet");
+  check(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2), "a body of a thousandth of a mean free path",
+    [](vtkSubsurfaceScattering* filter) { filter->SetMillimetersPerUnit(1e-3); });
+  check(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2), "an index of 1",
+    [](vtkSubsurfaceScattering* filter) { filter->SetRefractiveIndex(1.0); });
+  for (const double anisotropy : { -0.9, 0.99 })
+  {
+    check(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2), "anisotropy " + std::to_string(anisotropy),
+      [anisotropy](vtkSubsurfaceScattering* filter)
+      { filter->SetAnisotropy(anisotropy, anisotropy, anisotropy); });
+  }
+
+  Surface two;
+  AddBox(two, { 0, 0, 0 }, { 1, 1, 1 }, 2);
+  AddBox(two, { 1.2, 0, 0 }, { 2, 1, 1 }, 3);
+  auto bodies = two.Get();
+  AddArray(bodies, "Irradiance", { 1.0 });
+  check(bodies, "two bodies");
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2));
+  blocks->SetBlock(1, MakeBox({ 1, 0, 0 }, { 2, 1, 1 }, 3));
+  check(blocks, "two bodies that touch, in two blocks");
+
+  // One face of the box is cut otherwise than its neighbors.
+  Surface cut;
+  cut.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 3, 2);
+  cut.AddGrid({ 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, 5, 5);
+  cut.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, 7, 2);
+  cut.AddGrid({ 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, 1, 1);
+  cut.AddGrid({ 0, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 }, 4, 3);
+  cut.AddGrid({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 2, 2);
+  auto unlike = cut.Get();
+  AddArray(unlike, "Irradiance", { 1.0 });
+  check(unlike, "faces that are meshed differently");
+}
+
+//------------------------------------------------------------------------------
+void TestMedia()
+{
+  Run nothing(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  nothing.SetMedium(0.0, 0.5, 1.3);
+  CheckWorks(nothing, "a medium that does not scatter");
+  double range[2];
+  nothing.Get("ScatteredIrradiance")->GetRange(range);
+  CheckClose(range[1], 0.0, 0.0, "nothing comes out of it scattered");
+  nothing.Get("ScatteredIrradianceError")->GetRange(range);
+  CheckClose(range[1], 0.0, 0.0, "and that is certain");
+  Check(nothing.GetNumber("UnscatteredShare") > 0.1, "but some runs through");
+
+  Run dark(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  AddArray(vtkPolyData::SafeDownCast(dark.Filter->GetInputDataObject(0, 0)), "Irradiance", { 0.0 });
+  CheckWorks(dark, "no light");
+  CheckClose(dark.GetNumber("PhotonsTraced"), 0.0, 0.0, "no photons without light");
+
+  // Only what is lit starts photons, and the far side has the error of one where none arrives.
+  Run lit(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  lit.SetMedium(1.0, 0.1, 1.3);
+  lit.Filter->SetMillimetersPerUnit(200.0);
+  auto* light = vtkPolyData::SafeDownCast(lit.Filter->GetInputDataObject(0, 0));
+  AddArray(light, "Irradiance", { 0.0 })->SetComponent(0, 0, 1.0);
+  CheckWorks(lit, "one lit face");
+  Check(lit.Get("ScatteredIrradiance")->GetComponent(0, 0) > 0.2, "it is bright");
+  CheckClose(lit.Get("ScatteredIrradiance")->GetComponent(1, 0), 0.0, 0.0, "the far side is not");
+  CheckClose(lit.Get("ScatteredIrradianceError")->GetComponent(1, 0),
+    lit.GetNumber("EnteringFlux") / 20000.0, 1e-9, "the far side's error");
+}
+
+//------------------------------------------------------------------------------
+void TestRefusals()
+{
+  Surface lid;
+  AddBox(lid, { 0, 0, 0 }, { 1, 1, 1 });
+  auto box = lid.Get();
+  Surface open;
+  open.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 2, 2);
+  auto sheet = open.Get();
+  AddArray(sheet, "Irradiance", { 1.0 });
+  Run hole(sheet);
+  CheckFails(hole, "The surface is open: 8 edges", "a sheet of one side");
+
+  vtkNew<vtkReverseSense> turn;
+  turn->SetInputData(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  turn->Update();
+  Run inside(turn->GetOutput());
+  CheckFails(inside, "The surface around (0.5, 0.5, 0.5) is inside out", "an inside-out box");
+
+  // A sheet of two sides in one place.
+  Surface both;
+  both.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 3);
+  both.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
+  auto sides = both.Get();
+  AddArray(sides, "Irradiance", { 1.0 });
+  Run flat(sides);
+  CheckFails(flat, "has no inside", "a sheet of two sides");
+
+  Surface crossing;
+  AddBox(crossing, { 0, 0, 0 }, { 1, 1, 1 }, 2);
+  AddBox(crossing, { 0.5, 0.3, 0.3 }, { 1.7, 0.8, 0.8 }, 2);
+  auto crossed = crossing.Get();
+  AddArray(crossed, "Irradiance", { 1.0 });
+  Run across(crossed);
+  CheckFails(across, "the surface crosses itself", "bodies that cross");
+
+  AddArray(box, "Irradiance", { -1.0 });
+  Run negative(box);
+  CheckFails(negative, "negative", "negative light");
+
+  Run strange(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  strange.Filter->SetAnisotropy(0.0, 1.0, 0.0);
+  CheckFails(strange, "Component 1 of Anisotropy is 1", "an anisotropy of 1");
+
+  Run device(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  device.Filter->SetDeviceToOpenGL();
+  device.Filter->Update();
+  Check(!device.Errors->GetAll().empty(), "OpenGL is refused");
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestPhotonScattering(int, char*[])
+{
+  TestErrorsOfPatches();
+  TestTotals();
+  TestTarget();
+  TestSameBits();
+  TestBodies();
+  TestMedia();
+  TestRefusals();
+  return Result();
+}
