@@ -5,6 +5,7 @@
 #include "Links/LinkCache.h"
 #include "Links/LinkOperators.h"
 #include "Photons/ClosedSurface.h"
+#include "Photons/PhotonLinks.h"
 #include "Photons/PhotonScattering.h"
 #include "Run/TransportRun.h"
 #include "Scattering/ScatteringLinks.h"
@@ -91,11 +92,18 @@ private:
   Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEntering() const;
-  bool FollowsPhotons() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
-  std::vector<PhotonMedium> GetPhotonMedia() const;
+  bool IsMonteCarlo() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
+  /// Without links.
+  bool FollowsPhotons() const
+  {
+    return this->IsMonteCarlo() && this->Owner->LinkMethod == LINK_METHOD_AUTO;
+  }
+  std::vector<double> GetAnisotropies() const;
+  PhotonScattering::Settings GetPhotonSettings() const;
+  std::unique_ptr<LinkBuilder> MakeBuilder() const;
+  Outcome CheckLost(double share) const;
   Outcome ApplyLinks();
   Outcome FollowPhotons();
-  void WarnOfPhotons() const;
   void WriteLinks() const;
   void WritePhotons(const SceneOutput& output) const;
 
@@ -104,6 +112,7 @@ private:
   ///@{ patches x bands
   std::vector<double> Irradiance;
   std::vector<double> Scattered;
+  std::vector<double> Errors; ///< where links are counts of photons
   ///@}
   PhotonScattering::Result Photons;
   double ApplySeconds = 0.0;
@@ -134,7 +143,7 @@ Outcome vtkSubsurfaceScattering::Run::Check()
     this->Media.push_back({ scattering[band], absorption[band], index });
   }
   Outcome checked = this->CheckMedia();
-  return checked && this->FollowsPhotons() ? this->CheckPhotons() : checked;
+  return checked && this->IsMonteCarlo() ? this->CheckPhotons() : checked;
 }
 
 //------------------------------------------------------------------------------
@@ -268,16 +277,26 @@ Outcome vtkSubsurfaceScattering::Run::Link()
   {
     return ClosedSurface::Check(this->Scene);
   }
-  const ScatteringLinks builder(this->Owner->Model, this->Media, this->Owner->MillimetersPerUnit,
-    this->Owner->LinkTolerance);
   LinkCache& cache = *this->Owner->Links;
-  Outcome updated = cache.Update(this->Scene, builder, this->AllRanks,
+  Outcome updated = cache.Update(this->Scene, *this->MakeBuilder(), this->AllRanks,
     this->Progress.GetMonitor().GetStage(0.0, LinksDone));
   if (updated && cache.WereMade() && !cache.Get().Warning.empty())
   {
     this->Warn(cache.Get().Warning);
   }
-  return updated;
+  return updated ? this->CheckLost(cache.Get().GetSummary("LostShare")) : updated;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<LinkBuilder> vtkSubsurfaceScattering::Run::MakeBuilder() const
+{
+  if (this->IsMonteCarlo())
+  {
+    return std::make_unique<PhotonLinks>(this->Media, this->GetAnisotropies(),
+      this->Owner->MillimetersPerUnit, this->GetPhotonSettings());
+  }
+  return std::make_unique<ScatteringLinks>(this->Owner->Model, this->Media,
+    this->Owner->MillimetersPerUnit, this->Owner->LinkTolerance);
 }
 
 //------------------------------------------------------------------------------
@@ -299,17 +318,16 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
 }
 
 //------------------------------------------------------------------------------
-std::vector<PhotonMedium> vtkSubsurfaceScattering::Run::GetPhotonMedia() const
+std::vector<double> vtkSubsurfaceScattering::Run::GetAnisotropies() const
 {
-  const double scale = this->Scene.GetScale() * this->Owner->MillimetersPerUnit;
-  std::vector<PhotonMedium> media;
-  for (int band = 0; band < Bands; ++band)
-  {
-    const double anisotropy = this->Owner->Anisotropy[band];
-    media.push_back({ this->Media[band].Scattering * scale / (1.0 - anisotropy),
-      this->Media[band].Absorption * scale, anisotropy });
-  }
-  return media;
+  return { this->Owner->Anisotropy, this->Owner->Anisotropy + Bands };
+}
+
+//------------------------------------------------------------------------------
+PhotonScattering::Settings vtkSubsurfaceScattering::Run::GetPhotonSettings() const
+{
+  return { this->Owner->TargetError, this->Owner->NumberOfPhotons,
+    static_cast<std::uint64_t>(this->Owner->Seed) };
 }
 
 //------------------------------------------------------------------------------
@@ -323,35 +341,43 @@ Outcome vtkSubsurfaceScattering::Run::FollowPhotons()
     {
       return Outcome::Failed(
         "The irradiance is negative on some polygons, which photons cannot be: "
-        "choose another Model for differences of light.");
+        "set LinkMethod to Dense for differences of light.");
     }
     irradiance *= share;
   }
-  const PhotonScattering scattering(this->Scene, this->GetPhotonMedia(),
+  const PhotonScattering scattering(this->Scene,
+    PhotonScattering::GetMedia(this->Media, this->GetAnisotropies(),
+      this->Scene.GetScale() * this->Owner->MillimetersPerUnit),
     this->Media[0].RefractiveIndex);
-  const PhotonScattering::Settings settings{ this->Owner->TargetError, this->Owner->NumberOfPhotons,
-    static_cast<std::uint64_t>(this->Owner->Seed) };
-  Outcome done = scattering.Run(entering, settings, this->AllRanks,
+  Outcome done = scattering.Run(entering, this->GetPhotonSettings(), this->AllRanks,
     this->Progress.GetMonitor().GetStage(0.0, LinksDone), this->Photons);
-  if (!done)
-  {
-    return done;
-  }
   this->DeviceUsed = "CPU";
   this->DeviceExplanation = "photons are followed on the CPU";
-  const double lost =
-    *std::max_element(this->Photons.LostShares.begin(), this->Photons.LostShares.end());
-  if (lost > LostShareToFail)
+  return done ? this->CheckLost(*std::max_element(this->Photons.LostShares.begin(),
+                  this->Photons.LostShares.end()))
+              : done;
+}
+
+//------------------------------------------------------------------------------
+// Of the light that photons have lost.
+Outcome vtkSubsurfaceScattering::Run::CheckLost(double share) const
+{
+  std::ostringstream text;
+  text
+    << 100.0 * share
+    << " % of the light is lost on its way: the surface crosses itself, or photons are scattered "
+       "more than "
+    << PhotonWalk::MostScatterings
+    << " times. Unite its parts (vtkPatchMesher with Repair), or check MillimetersPerUnit.";
+  if (share > LostShareToFail)
   {
-    std::ostringstream text;
-    text << 100.0 * lost
-         << " % of the light is lost on its way: the surface crosses itself, or the body is more "
-            "than a million mean free paths wide. Unite its parts (vtkPatchMesher with Repair), or "
-            "check MillimetersPerUnit.";
     return Outcome::Failed(text.str());
   }
-  this->WarnOfPhotons();
-  return done;
+  if (share > LostShareToTell)
+  {
+    this->Warn(text.str());
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -375,38 +401,38 @@ Outcome vtkSubsurfaceScattering::Run::ApplyLinks()
   }
   const std::vector<double>& areas = exchange->GetAreas();
   std::vector<double> left(this->Irradiance.size());
-  const std::vector<double> right(this->Irradiance.size(), this->GetEntering());
+  std::vector<double> light = this->Irradiance;
   for (std::size_t k = 0; k < left.size(); ++k)
   {
     left[k] = 1.0 / areas[k / Bands];
+    light[k] *= this->GetEntering();
   }
   this->Scattered.resize(this->Irradiance.size());
-  if (!links->SetVector(INCIDENT, this->Irradiance.data()) ||
-    !links->SetVector(LEFT, left.data()) || !links->SetVector(RIGHT, right.data()) ||
-    !links->Apply(SCATTERED, LEFT, RIGHT, INCIDENT, SCRATCH) ||
-    !links->GetVector(SCATTERED, this->Scattered.data()))
+  const std::vector<double> right(left.size(), 1.0);
+  const auto apply = [&](const std::vector<double>& from, std::vector<double>& to)
+  {
+    return links->SetVector(INCIDENT, from.data()) && links->SetVector(LEFT, left.data()) &&
+      links->SetVector(RIGHT, right.data()) &&
+      links->Apply(SCATTERED, LEFT, RIGHT, INCIDENT, SCRATCH) &&
+      links->GetVector(SCATTERED, to.data());
+  };
+  if (!apply(light, this->Scattered))
   {
     return Outcome::FailedAsReported();
   }
+  if (this->IsMonteCarlo())
+  {
+    std::vector<double> squares(light.size());
+    std::transform(light.begin(), light.end(), squares.begin(), [](double e) { return e * e; });
+    if (!apply(squares, squares))
+    {
+      return Outcome::FailedAsReported();
+    }
+    this->Errors =
+      PhotonLinks::GetErrors(this->Owner->Links->Get(), light, squares, this->AllRanks);
+  }
   this->DeviceUsed = links->GetDeviceName();
   return Outcome::Done();
-}
-
-//------------------------------------------------------------------------------
-void vtkSubsurfaceScattering::Run::WarnOfPhotons() const
-{
-  const double lost =
-    *std::max_element(this->Photons.LostShares.begin(), this->Photons.LostShares.end());
-  std::ostringstream text;
-  if (lost > LostShareToTell)
-  {
-    text
-      << 100.0 * lost
-      << " % of the light is lost on its way (field data LostShare): the surface crosses itself, "
-         "or photons are scattered more than "
-      << PhotonWalk::MostScatterings << " times.";
-    this->Warn(text.str());
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -433,6 +459,10 @@ void vtkSubsurfaceScattering::Run::Write()
   else
   {
     output.AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
+    if (this->IsMonteCarlo())
+    {
+      output.AddArray(ArrayNames::ScatteredIrradianceError, this->Errors, Bands);
+    }
     this->WriteLinks();
   }
 }
@@ -449,6 +479,7 @@ void vtkSubsurfaceScattering::Run::WriteLinks() const
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
+  FieldValues::Add(fields, "LinksReused", this->Owner->Links->WereMade() ? 0.0 : 1.0);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
   FieldValues::Add(fields, "LeavingFlux", leavingFlux, Bands);
 

@@ -174,7 +174,8 @@ public:
   ///@{
   /**
    * Auto (the default) and Dense are the same for profiles. With MODEL_MONTE_CARLO Auto follows the
-   * light as it is.
+   * light as it is, which is the fastest way to one result; Dense makes links of photons that start
+   * everywhere, which are kept, so that new light on the same body costs one product.
    */
   vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_DENSE);
   vtkGetMacro(LinkMethod, int);

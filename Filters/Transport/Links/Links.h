@@ -52,6 +52,9 @@ struct Links
   std::vector<double> BackHits;
   ///@}
 
+  /// Where links are counts of photons: what one of them adds, of each band.
+  std::vector<double> PhotonSizes;
+
   /// Names and values of the field data arrays that summarise how the links were made.
   std::vector<std::pair<std::string, double>> Summaries;
   std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"

@@ -42,7 +42,7 @@ class PhotonScattering::Group
 public:
   Group(const PhotonScattering& owner, const std::vector<int>& bands,
     const PhotonBoundary& boundary, const std::vector<double>& entering)
-    : Owner(owner), Scene(owner.Scene), Bands(bands), Paths(owner.GetMedia(bands)),
+    : Owner(owner), Scene(owner.Scene), Bands(bands), Paths(owner.ChooseMedia(bands)),
       Walk(boundary, owner.RefractiveIndex, owner.Media[bands[0]].Anisotropy),
       Source(owner.Scene, owner.GetFlux(bands, entering), static_cast<int>(bands.size())),
       Tally(owner.Scene.GetFaces(), static_cast<int>(bands.size()))
@@ -53,11 +53,12 @@ public:
     }
   }
 
-  Outcome Run(const Settings& settings, const Ranks& ranks, const Monitor& monitor);
+  Outcome Run(const Settings& settings, const Ranks& ranks, const Monitor& monitor,
+    PhotonRecorder* recorder);
   void Collect(const Ranks& ranks, Result& result) const;
 
 private:
-  void Trace(long long count, std::uint64_t seed, const Ranks& ranks);
+  void Trace(long long count, std::uint64_t seed, const Ranks& ranks, PhotonRecorder* recorder);
 
   const PhotonScattering& Owner;
   const PatchScene& Scene;
@@ -104,12 +105,25 @@ std::vector<std::vector<int>> PhotonScattering::GroupBands(
 }
 
 //------------------------------------------------------------------------------
-std::vector<PhotonMedium> PhotonScattering::GetMedia(const std::vector<int>& bands) const
+std::vector<PhotonMedium> PhotonScattering::ChooseMedia(const std::vector<int>& bands) const
 {
   std::vector<PhotonMedium> media;
   for (const int band : bands)
   {
     media.push_back(this->Media[band]);
+  }
+  return media;
+}
+
+//------------------------------------------------------------------------------
+std::vector<PhotonMedium> PhotonScattering::GetMedia(const std::vector<ScatteringMedium>& bands,
+  const std::vector<double>& anisotropies, double millimeters)
+{
+  std::vector<PhotonMedium> media;
+  for (std::size_t band = 0; band < bands.size(); ++band)
+  {
+    media.push_back({ bands[band].Scattering * millimeters / (1.0 - anisotropies[band]),
+      bands[band].Absorption * millimeters, anisotropies[band] });
   }
   return media;
 }
@@ -132,7 +146,7 @@ std::vector<double> PhotonScattering::GetFlux(const std::vector<int>& bands,
 
 //------------------------------------------------------------------------------
 Outcome PhotonScattering::Run(const std::vector<double>& entering, const Settings& settings,
-  const Ranks& ranks, const Monitor& monitor, Result& result) const
+  const Ranks& ranks, const Monitor& monitor, Result& result, PhotonRecorder* recorder) const
 {
   result = this->MakeResult();
   double extinction = std::numeric_limits<double>::infinity();
@@ -149,7 +163,7 @@ Outcome PhotonScattering::Run(const std::vector<double>& entering, const Setting
     Group group(*this, groups[k], boundary, entering);
     Settings share = settings;
     share.NumberOfPhotons = (settings.NumberOfPhotons + groups.size() - 1) / groups.size();
-    done = group.Run(share, ranks, monitor.GetStage(k / count, (k + 1) / count));
+    done = group.Run(share, ranks, monitor.GetStage(k / count, (k + 1) / count), recorder);
     group.Collect(ranks, result);
   }
   return done;
@@ -157,14 +171,14 @@ Outcome PhotonScattering::Run(const std::vector<double>& entering, const Setting
 
 //------------------------------------------------------------------------------
 Outcome PhotonScattering::Group::Run(const Settings& settings, const Ranks& ranks,
-  const Monitor& monitor)
+  const Monitor& monitor, PhotonRecorder* recorder)
 {
   long long planned = settings.NumberOfPhotons > 0 ? settings.NumberOfPhotons : FirstPhotons;
   long long turn = FirstTurn;
   while (this->Photons < planned)
   {
     const long long count = std::min(turn, planned - this->Photons);
-    this->Trace(count, settings.Seed, ranks);
+    this->Trace(count, settings.Seed, ranks, recorder);
     const double work = WorkPerPhoton + double(this->Counts.Scatterings) / this->Photons;
     turn = std::max(static_cast<long long>(ScatteringsPerReport / work), PhotonsPerTurn);
     if (settings.NumberOfPhotons == 0 && this->Photons == planned)
@@ -187,13 +201,16 @@ Outcome PhotonScattering::Group::Run(const Settings& settings, const Ranks& rank
 
 //------------------------------------------------------------------------------
 // Every rank takes some of them.
-void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const Ranks& ranks)
+void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const Ranks& ranks,
+  PhotonRecorder* recorder)
 {
   std::mutex mutex;
   PhotonWalk::Counts all;
+  std::vector<PhotonRecorder::Event> allEvents;
   const auto work = [&](vtkIdType begin, vtkIdType end)
   {
     PhotonWalk::Counts counts;
+    std::vector<PhotonRecorder::Event> events;
     for (vtkIdType k = begin; k < end; ++k)
     {
       if (k / PhotonsPerTurn % ranks.GetNumber() != ranks.GetMine())
@@ -205,13 +222,18 @@ void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const R
         this->Source.Start((k + random.Get()) / count, this->Walk, random);
       const auto leader = static_cast<int>((this->Photons + k) % this->Paths.GetNumber());
       UniformPath path(this->Paths, leader);
-      PhotonTally::Listener listener(this->Tally, photon);
+      PhotonTally::Listener listener(this->Tally, photon, recorder ? &events : nullptr);
       this->Walk.Follow(photon.Start, true, path, random, listener, counts);
     }
     const std::lock_guard<std::mutex> lock(mutex);
     all.Add(counts);
+    allEvents.insert(allEvents.end(), events.begin(), events.end());
   };
   Threads::For(0, count, PhotonsPerTurn, work);
+  if (recorder)
+  {
+    recorder->Add(allEvents, this->Bands);
+  }
   double sums[] = { double(all.Scatterings), double(all.Entries), double(all.Rays) };
   ranks.Sum(sums, 3);
   this->Counts.Add({ static_cast<long long>(sums[0]), static_cast<long long>(sums[1]),
@@ -236,6 +258,8 @@ void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
     const int band = this->Bands[k];
     double squares = 0.0;
     double errors = 0.0;
+    double allLeft = 0.0;
+    double allSquares = 0.0;
     for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
     {
       const double left = totals.Left[face * mine + k];
@@ -254,6 +278,8 @@ void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
       result.Errors[face * all + band] = error;
       squares += area * value * value;
       errors += area * error * error;
+      allLeft += left;
+      allSquares += totals.LeftSquares[face * mine + k];
     }
     result.RelativeErrors[band] = errors > 0.0 ? std::sqrt(errors / squares) : 0.0;
     result.LeavingShares[band] = totals.Leaving[k] / count;
@@ -261,6 +287,8 @@ void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
       getDeviation(totals.Leaving[k], totals.LeavingSquares[k]) / count;
     result.UnscatteredShares[band] = totals.Unscattered[k] / count;
     result.LostShares[band] = totals.Lost[k] / count;
+    result.PhotonsOfBands[band] = count;
+    result.MeanWeights[band] = allLeft > 0.0 ? allSquares / allLeft : 0.0;
   }
   result.Photons += this->Photons;
   result.Counts.Add(this->Counts);
@@ -276,8 +304,9 @@ PhotonScattering::Result PhotonScattering::MakeResult() const
   {
     values->assign(faces * bands, 0.0);
   }
-  for (auto* values : { &result.RelativeErrors, &result.LeavingShares, &result.LeavingShareErrors,
-         &result.UnscatteredShares, &result.LostShares })
+  for (auto* values :
+    { &result.RelativeErrors, &result.LeavingShares, &result.LeavingShareErrors,
+      &result.UnscatteredShares, &result.LostShares, &result.PhotonsOfBands, &result.MeanWeights })
   {
     values->assign(bands, 0.0);
   }

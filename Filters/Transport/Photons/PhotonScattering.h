@@ -9,8 +9,10 @@
 #define PhotonScattering_h
 
 #include "Photons/PhotonMedium.h"
+#include "Photons/PhotonRecorder.h"
 #include "Photons/PhotonTally.h"
 #include "Photons/PhotonWalk.h"
+#include "Scattering/ScatteringMedium.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
@@ -47,6 +49,8 @@ public:
     std::vector<double> LeavingShareErrors;
     std::vector<double> UnscatteredShares;
     std::vector<double> LostShares;
+    std::vector<double> PhotonsOfBands;
+    std::vector<double> MeanWeights; ///< of photons that leave, each as often as it weighs
     ///@}
     long long Photons = 0;
     PhotonWalk::Counts Counts;
@@ -58,15 +62,19 @@ public:
   {
   }
 
-  /// `entering` irradiance, patches x bands, not negative. Collective.
+  /// Media of coefficients per mm, of which the scene's unit has so many.
+  static std::vector<PhotonMedium> GetMedia(const std::vector<ScatteringMedium>& bands,
+    const std::vector<double>& anisotropies, double millimeters);
+
+  /// `entering` irradiance, patches x bands, not negative. `recorder` may be nullptr. Collective.
   Outcome Run(const std::vector<double>& entering, const Settings& settings, const Ranks& ranks,
-    const Monitor& monitor, Result& result) const;
+    const Monitor& monitor, Result& result, PhotonRecorder* recorder = nullptr) const;
 
 private:
   class Group;
 
   std::vector<std::vector<int>> GroupBands(const std::vector<double>& entering) const;
-  std::vector<PhotonMedium> GetMedia(const std::vector<int>& bands) const;
+  std::vector<PhotonMedium> ChooseMedia(const std::vector<int>& bands) const;
   std::vector<double> GetFlux(const std::vector<int>& bands,
     const std::vector<double>& entering) const;
   Result MakeResult() const;

@@ -47,11 +47,17 @@ void PhotonTally::Listener::Leave(vtkIdType patch, const Eigen::Vector3d&, const
 {
   const int bands = this->Tally.Bands;
   const vtkIdType face = this->Tally.Faces.GetFace(patch);
+  PhotonRecorder::Event event{ this->Photon.Start.Patch, patch, {} };
   for (int band = 0; band < bands; ++band)
   {
     const double weight = weights[band] * this->Photon.Scales[band];
     this->Tally.Left[face * bands + band].Add(weight);
     this->Tally.LeftSquares[face * bands + band].Add(weight * weight);
+    event.Weights[band] = weight;
+  }
+  if (this->Events)
+  {
+    this->Events->push_back(event);
   }
 }
 

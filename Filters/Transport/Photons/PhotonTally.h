@@ -10,6 +10,7 @@
 #define PhotonTally_h
 
 #include "Photons/PhotonListener.h"
+#include "Photons/PhotonRecorder.h"
 #include "Photons/PhotonSource.h"
 #include "Scene/SceneFaces.h"
 #include "Support/Ranks.h"
@@ -84,7 +85,12 @@ private:
 class PhotonTally::Listener : public PhotonListener
 {
 public:
-  Listener(PhotonTally& tally, const PhotonSource::Photon& photon) : Tally(tally), Photon(photon) {}
+  /// `events`: where it enters and leaves is added there, unless nullptr.
+  Listener(PhotonTally& tally, const PhotonSource::Photon& photon,
+    std::vector<PhotonRecorder::Event>* events)
+    : Tally(tally), Photon(photon), Events(events)
+  {
+  }
 
   void Leave(vtkIdType patch, const Eigen::Vector3d& position, const double* weights) override;
   void Escape(bool isScattered, const double* weights) override;
@@ -93,6 +99,7 @@ public:
 private:
   PhotonTally& Tally;
   const PhotonSource::Photon& Photon;
+  std::vector<PhotonRecorder::Event>* Events;
 };
 } // namespace LightTransport
 

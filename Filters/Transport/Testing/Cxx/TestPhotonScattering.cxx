@@ -271,6 +271,57 @@ void TestBodies()
 }
 
 //------------------------------------------------------------------------------
+/// Links, once made, give for any light what photons of that light give.
+void TestLinks()
+{
+  const auto makeBody = []()
+  {
+    Surface surface;
+    AddBox(surface, { 0, 0, 0 }, { 1, 2, 3 }, 3);
+    AddBox(surface, { 1.3, 0, 0 }, { 2, 2, 1 }, 2);
+    return surface.Get();
+  };
+  auto even = makeBody();
+  AddArray(even, "Irradiance", { 1.0, 1.0, 1.0 });
+  Run links(even);
+  links.Filter->SetLinkMethodToDense();
+  links.Filter->SetNumberOfPhotons(1000000);
+  links.Filter->SetScatteringCoefficient(2.0, 1.0, 0.5);
+  CheckWorks(links, "links of photons");
+  CheckClose(links.GetNumber("LinksReused"), 0.0, 0.0, "links are new");
+  Check(links.GetNumber("LinkErrorBound") < 0.02, "links have an error");
+
+  auto uneven = makeBody();
+  vtkDoubleArray* light = AddArray(uneven, "Irradiance", { 1.0, 0.5, 0.1 });
+  light->SetComponent(3, 0, 5.0);
+  light->SetComponent(60, 2, 5.0);
+  links.Filter->SetInputData(uneven);
+  CheckWorks(links, "links of photons in other light");
+  CheckClose(links.GetNumber("LinksReused"), 1.0, 0.0, "links are kept");
+
+  Run photons(uneven);
+  photons.Filter->SetNumberOfPhotons(1000000);
+  photons.Filter->SetSeed(2);
+  photons.Filter->SetScatteringCoefficient(2.0, 1.0, 0.5);
+  CheckWorks(photons, "photons in other light");
+  double squares = 0.0;
+  int beyond = 0;
+  const vtkIdType values = 3 * uneven->GetNumberOfCells();
+  for (vtkIdType k = 0; k < values; ++k)
+  {
+    const auto get = [k](const Run& run, const char* name)
+    { return run.Get(name)->GetComponent(k / 3, k % 3); };
+    const double deviation =
+      (get(links, "ScatteredIrradiance") - get(photons, "ScatteredIrradiance")) /
+      std::hypot(get(links, "ScatteredIrradianceError"), get(photons, "ScatteredIrradianceError"));
+    squares += deviation * deviation / values;
+    beyond += std::abs(deviation) > 3.0;
+  }
+  CheckClose(squares, 1.0, 0.25, "squares of deviations over errors, of links");
+  Check(beyond <= 4, std::to_string(beyond) + " of 234 values beyond three errors");
+}
+
+//------------------------------------------------------------------------------
 void TestMedia()
 {
   Run nothing(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
@@ -360,6 +411,7 @@ int TestPhotonScattering(int, char*[])
   TestTarget();
   TestSameBits();
   TestBodies();
+  TestLinks();
   TestMedia();
   TestRefusals();
   return Result();
