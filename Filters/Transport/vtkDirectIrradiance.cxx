@@ -12,6 +12,7 @@
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -180,6 +181,7 @@ Outcome vtkDirectIrradiance::Run::Compute()
   {
     for (vtkIdType local = first; local < last; ++local)
     {
+      Pulse::Beat();
       this->ComputePatch(locals[local]);
     }
   };

@@ -4,6 +4,7 @@
 
 #include "Links/Links.h"
 #include "Scene/PatchScene.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
 #include "ViewFactors/BackFaceSearch.h"
@@ -179,6 +180,7 @@ std::vector<double> Openings::CastRays(const Settings& settings, const Ranks& ra
   {
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
+      Pulse::Beat();
       if (patch / PatchesPerTurn % ranks.GetNumber() != ranks.GetMine())
       {
         continue;
