@@ -37,6 +37,8 @@ namespace
 /// who aborts does not wait. The same on all ranks.
 constexpr double LeastBatches = 50.0;
 constexpr double RaysOfBatch = 4e6;
+// The light as a fraction of the progress.
+constexpr double LightDone = 0.97;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -185,7 +187,7 @@ Outcome vtkDirectIrradiance::Run::Compute()
       this->ComputePatch(locals[local]);
     }
   };
-  const Monitor monitor = this->Progress.GetMonitor();
+  const Monitor monitor = this->Progress.GetMonitor().GetStage(0.0, LightDone);
   const vtkIdType batches = this->GetNumberOfBatches();
   for (vtkIdType batch = 0; batch < batches; ++batch)
   {

@@ -53,7 +53,7 @@ DenseProductGL::DenseProductGL(FloatTextures& engine, const Layout& layout)
 }
 
 //------------------------------------------------------------------------------
-Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange)
+Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange, const Pause& pause)
 {
   this->SharedKernel = exchange->GetNumberOfKernels() == 1;
   this->MatrixGroups = this->SharedKernel ? 1 : this->Vectors.Groups;
@@ -73,7 +73,7 @@ Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange)
   {
     return this->RefuseMemory();
   }
-  this->Upload(exchange);
+  this->Upload(exchange, pause);
   return Outcome::Done();
 }
 
@@ -136,7 +136,7 @@ Outcome DenseProductGL::Allocate()
 }
 
 //------------------------------------------------------------------------------
-void DenseProductGL::Upload(vtkExchangeMatrix* exchange)
+void DenseProductGL::Upload(vtkExchangeMatrix* exchange, const Pause& pause)
 {
   const int lanes = this->SharedKernel ? 1 : 4;
   const int kernels = exchange->GetNumberOfKernels();
@@ -154,6 +154,10 @@ void DenseProductGL::Upload(vtkExchangeMatrix* exchange)
         CopyTile(tile, true, 4 * group, kernels, lanes, texels.data());
         this->UploadBlock(column, row, group, texels.data());
       }
+    }
+    if (row == column)
+    {
+      pause();
     }
   }
 }

@@ -126,6 +126,7 @@ bool Openings::Exist() const
   PatchOutlook::Hits hits(patches);
   for (vtkIdType patch = 0; patch < patches; patch += step)
   {
+    Pulse::Beat();
     if (PatchOutlook(this->Scene, this->Caster, patch, hits).GetOpen().Value > 0.0)
     {
       return true;
