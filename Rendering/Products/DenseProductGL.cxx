@@ -69,7 +69,7 @@ Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange, const Pause& pau
   {
     return enough;
   }
-  if (!this->Allocate())
+  if (!this->Allocate(pause))
   {
     return this->RefuseMemory();
   }
@@ -112,7 +112,7 @@ void DenseProductGL::ChooseSizes()
 }
 
 //------------------------------------------------------------------------------
-Outcome DenseProductGL::Allocate()
+Outcome DenseProductGL::Allocate(const Pause& pause)
 {
   for (MatrixTile& tile : this->Tiles)
   {
@@ -124,6 +124,7 @@ Outcome DenseProductGL::Allocate()
     }
     // What is not uploaded is zero.
     this->Engine.Clear(tile.Textures);
+    pause();
   }
   const Layout& vectors = this->Vectors;
   Outcome allocated = this->Engine.Allocate(this->Parts,

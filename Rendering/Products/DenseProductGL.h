@@ -36,7 +36,7 @@ private:
   };
 
   void ChooseSizes();
-  Outcome Allocate();
+  Outcome Allocate(const Pause& pause);
   void Upload(vtkExchangeMatrix* exchange, const Pause& pause);
   void UploadBlock(int rowBlock, int columnBlock, int group, const float* texels);
   std::string GetDefines(int outputs) const;
