@@ -238,7 +238,7 @@ public:
   }
 
 private:
-  static constexpr int NumberOfAborts = 8;
+  static constexpr int NumberOfAborts = 6;
 
   void Renew()
   {
@@ -285,7 +285,7 @@ vtkSmartPointer<vtkPolyData> MakeLitRoom(int n)
 //------------------------------------------------------------------------------
 void TestRadiosity()
 {
-  constexpr int side = 11;
+  constexpr int side = 9;
   constexpr vtkIdType patches = 6 * side * side;
   constexpr vtkIdType tileRows =
     (patches + vtkExchangeMatrix::TileSize - 1) / vtkExchangeMatrix::TileSize;
@@ -331,7 +331,7 @@ void TestHierarchy()
 //------------------------------------------------------------------------------
 void TestViewFactors()
 {
-  const auto room = MakeLitRoom(11);
+  const auto room = MakeLitRoom(7);
   Runs<vtkViewFactors>([&](vtkViewFactors* factors) { factors->SetInputData(room); },
     "ViewFactorSum", "view factors")
     .Abort();
@@ -340,7 +340,7 @@ void TestViewFactors()
 //------------------------------------------------------------------------------
 void TestScattering()
 {
-  const auto room = MakeLitRoom(11);
+  const auto room = MakeLitRoom(7);
   Runs<vtkSubsurfaceScattering> runs(
     [&](vtkSubsurfaceScattering* scattering)
     {
