@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/SceneRayCaster.h"
 
+#include "Shared/Pulse.h"
+
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -263,6 +265,7 @@ struct SceneRayCaster::Internals
   }
 
   void AddPatches(const PatchScene& scene, const std::vector<bool>* subset);
+  void Commit();
   static void FindBox(const RTCBoundsFunctionArguments* arguments);
 };
 
@@ -272,6 +275,7 @@ void SceneRayCaster::Internals::AddPatches(const PatchScene& scene, const std::v
   this->Scene = &scene;
   for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
   {
+    Pulse::Beat(patch);
     if (!subset || (*subset)[patch])
     {
       const PatchPlane plane = scene.GetPlane(patch);
@@ -288,6 +292,33 @@ void SceneRayCaster::Internals::AddPatches(const PatchScene& scene, const std::v
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(this->Tree, geometry);
   rtcReleaseGeometry(geometry);
+}
+
+//------------------------------------------------------------------------------
+// Embree asks now and then whether to go on; exceptions must not pass through it.
+void SceneRayCaster::Internals::Commit()
+{
+  bool isStopped = false;
+  const auto goesOn = [](void* stopped, double)
+  {
+    try
+    {
+      Pulse::Beat();
+      return true;
+    }
+    catch (const Stopped&)
+    {
+      *static_cast<bool*>(stopped) = true;
+      return false;
+    }
+  };
+  rtcSetSceneProgressMonitorFunction(this->Tree, goesOn, &isStopped);
+  rtcCommitScene(this->Tree);
+  rtcSetSceneProgressMonitorFunction(this->Tree, nullptr, nullptr);
+  if (isStopped)
+  {
+    throw Stopped();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -330,7 +361,7 @@ Outcome SceneRayCaster::Build(const PatchScene& scene, const std::vector<bool>* 
   {
     this->Internal->Tree = rtcNewScene(this->Internal->Device);
     this->Internal->AddPatches(scene, subset);
-    rtcCommitScene(this->Internal->Tree);
+    this->Internal->Commit();
     ok = rtcGetDeviceError(this->Internal->Device) == RTC_ERROR_NONE;
   }
   if (!ok)
