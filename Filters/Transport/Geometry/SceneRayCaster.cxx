@@ -3,6 +3,7 @@
 #include "Geometry/SceneRayCaster.h"
 
 #include "Shared/Pulse.h"
+#include "Shared/TransportMemory.h"
 
 #if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -198,6 +199,13 @@ struct Segment
 };
 
 //------------------------------------------------------------------------------
+// Embree asks before it takes memory, and is told at once how much it has taken or given back.
+bool HasMemory(void*, ssize_t bytes, bool isTaken)
+{
+  return isTaken || bytes <= 0 || TransportMemory::CanAllocate(static_cast<double>(bytes));
+}
+
+//------------------------------------------------------------------------------
 void TestOccluded(const RTCOccludedFunctionNArguments* arguments)
 {
   const auto* segment = reinterpret_cast<const Segment*>(arguments->context);
@@ -359,6 +367,7 @@ Outcome SceneRayCaster::Build(const PatchScene& scene, const std::vector<bool>* 
   bool ok = this->Internal->Device != nullptr;
   if (ok)
   {
+    rtcSetDeviceMemoryMonitorFunction(this->Internal->Device, HasMemory, nullptr);
     this->Internal->Tree = rtcNewScene(this->Internal->Device);
     this->Internal->AddPatches(scene, subset);
     this->Internal->Commit();

@@ -6,6 +6,7 @@
 #include "Scene/PatchScene.h"
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/OutputMemory.h"
 #include "Shared/Pulse.h"
 #include "Shared/ZeroedArray.h"
 #include "vtkCellArray.h"
@@ -34,12 +35,12 @@ void AppendPoints(vtkPolyData* input, const std::vector<vtkIdType>& sources, vtk
   const vtkIdType total = old + static_cast<vtkIdType>(sources.size());
   vtkNew<vtkPoints> points;
   points->SetDataType(input->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(total);
+  ZeroedArray::Fill(points->GetData(), total);
   vtkPointData* from = input->GetPointData();
   vtkPointData* to = output->GetPointData();
   to->Initialize();
   to->CopyAllOn();
-  to->CopyAllocate(from, total);
+  OutputMemory::AllocateCopies(from, total, to);
   for (vtkIdType point = 0; point < total; ++point)
   {
     Pulse::Beat(point);
@@ -131,6 +132,8 @@ void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
   std::vector<vtkIdType> sources; // of the points added
   std::map<PointGroups, vtkIdType> added;
   vtkNew<vtkCellArray> polygons;
+  OutputMemory::Allocate(input->GetPolys()->GetNumberOfCells(),
+    input->GetPolys()->GetNumberOfConnectivityIds(), polygons);
   vtkNew<vtkIdList> corners;
   auto local = static_cast<std::size_t>(firstLocal);
   const vtkIdType first = Leaves::GetFirstPolygonCell(input);
