@@ -3,6 +3,7 @@
 #include "vtkOpenEXRReader.h"
 
 #include "Files/ChannelGroups.h"
+#include "Files/CodecMemory.h"
 #include "Files/LuminanceChroma.h"
 #include "Files/OpenEXRFileCheck.h"
 #include "Shared/ArrayNames.h"
@@ -421,6 +422,7 @@ Outcome vtkOpenEXRReader::ReadLevel(vtkImageData* output)
       AddSlices(group, window, arrays.back(), target);
     }
   }
+  CodecMemory::Require(header);
   image.Read(this->Level, target, MakeFilterMonitor(this));
   for (auto& [index, pixels] : converted)
   {

@@ -3,6 +3,7 @@
 #include "vtkOpenEXRWriter.h"
 
 #include "Files/ChannelGroups.h"
+#include "Files/CodecMemory.h"
 #include "Files/PixelLevels.h"
 #include "Files/ReplacementStream.h"
 #include "Files/WrittenChannels.h"
@@ -291,6 +292,7 @@ Outcome vtkOpenEXRWriter::WriteImage(vtkImageData* image, FileReplacement& file)
     ChannelGroups::KeepScalars(header, scalars->GetName(),
       WrittenChannels::GetName(scalars, 0, true));
   }
+  CodecMemory::Require(header);
   ReplacementStream stream(file, this->FileName);
   PixelLevels levels(channels, weights, size);
   const Monitor monitor = MakeFilterMonitor(this);

@@ -5,6 +5,7 @@
 #include "Atlas/AtlasTexels.h"
 #include "Atlas/AtlasTexture.h"
 #include "Device/DeviceSession.h"
+#include "Shared/Attempt.h"
 #include "vtkLightTransportAtlasSampleFS.h"
 
 #include "vtkDoubleArray.h"
@@ -23,6 +24,9 @@ vtkStandardNewMacro(vtkOpenGLAtlasTexture);
 
 namespace
 {
+constexpr Advice WithoutMemory = { "use an atlas of lower resolution, or fewer points",
+  "OpenGL gave up", "try a newer driver" };
+
 //------------------------------------------------------------------------------
 // A square of a power of two texels a side whose place is a multiple of it.
 bool IsBlock(const double block[3], int resolution)
@@ -115,8 +119,9 @@ bool vtkOpenGLAtlasTexture::Build(vtkImageData* maps, const char* valueName, con
   }
   vtkDataArray* values = maps->GetPointData()->GetArray(valueName);
   std::vector<float> texels;
-  if (Outcome made = MakeAtlasTexels(texels, values, maps->GetPointData()->GetArray(areaName));
-      !made)
+  const auto make = [&]()
+  { return MakeAtlasTexels(texels, values, maps->GetPointData()->GetArray(areaName)); };
+  if (Outcome made = Attempt(make, WithoutMemory); !made)
   {
     vtkErrorMacro(<< made.GetMessage());
     return false;
@@ -167,7 +172,8 @@ bool vtkOpenGLAtlasTexture::ReadLevel(int level, vtkFloatArray* texels)
     return false;
   }
   const DeviceSession session(this->Texture->GetEngine().GetWindow());
-  if (Outcome read = this->Texture->ReadLevel(level, texels); !read)
+  const auto readLevel = [&]() { return this->Texture->ReadLevel(level, texels); };
+  if (Outcome read = Attempt(readLevel, WithoutMemory); !read)
   {
     vtkErrorMacro("OpenGL failed in reading a level with " << read.GetMessage() << ".");
     return false;
@@ -212,7 +218,8 @@ bool vtkOpenGLAtlasTexture::Sample(vtkDataArray* coordinates, vtkDataArray* bloc
   }
   FloatTextures& engine = this->Texture->GetEngine();
   const DeviceSession session(engine.GetWindow());
-  if (Outcome sampled = this->Texture->Sample(coordinates, blocks, levels, values); !sampled)
+  const auto sample = [&]() { return this->Texture->Sample(coordinates, blocks, levels, values); };
+  if (Outcome sampled = Attempt(sample, WithoutMemory); !sampled)
   {
     vtkErrorMacro("OpenGL failed in sampling an atlas with " << sampled.GetMessage() << " on "
                                                              << engine.GetDeviceName() << ".");

@@ -12,6 +12,8 @@
 #include "vtkExchange.h"
 #include "vtkObjectFactory.h"
 
+#include <optional>
+
 using namespace LightTransport;
 
 // Registers this class with VTK's object factory whenever the library is loaded, also where nobody
@@ -47,7 +49,7 @@ struct vtkOpenGLLinkOperator::DeviceParts
     this->Engine.reset();
   }
 
-  /// In the context of the window, which is open.
+  /// In the context of the window, which is open. Observers of progress get it now and then.
   Outcome Initialize(vtkExchange* exchange, int numberOfBands, int maximumTextureSize);
 };
 
@@ -60,7 +62,15 @@ Outcome vtkOpenGLLinkOperator::DeviceParts::Initialize(vtkExchange* exchange, in
   {
     return Outcome::Failed("This OpenGL cannot make floating-point textures");
   }
-  const DeviceSession session(this->Window.Get());
+  std::optional<DeviceSession> session(this->Window.Get());
+  Outcome taken = Outcome::Done();
+  const auto pause = [&]()
+  {
+    taken = taken ? DeviceErrors::Check() : taken;
+    session.reset();
+    vtkDeviceLinkOperator::Beat();
+    session.emplace(this->Window.Get());
+  };
   this->Vectors = std::make_unique<FloatVectors>(*this->Engine);
   if (Outcome initialized = this->Vectors->Initialize(exchange->GetNumberOfPatches(), numberOfBands,
         maximumTextureSize);
@@ -69,12 +79,12 @@ Outcome vtkOpenGLLinkOperator::DeviceParts::Initialize(vtkExchange* exchange, in
     return initialized;
   }
   if (Outcome made =
-        ProductGL::Make(this->Product, exchange, *this->Engine, this->Vectors->GetLayout());
+        ProductGL::Make(this->Product, exchange, *this->Engine, this->Vectors->GetLayout(), pause);
       !made)
   {
     return made;
   }
-  const Outcome taken = DeviceErrors::Check();
+  taken = taken ? DeviceErrors::Check() : taken;
   return taken ? taken
                : Outcome::Failed("OpenGL failed in taking the links with " + taken.GetMessage() +
                    " on " + this->Window.GetDeviceName());

@@ -12,16 +12,14 @@ set -euo pipefail
 # shellcheck source=Utilities/setup.sh
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
-preset=${1:-}
-if [ "$preset" != sanitizers ] && [ "$preset" != tsan ]; then
-  stop 'the first argument is the preset: sanitizers or tsan.'
-fi
+case ${1:-} in
+  sanitizers | tsan) use_preset "$1" ;;
+  *) stop 'the first argument is the preset: sanitizers or tsan.' ;;
+esac
 shift
 
 prepare
-choose_jobs
-cd "$source_dir"
-cmake --preset "$preset" "${configure_options[@]}" || stop 'CMake could not configure: see its messages above.'
-cmake --build --preset "$preset" --parallel "$jobs" || stop 'the build failed: see the first error above.'
+configure
+compile
 say "testing with $preset"
 exec ctest --preset "$preset" --label-exclude gl --timeout 3600 "$@"

@@ -6,6 +6,7 @@
 # run. It leaves `source_dir`, `build_dir`, `debian` and `jobs` set. It removes nothing: no package, no file that it did not make.
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+preset=default
 build_dir=$source_dir/build
 
 # The libraries that the modules use, Mesa's EGL and OSMesa. Tests take meshes from libcgal-demo. Which VTK comes with them depends
@@ -40,6 +41,13 @@ use_system_tools()
   unset PYTHONPATH PYTHONHOME LD_LIBRARY_PATH LD_PRELOAD
   # Nothing here needs a display: an X server that happens to be there must not change what is tested.
   unset DISPLAY WAYLAND_DISPLAY
+}
+
+# Another of CMake's presets than "default"; each has a folder of its own.
+use_preset()
+{
+  preset=$1
+  build_dir=$source_dir/build-$preset
 }
 
 check_system()
@@ -144,7 +152,7 @@ check_build_directory()
   fi
   home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build_dir/CMakeCache.txt" 2>/dev/null || true)
   if [ "$home" != "$source_dir" ] || ! grep -q '^CMAKE_GENERATOR:INTERNAL=Ninja$' "$build_dir/CMakeCache.txt"; then
-    stop "$build_dir exists and was not made by this project's \"default\" CMake preset." \
+    stop "$build_dir exists and was not made by this project's \"$preset\" CMake preset." \
       'Move it away or remove it, then run this again.'
   fi
   [ -w "$build_dir" ] || stop "$build_dir belongs to another user." 'Remove it as that user, or run this as that user.'
@@ -153,13 +161,13 @@ check_build_directory()
 # Arguments go to CMake.
 configure()
 {
-  [ -w "$source_dir" ] || stop "$source_dir is not writable, and build/ is made there."
+  [ -w "$source_dir" ] || stop "$source_dir is not writable, and $(basename "$build_dir")/ is made there."
   check_build_directory
   check_disk "$source_dir" 1000
   choose_jobs
   say "configuring in $build_dir"
   cd "$source_dir" || stop "$source_dir cannot be entered."
-  cmake --preset default "${configure_options[@]}" "$@" || stop 'CMake could not configure: see its messages above.'
+  cmake --preset "$preset" "${configure_options[@]}" "$@" || stop 'CMake could not configure: see its messages above.'
 }
 
 compile()

@@ -7,6 +7,7 @@
 #include "Common/MeshingRun.h"
 #include "Shared/FilterMonitor.h"
 #include "Shared/InputArrays.h"
+#include "Shared/ZeroedArray.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -62,8 +63,7 @@ public:
     this->Array->SetName(texels->GetName());
     this->Array->SetNumberOfComponents(this->Components);
     this->Array->CopyComponentNames(texels);
-    this->Array->SetNumberOfTuples(size);
-    this->Array->Fill(0.0);
+    ZeroedArray::Fill(this->Array, size);
     data->AddArray(this->Array);
   }
 

@@ -28,6 +28,14 @@ inline bool IsAborted(vtkAlgorithm* algorithm)
 {
   return IsAborted(algorithm, 0);
 }
+
+//------------------------------------------------------------------------------
+/// A wish counts for the run in which it was made: to be called before the first progress of
+/// another. Not all versions of VTK do it by themselves.
+inline void Forget(vtkAlgorithm* algorithm)
+{
+  algorithm->SetAbortExecute(0);
+}
 } // namespace AbortCheck
 } // namespace LightTransport
 

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// The border to what throws: memory that is refused, and the libraries. No exception leaves a
-/// filter, since hosts do not expect any.
+/// The border to what throws: memory that is refused, libraries, and work that is stopped. No
+/// exception leaves a filter, since hosts do not expect any.
 #ifndef Attempt_h
 #define Attempt_h
 
 #include "Shared/Outcome.h"
+#include "Shared/Stopped.h"
 
 #include <exception>
 #include <new>
@@ -22,7 +23,7 @@ struct Advice
   const char* Remedy;
 };
 
-/// Take a step, which returns an Outcome; what it throws becomes a failure.
+/// Take a step, which returns an Outcome; what it throws becomes a failure, or an abort.
 template <typename Step>
 Outcome Attempt(const Step& step, const Advice& advice)
 {
@@ -31,6 +32,10 @@ Outcome Attempt(const Step& step, const Advice& advice)
   try
   {
     return step();
+  }
+  catch (const Stopped&)
+  {
+    return Outcome::Aborted();
   }
   catch (const std::bad_alloc&)
   {

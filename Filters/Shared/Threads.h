@@ -13,10 +13,13 @@
 #ifndef TransportThreads_h
 #define TransportThreads_h
 
+#include "Shared/Pulse.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -87,18 +90,30 @@ void Run(Work&& work)
   failure.Rethrow();
 }
 
-/// Call `work` on this thread and on `others` more, or on fewer where the system refuses some.
-/// `work` must not throw.
-template <typename Work>
-void RunOn(int others, const Work& work)
+/// Call `work` on this thread and `help` on `others` more, or on fewer where the system refuses
+/// some; then, until all of them are done, `wait` now and then. None of these may throw.
+template <typename Work, typename Help, typename Wait>
+void RunOn(int others, const Work& work, const Help& help, const Wait& wait)
 {
   std::vector<std::thread> threads;
+  std::mutex mutex;
+  std::condition_variable ended;
+  int running = 0;
+  const auto run = [&]()
+  {
+    help();
+    const std::lock_guard<std::mutex> lock(mutex);
+    --running;
+    ended.notify_one();
+  };
   try
   {
     threads.reserve(std::max(others, 0));
     for (int k = 0; k < others; ++k)
     {
-      threads.emplace_back(work);
+      threads.emplace_back(run);
+      const std::lock_guard<std::mutex> lock(mutex);
+      ++running;
     }
   }
   catch (const std::system_error&)
@@ -108,6 +123,14 @@ void RunOn(int others, const Work& work)
   {
   }
   work();
+  std::unique_lock<std::mutex> lock(mutex);
+  while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&]() { return running == 0; }))
+  {
+    lock.unlock();
+    wait();
+    lock.lock();
+  }
+  lock.unlock();
   for (std::thread& thread : threads)
   {
     thread.join();
@@ -127,11 +150,13 @@ struct HasInitialize<Functor, std::void_t<decltype(std::declval<Functor&>().Init
 
 /// vtkSMPTools::For on threads: functor(from, to) for parts of [first, last) of `grain` numbers
 /// each, any (0) as seems good. Initialize() of the functor is called once on each thread that
-/// works, and Reduce() at the end, where it has them. Throws what the functor throws.
+/// works, and Reduce() at the end, where it has them. Throws what the functor throws. Each part is
+/// a beat of the calling thread's Pulse; on the others a beat ends the work where any has thrown.
 template <typename Functor>
 void For(vtkIdType first, vtkIdType last, vtkIdType grain, Functor& functor)
 {
   Failure failure;
+  const auto goesOn = [&failure]() { return !failure.HasHappened(); };
   std::atomic<vtkIdType> next{ first };
   const auto work = [&](vtkIdType part) // once on each thread
   {
@@ -148,6 +173,7 @@ void For(vtkIdType first, vtkIdType last, vtkIdType grain, Functor& functor)
         }
       }
       functor(from, std::min(from + part, last));
+      Pulse::Beat();
     }
   };
   Run(
@@ -157,8 +183,15 @@ void For(vtkIdType first, vtkIdType last, vtkIdType grain, Functor& functor)
       const vtkIdType part =
         grain > 0 ? grain : std::max<vtkIdType>((last - first) / (4 * threads), 1);
       const vtkIdType parts = (last - first + part - 1) / part;
-      RunOn(static_cast<int>(std::min<vtkIdType>(threads, parts)) - 1,
-        [&]() { failure.Catch([&]() { work(part); }); });
+      RunOn(
+        static_cast<int>(std::min<vtkIdType>(threads, parts)) - 1,
+        [&]() { failure.Catch([&]() { work(part); }); },
+        [&]()
+        {
+          const Pulse pulse(goesOn, 0.0);
+          failure.Catch([&]() { work(part); });
+        },
+        [&]() { failure.Catch([]() { Pulse::Beat(); }); });
       failure.Rethrow();
       if constexpr (HasInitialize<Functor>::value)
       {

@@ -27,19 +27,33 @@ inline double GetAvailableBytes()
   return 1024.0 * 1024.0 * static_cast<double>(system.GetAvailablePhysicalMemory());
 }
 
-/// Whether so many bytes are there, in the system and within the limits of this process, which
-/// show only when they are asked for. Nothing is kept.
-inline bool CanAllocate(double bytes)
+/// Whether the limits of this process leave so many bytes, which shows only when they are asked
+/// for. Nothing is kept.
+inline bool IsWithinLimits(double bytes)
 {
-  if (!(bytes <= GetAvailableBytes()))
-  {
-    return false;
-  }
   // Volatile, so that no compiler leaves it out.
   char* volatile probe = new (std::nothrow) char[static_cast<std::size_t>(bytes) + 1];
   const bool granted = probe != nullptr;
   delete[] probe;
   return granted;
+}
+
+/// Whether so many bytes are there, in the system and within the limits of this process.
+inline bool CanAllocate(double bytes)
+{
+  return bytes <= GetAvailableBytes() && IsWithinLimits(bytes);
+}
+
+/// Throws std::bad_alloc where so many bytes are not there. For what VTK allocates: some of its
+/// builds end the process where they get nothing, so that it is asked for here just before.
+inline void Require(double bytes)
+{
+  // What all the small things beside it take.
+  constexpr double margin = 1048576.0;
+  if (!CanAllocate(bytes + margin))
+  {
+    throw std::bad_alloc();
+  }
 }
 
 /// A number of bytes for messages.

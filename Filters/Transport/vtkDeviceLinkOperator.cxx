@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeviceLinkOperator.h"
 
+#include "Shared/Pulse.h"
 #include "vtkObjectFactory.h"
 
 //------------------------------------------------------------------------------
@@ -18,6 +19,12 @@ vtkDeviceLinkOperator::vtkDeviceLinkOperator() = default;
 
 //------------------------------------------------------------------------------
 vtkDeviceLinkOperator::~vtkDeviceLinkOperator() = default;
+
+//------------------------------------------------------------------------------
+void vtkDeviceLinkOperator::Beat()
+{
+  LightTransport::Pulse::Beat();
+}
 
 //------------------------------------------------------------------------------
 void vtkDeviceLinkOperator::PrintSelf(ostream& os, vtkIndent indent)

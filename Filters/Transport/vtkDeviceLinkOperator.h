@@ -38,6 +38,11 @@ protected:
   vtkDeviceLinkOperator();
   ~vtkDeviceLinkOperator() override;
 
+  /// To be called now and then where Initialize takes long, in no state that an observer of
+  /// progress must not meet: the filter that initialises the operator tells its progress, and
+  /// leaves by an exception where it is aborted.
+  static void Beat();
+
 private:
   vtkDeviceLinkOperator(const vtkDeviceLinkOperator&) = delete;
   void operator=(const vtkDeviceLinkOperator&) = delete;

@@ -12,6 +12,7 @@
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -36,6 +37,8 @@ namespace
 /// who aborts does not wait. The same on all ranks.
 constexpr double LeastBatches = 50.0;
 constexpr double RaysOfBatch = 4e6;
+// The light as a fraction of the progress.
+constexpr double LightDone = 0.97;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -180,10 +183,11 @@ Outcome vtkDirectIrradiance::Run::Compute()
   {
     for (vtkIdType local = first; local < last; ++local)
     {
+      Pulse::Beat();
       this->ComputePatch(locals[local]);
     }
   };
-  const Monitor monitor = this->Progress.GetMonitor();
+  const Monitor monitor = this->Progress.GetMonitor().GetStage(0.0, LightDone);
   const vtkIdType batches = this->GetNumberOfBatches();
   for (vtkIdType batch = 0; batch < batches; ++batch)
   {

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExchangeHierarchy.h"
 
+#include "Shared/Pulse.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 #include <new>
+
+using LightTransport::Pulse;
 
 vtkStandardNewMacro(vtkExchangeHierarchy);
 
@@ -93,8 +96,10 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
   this->Values.clear();
   this->NumberOfLinks = 0;
   this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
+  std::size_t step = 0;
   for (const Link& link : links)
   {
+    Pulse::Beat(++step);
     ++this->Offsets[link.I + 1];
     this->Offsets[link.J + 1] += link.I == link.J ? 0 : 1;
   }
@@ -121,6 +126,7 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
   };
   for (const Link& link : links)
   {
+    Pulse::Beat(++step);
     put(link.I, link.J, link.Value);
     if (link.I != link.J)
     {

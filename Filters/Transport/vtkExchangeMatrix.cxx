@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExchangeMatrix.h"
 
+#include "Shared/Threads.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
@@ -65,16 +66,26 @@ bool vtkExchangeMatrix::Allocate(const std::vector<double>& areas, int numberOfK
   int numberOfParts)
 {
   this->AllocateSparse(areas, numberOfKernels, part, numberOfParts);
-  bool good = this->AddChunk(static_cast<vtkIdType>(this->Tiles.size()));
-  for (Tile& tile : this->Tiles)
-  {
-    good = good && this->AllocateTile(tile);
-  }
-  if (!good)
+  const auto tiles = static_cast<vtkIdType>(this->Tiles.size());
+  if (!this->AddChunk(tiles))
   {
     this->AllocateSparse({}, numberOfKernels, part, numberOfParts);
+    return false;
   }
-  return good;
+  for (Tile& tile : this->Tiles)
+  {
+    tile.Values = this->FreeTiles.back();
+    this->FreeTiles.pop_back();
+  }
+  // The system hands out memory as it is written, which for a large matrix takes seconds.
+  auto clear = [this](vtkIdType begin, vtkIdType end)
+  {
+    const vtkIdType values = TileValues * this->NumberOfKernels;
+    std::for_each(this->Tiles.begin() + begin, this->Tiles.begin() + end,
+      [values](const Tile& tile) { std::fill_n(tile.Values, values, 0.0f); });
+  };
+  LightTransport::Threads::For(0, tiles, 1, clear);
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Run/TransportRun.h"
+#include "Shared/AbortCheck.h"
 #include "Shared/OutputLikeInput.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
@@ -62,6 +63,14 @@ int vtkTransportAlgorithm::RequestDataObject(vtkInformation*, vtkInformationVect
 }
 
 //------------------------------------------------------------------------------
+int vtkTransportAlgorithm::RequestUpdateExtent(vtkInformation* request,
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  AbortCheck::Forget(this);
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
 int vtkTransportAlgorithm::RequestData(vtkInformation*, vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
@@ -70,6 +79,7 @@ int vtkTransportAlgorithm::RequestData(vtkInformation*, vtkInformationVector** i
   ports.Input = vtkDataObject::GetData(inputs[0], 0);
   ports.Output = vtkDataObject::GetData(outputs, 0);
   ports.Table = this->GetNumberOfOutputPorts() > 1 ? vtkTable::GetData(outputs, 1) : nullptr;
+  ports.ProgressInterval = this->ProgressInterval;
   const Outcome outcome = this->MakeRun(ports)->Go();
   if (!outcome)
   {
@@ -92,5 +102,6 @@ void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "ProgressInterval: " << this->ProgressInterval << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
 }

@@ -30,6 +30,10 @@
  *
  * Errors are reported with vtkErrorMacro and leave the output empty; on several ranks all agree on
  * an error before any of them enters a collective call.
+ *
+ * Progress is told ten times a second, whatever the filter is at; an observer that calls
+ * SetAbortExecute(1) then ends the run, with an empty output and no error. The wish is that of the
+ * run: the next one does not know of it. Several ranks hear it only where all of them report.
  */
 #ifndef vtkTransportAlgorithm_h
 #define vtkTransportAlgorithm_h
@@ -94,6 +98,10 @@ protected:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
     vtkInformationVector* outputs) override;
 
+  /// Comes before each run.
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+
   /// Runs what MakeRun gives, and reports what comes of it.
   int RequestData(vtkInformation* request, vtkInformationVector** inputs,
     vtkInformationVector* outputs) final;
@@ -105,6 +113,8 @@ protected:
 
   vtkMultiProcessController* Controller = nullptr;
   double FeatureAngle = 60.0;
+  /// Seconds after which progress is told again, and an abort heard, within a step that takes long.
+  double ProgressInterval = 0.1;
 
 private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;

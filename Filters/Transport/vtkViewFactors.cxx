@@ -17,6 +17,12 @@ using namespace LightTransport;
 
 vtkStandardNewMacro(vtkViewFactors);
 
+namespace
+{
+// The links as a fraction of the progress.
+constexpr double LinksDone = 0.98;
+} // namespace
+
 //------------------------------------------------------------------------------
 class vtkViewFactors::Run : public TransportRun
 {
@@ -42,7 +48,7 @@ protected:
   Outcome Link() override
   {
     return this->Owner->Store->Update(this->Scene, this->Owner->GetSettings(), {}, this->AllRanks,
-      this->Progress.GetMonitor());
+      this->Progress.GetMonitor().GetStage(0.0, LinksDone));
   }
 
   Outcome Compute() override

@@ -281,8 +281,13 @@ class TestCommandLine(FolderTestCase):
             stream.write("<VTKFile type='PolyData'><broken")
         self.check_failure(self.run_command("radiosity", garbage, out), 1, "garbage.vtp")
         lit = self.make_lit_cube()
-        out = self.path("no/such/out.vtp")
-        self.check_failure(self.run_command("radiosity", lit, out), 1, "no such directory")
+        # Before anything is computed: nothing would come of it.
+        os.mkdir(self.path("folder.vtp"))
+        for out, reason in (("no/such/out.vtp", "folder must exist"),
+                            ("folder.vtp", "that of a folder")):
+            result = self.run_command("radiosity", lit, self.path(out))
+            self.check_failure(result, 1, reason)
+            self.assertNotIn("read: ", result.stderr)
 
     def test_failure_keeps_the_older_file(self):
         with open(self.path("out.vtp"), "w", encoding="utf-8") as stream:

@@ -8,6 +8,7 @@ import signal
 import socket
 import stat
 import unittest
+import unittest.mock
 
 from vtklighttransport.replacement import replace_file
 
@@ -138,6 +139,21 @@ class TestReplacement(FolderTestCase):
             self.assertNotEqual(run_apart(lambda name=name: write(name)), 0)
         self.assertEqual(os.listdir(self.folder), ["file"])
         self.assertEqual(self.read("file"), b"old")
+
+    def test_signals(self):
+        """One that comes while the file is written ends the process, and leaves nothing behind."""
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            self.make("file")
+
+            def write(number=number):
+                signal.signal(number, signal.SIG_DFL)
+                with unittest.mock.patch.object(
+                        os, "fsync", lambda _file: os.kill(os.getpid(), number)):
+                    replace_file(self.path("file"), b"new")
+
+            self.assertEqual(run_apart(write), -number)
+            self.assertEqual(os.listdir(self.folder), ["file"])
+            self.assertEqual(self.read("file"), b"new")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@
 
 The new file is written beside its place, under a name that nobody can foresee, and moved there when
 all of it is on the disk. Whatever fails before, an older file stays as it was and nothing is left
-beside it. Symbolic links stay, what they lead to is replaced; the older file's mode is kept.
+beside it; signals that end the process wait for that. Symbolic links stay, what they lead to is
+replaced; the older file's mode is kept.
 
 Needs nothing but Python.
 """
@@ -13,12 +14,37 @@ import contextlib
 import errno
 import os
 import secrets
+import signal
 import stat
+import threading
 
+ENDING_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # What a file system that knows no fsync answers.
 WITHOUT_FSYNC = (errno.EINVAL, errno.ENOSYS)
+HAS_EFFECTIVE_IDS = os.access in os.supports_effective_ids
 
 
+@contextlib.contextmanager
+def holding_signals_back():
+    """What would end the process comes afterwards. (Other threads would take a blocked signal.)"""
+    received = []
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        before = {number: signal.getsignal(number) for number in ENDING_SIGNALS}
+        # None: not Python's, and not to be restored by it.
+        before = {number: handler for number, handler in before.items() if handler is not None}
+    for number in before:
+        signal.signal(number, lambda number, _frame: received.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for number in received:
+            signal.raise_signal(number)
+
+
+@holding_signals_back()
 def replace_file(file, data):
     """Writes bytes. An OSError names what prevents it; its strerror is for messages."""
     target = os.path.realpath(file)
@@ -44,6 +70,15 @@ def replace_file(file, data):
                 os.remove(unfinished)
 
 
+def check_place(file):
+    """Tells before there is anything to write, as replace_file would, what prevents it."""
+    target = os.path.realpath(file)
+    check_target(file, target)
+    folder = os.path.dirname(target)
+    if not os.access(folder, os.W_OK | os.X_OK, effective_ids=HAS_EFFECTIVE_IDS):
+        raise refuse(file, "its folder must exist and let you write", errno.EACCES)
+
+
 def check_target(file, target):
     """The state of an older file, None where there is none."""
     try:
@@ -59,7 +94,7 @@ def check_target(file, target):
     if older.st_nlink > 1:
         raise refuse(file, f"it has {older.st_nlink} names (hard links), of which the others would "
                            "keep the old content; choose another name, or remove the file first")
-    if not os.access(target, os.W_OK, effective_ids=os.access in os.supports_effective_ids):
+    if not os.access(target, os.W_OK, effective_ids=HAS_EFFECTIVE_IDS):
         raise refuse(file, "the file is there and may not be written; choose another name, or "
                            "change its permissions", errno.EACCES)
     return older

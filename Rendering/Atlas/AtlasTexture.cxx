@@ -6,6 +6,7 @@
 #include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
 #include "Device/SharedWindow.h"
+#include "Shared/ZeroedArray.h"
 #include "vtkLightTransportAtlasPointsFS.h"
 #include "vtkLightTransportAtlasSampleFS.h"
 
@@ -143,7 +144,7 @@ Outcome AtlasTexture::ReadLevel(int level, vtkFloatArray* texels)
 {
   const vtkIdType side = this->Resolution >> level;
   texels->SetNumberOfComponents(4);
-  texels->SetNumberOfTuples(side * side);
+  ZeroedArray::Fill(texels, side * side);
   vtkOpenGLState* state = this->Engine->GetWindow()->GetState();
   this->Atlas[0]->Activate();
   state->vtkglPixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -180,7 +181,7 @@ Outcome AtlasTexture::Sample(vtkDataArray* coordinates, vtkDataArray* blocks, vt
 {
   const vtkIdType count = coordinates->GetNumberOfTuples();
   values->SetNumberOfComponents(this->Components);
-  values->SetNumberOfTuples(count);
+  ZeroedArray::Fill(values, count);
   if (count == 0)
   {
     return DeviceErrors::Check();

@@ -2,14 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Context/OffScreenContext.h"
 
+#include "Shared/TransportMemory.h"
+
 #include <cstdlib>
 #include <string>
 
 namespace LightTransport
 {
+namespace
+{
+/// Address space of Mesa's software renderer, with its compiler (some 0.6 GB), and room to work in.
+constexpr double BytesOfContext = 1e9;
+} // namespace
+
 //------------------------------------------------------------------------------
 Outcome OffScreenContext::Create(std::unique_ptr<OffScreenContext>& context)
 {
+  // Drivers end the process where memory is refused to them.
+  if (!TransportMemory::IsWithinLimits(BytesOfContext))
+  {
+    return Outcome::Failed("OpenGL: a context needs " + TransportMemory::Format(BytesOfContext) +
+      " of address space, and the limits of this process leave less: raise them (ulimit -v).");
+  }
   const char* variable = std::getenv("VTK_DEFAULT_OPENGL_WINDOW");
   const std::string choice = variable ? variable : "";
   if (choice == "vtkEGLRenderWindow")

@@ -53,7 +53,7 @@ DenseProductGL::DenseProductGL(FloatTextures& engine, const Layout& layout)
 }
 
 //------------------------------------------------------------------------------
-Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange)
+Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange, const Pause& pause)
 {
   this->SharedKernel = exchange->GetNumberOfKernels() == 1;
   this->MatrixGroups = this->SharedKernel ? 1 : this->Vectors.Groups;
@@ -69,11 +69,11 @@ Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange)
   {
     return enough;
   }
-  if (!this->Allocate())
+  if (!this->Allocate(pause))
   {
     return this->RefuseMemory();
   }
-  this->Upload(exchange);
+  this->Upload(exchange, pause);
   return Outcome::Done();
 }
 
@@ -112,7 +112,7 @@ void DenseProductGL::ChooseSizes()
 }
 
 //------------------------------------------------------------------------------
-Outcome DenseProductGL::Allocate()
+Outcome DenseProductGL::Allocate(const Pause& pause)
 {
   for (MatrixTile& tile : this->Tiles)
   {
@@ -124,6 +124,7 @@ Outcome DenseProductGL::Allocate()
     }
     // What is not uploaded is zero.
     this->Engine.Clear(tile.Textures);
+    pause();
   }
   const Layout& vectors = this->Vectors;
   Outcome allocated = this->Engine.Allocate(this->Parts,
@@ -136,7 +137,7 @@ Outcome DenseProductGL::Allocate()
 }
 
 //------------------------------------------------------------------------------
-void DenseProductGL::Upload(vtkExchangeMatrix* exchange)
+void DenseProductGL::Upload(vtkExchangeMatrix* exchange, const Pause& pause)
 {
   const int lanes = this->SharedKernel ? 1 : 4;
   const int kernels = exchange->GetNumberOfKernels();
@@ -154,6 +155,10 @@ void DenseProductGL::Upload(vtkExchangeMatrix* exchange)
         CopyTile(tile, true, 4 * group, kernels, lanes, texels.data());
         this->UploadBlock(column, row, group, texels.data());
       }
+    }
+    if (row == column)
+    {
+      pause();
     }
   }
 }

@@ -19,7 +19,7 @@ class DenseProductGL : public ProductGL
 public:
   DenseProductGL(FloatTextures& engine, const Layout& layout);
 
-  Outcome Initialize(vtkExchangeMatrix* exchange);
+  Outcome Initialize(vtkExchangeMatrix* exchange, const Pause& pause);
   Outcome Draw(Group& target, const Group& source) override;
   int GetNumberOfLinkTextures() const override;
 
@@ -36,8 +36,8 @@ private:
   };
 
   void ChooseSizes();
-  Outcome Allocate();
-  void Upload(vtkExchangeMatrix* exchange);
+  Outcome Allocate(const Pause& pause);
+  void Upload(vtkExchangeMatrix* exchange, const Pause& pause);
   void UploadBlock(int rowBlock, int columnBlock, int group, const float* texels);
   std::string GetDefines(int outputs) const;
   Outcome DrawPartialProducts(const Group& source, int across);

@@ -21,7 +21,7 @@ HierarchicalProductGL::HierarchicalProductGL(FloatTextures& engine, const Layout
 }
 
 //------------------------------------------------------------------------------
-Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy)
+Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const Pause& pause)
 {
   const HierarchyLayout tables(*hierarchy, this->Vectors.Width, this->Vectors.MaximumSize);
   if (!tables.Fits())
@@ -48,7 +48,7 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy)
   {
     return this->RefuseMemory();
   }
-  this->Upload(tables);
+  this->Upload(tables, pause);
   return Outcome::Done();
 }
 
@@ -82,14 +82,14 @@ Outcome HierarchicalProductGL::Allocate(const HierarchyLayout& tables)
 }
 
 //------------------------------------------------------------------------------
-void HierarchicalProductGL::Upload(const HierarchyLayout& tables)
+void HierarchicalProductGL::Upload(const HierarchyLayout& tables, const Pause& pause)
 {
   this->UploadTable(this->Children, tables.MakeChildren());
   this->UploadTable(this->Rows, tables.MakeRows());
   if (!this->Tiles.empty())
   {
     this->UploadTable(this->Lines, tables.MakeLines());
-    this->UploadLinks(tables);
+    this->UploadLinks(tables, pause);
   }
 }
 
@@ -102,7 +102,7 @@ void HierarchicalProductGL::UploadTable(const Group& table, const std::vector<fl
 }
 
 //------------------------------------------------------------------------------
-void HierarchicalProductGL::UploadLinks(const HierarchyLayout& tables)
+void HierarchicalProductGL::UploadLinks(const HierarchyLayout& tables, const Pause& pause)
 {
   const int width = this->Vectors.Width;
   for (std::size_t tile = 0; tile < this->Tiles.size(); ++tile)
@@ -116,6 +116,7 @@ void HierarchicalProductGL::UploadLinks(const HierarchyLayout& tables)
       const int region[4] = { 0, at, width, height };
       this->Engine.Upload(this->Links[tile][0], region, width, texels.data());
       at += height;
+      pause();
     }
   }
 }

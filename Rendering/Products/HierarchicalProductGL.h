@@ -21,7 +21,7 @@ class HierarchicalProductGL : public ProductGL
 public:
   HierarchicalProductGL(FloatTextures& engine, const Layout& layout);
 
-  Outcome Initialize(vtkExchangeHierarchy* hierarchy);
+  Outcome Initialize(vtkExchangeHierarchy* hierarchy, const Pause& pause);
   Outcome Draw(Group& target, const Group& source) override;
   int GetNumberOfLinkTextures() const override { return static_cast<int>(this->Links.size()); }
 
@@ -30,9 +30,9 @@ private:
   using Tile = HierarchyLayout::Tile;
 
   Outcome Allocate(const HierarchyLayout& tables);
-  void Upload(const HierarchyLayout& tables);
+  void Upload(const HierarchyLayout& tables, const Pause& pause);
   void UploadTable(const Group& table, const std::vector<float>& texels);
-  void UploadLinks(const HierarchyLayout& tables);
+  void UploadLinks(const HierarchyLayout& tables, const Pause& pause);
 
   Outcome Use(vtkShaderProgram*& program, const char* name, const char* body,
     const std::string& extra = "");

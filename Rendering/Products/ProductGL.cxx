@@ -16,10 +16,10 @@ namespace
 //------------------------------------------------------------------------------
 template <typename Product, typename Exchange>
 Outcome MakeProduct(std::unique_ptr<ProductGL>& product, Exchange* exchange, FloatTextures& engine,
-  const ProductGL::Layout& layout)
+  const ProductGL::Layout& layout, const ProductGL::Pause& pause)
 {
   auto made = std::make_unique<Product>(engine, layout);
-  Outcome initialized = made->Initialize(exchange);
+  Outcome initialized = made->Initialize(exchange, pause);
   if (initialized)
   {
     product = std::move(made);
@@ -38,15 +38,15 @@ ProductGL::~ProductGL() = default;
 
 //------------------------------------------------------------------------------
 Outcome ProductGL::Make(std::unique_ptr<ProductGL>& product, vtkExchange* exchange,
-  FloatTextures& engine, const Layout& layout)
+  FloatTextures& engine, const Layout& layout, const Pause& pause)
 {
   if (auto* matrix = vtkExchangeMatrix::SafeDownCast(exchange))
   {
-    return MakeProduct<DenseProductGL>(product, matrix, engine, layout);
+    return MakeProduct<DenseProductGL>(product, matrix, engine, layout, pause);
   }
   if (auto* hierarchy = vtkExchangeHierarchy::SafeDownCast(exchange))
   {
-    return MakeProduct<HierarchicalProductGL>(product, hierarchy, engine, layout);
+    return MakeProduct<HierarchicalProductGL>(product, hierarchy, engine, layout, pause);
   }
   return Outcome::Failed(std::string("OpenGL does not apply a ") + exchange->GetClassName());
 }

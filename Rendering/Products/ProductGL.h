@@ -10,6 +10,7 @@
 #include "Textures/FloatTextures.h"
 #include "Textures/FloatVectors.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,9 @@ public:
   using Group = FloatTextures::Group;
   using Layout = FloatVectors::Layout;
 
+  /// Called between pieces of an upload: others may use the context then.
+  using Pause = std::function<void()>;
+
   virtual ~ProductGL();
   ProductGL(const ProductGL&) = delete;
   void operator=(const ProductGL&) = delete;
@@ -30,7 +34,7 @@ public:
   /// The product with this exchange, its tables uploaded. The message of a failure has no full
   /// stop. A new form of links gets its line here.
   static Outcome Make(std::unique_ptr<ProductGL>& product, vtkExchange* exchange,
-    FloatTextures& engine, const Layout& layout);
+    FloatTextures& engine, const Layout& layout, const Pause& pause);
 
   /// target = G source. May exchange the textures of the target for others.
   virtual Outcome Draw(Group& target, const Group& source) = 0;

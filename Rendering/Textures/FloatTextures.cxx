@@ -5,6 +5,7 @@
 #include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceSession.h"
+#include "Shared/TransportMemory.h"
 #include "vtkLightTransportTexturesCommonFS.h"
 #include "vtkLightTransportTexturesQuadVS.h"
 
@@ -18,6 +19,12 @@
 
 namespace LightTransport
 {
+namespace
+{
+/// What drivers need beside a texture, to draw with it.
+constexpr double BytesBesideTextures = 67108864.0;
+} // namespace
+
 //------------------------------------------------------------------------------
 FloatTextures::FloatTextures(vtkOpenGLRenderWindow* window)
   : Window(window), Framebuffer(vtkSmartPointer<vtkOpenGLFramebufferObject>::New())
@@ -75,6 +82,12 @@ int FloatTextures::GetMaximumGroupSize() const
 Outcome FloatTextures::Allocate(Group& group, std::size_t count, int width, int height)
 {
   group.clear();
+  // Drivers end the process where memory is refused to them.
+  const double texels = static_cast<double>(count) * width * height;
+  if (!TransportMemory::IsWithinLimits(4.0 * sizeof(float) * texels + BytesBesideTextures))
+  {
+    return Outcome::Failed("out of memory");
+  }
   for (std::size_t index = 0; index < count; ++index)
   {
     auto texture = vtkSmartPointer<vtkTextureObject>::New();

@@ -10,9 +10,32 @@
 #include "vtkOpenEXRReader.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
+#include <numeric>
+
 using namespace LightTransportFuzz;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace
+{
+//------------------------------------------------------------------------------
+// A part of the file, and one of its levels.
+void Choose(vtkOpenEXRReader* reader, unsigned int choice)
+{
+  const auto index = [&choice](int count)
+  {
+    const auto several = static_cast<unsigned int>(std::max(count, 1));
+    const unsigned int chosen = choice % several;
+    choice /= several;
+    return static_cast<int>(chosen);
+  };
+  reader->UpdateInformation();
+  reader->SetPart(index(reader->GetNumberOfParts()));
+  reader->UpdateInformation();
+  reader->SetLevel(index(reader->GetNumberOfLevels()));
+}
+} // namespace
 
 //------------------------------------------------------------------------------
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -28,10 +51,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   reader->AddObserver(vtkCommand::ErrorEvent, counter);
   reader->SetFileName(file.GetName().c_str());
   reader->CanReadFile(reader->GetFileName());
-  reader->UpdateInformation();
-  // The last byte chooses a level, so that those beyond the first are read as well.
-  const int levels = reader->GetNumberOfLevels();
-  reader->SetLevel(levels > 1 ? data[size - 1] % levels : 0);
+  // Every mutation chooses anew, so that images beyond the first are read as well.
+  Choose(reader, std::accumulate(data, data + size, 0u));
+  // The first image may be one that cannot be read.
+  errors = 0;
+  reader->Modified();
   reader->Update();
   vtkImageData* image = reader->GetOutput();
   const vtkIdType points = image->GetNumberOfPoints();

@@ -4,6 +4,8 @@
 
 #include "Common/Heartbeat.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/OutputMemory.h"
+#include "Shared/ZeroedArray.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -35,7 +37,7 @@ vtkSmartPointer<Array> MakeArray(const char* name, int components, vtkIdType tup
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  ZeroedArray::Fill(array, tuples);
   return array;
 }
 } // namespace
@@ -50,9 +52,15 @@ public:
 
 private:
   using Weights = std::map<vtkIdType, double>;
+  /// A chart's point, and the input point that it is there for.
+  using ChartPoint = std::pair<std::size_t, vtkIdType>;
 
+  void ReservePoints(vtkIdType more);
+  std::vector<vtkIdType> FindCorners(const AtlasQuadtree::Chart& chart,
+    std::vector<ChartPoint>& points, Heartbeat& heart);
+  vtkIdType GetOriginalCell(const AtlasQuadtree::Chart& chart, std::size_t triangle) const;
   vtkIdType GetOriginalPoint(std::size_t point, vtkIdType cell);
-  vtkIdType AddPoint(const AtlasQuadtree::Chart& chart, std::size_t point, vtkIdType original);
+  void AddPoint(const AtlasQuadtree::Chart& chart, std::size_t point, vtkIdType original);
   void AddWeights(std::size_t point, double weight, Weights& weights) const;
   void AddWeights(const AtlasQuadtree::Chart& chart, std::size_t point, double weight,
     Weights& weights) const;
@@ -68,23 +76,60 @@ private:
   vtkNew<vtkIntArray> Charts;
   vtkNew<vtkIdList> CellPoints;
   vtkNew<vtkIdList> Sources;
+  double BytesPerPoint;
+  vtkIdType RoomForPoints = 0;
 };
 
 //------------------------------------------------------------------------------
 AtlasOutput::SurfaceWriter::SurfaceWriter(const AtlasOutput& parts, vtkPolyData* output)
-  : Parts(parts), Output(output)
+  : Parts(parts), Output(output),
+    BytesPerPoint(OutputMemory::GetBytesPerTuple(parts.Input->GetPointData()) + 5 * sizeof(double) +
+      sizeof(vtkIdType))
 {
+  vtkIdType faces = 0;
+  for (const AtlasQuadtree::Chart& chart : parts.Quadtree.GetCharts())
+  {
+    faces += static_cast<vtkIdType>(chart.Disc.Triangles.size());
+    this->RoomForPoints += static_cast<vtkIdType>(chart.Disc.Points.size());
+  }
   this->Points->SetDataTypeToDouble();
   this->Coordinates->SetName(ArrayNames::AtlasCoordinates);
   this->Coordinates->SetNumberOfComponents(2);
   this->OriginalPoints->SetName(ArrayNames::OriginalPointIds);
   this->OriginalCells->SetName(ArrayNames::OriginalCellIds);
   this->Charts->SetName(ArrayNames::ChartId);
-  const auto faces = static_cast<vtkIdType>(parts.Surface.Triangles.size());
-  this->Cells->AllocateEstimate(faces, 3);
+  OutputMemory::Allocate(faces, 3 * faces, this->Cells);
   output->GetCellData()->CopyAllOn();
-  output->GetCellData()->CopyAllocate(parts.Input->GetCellData(), faces);
-  output->GetPointData()->InterpolateAllocate(parts.Input->GetPointData(), faces / 2);
+  OutputMemory::AllocateCopies(parts.Input->GetCellData(), faces, output->GetCellData());
+  TransportMemory::Require(
+    static_cast<double>(sizeof(vtkIdType) + sizeof(int)) * static_cast<double>(faces));
+  this->OriginalCells->Allocate(faces);
+  this->Charts->Allocate(faces);
+  TransportMemory::Require(this->BytesPerPoint * static_cast<double>(this->RoomForPoints));
+  output->GetPointData()->InterpolateAllocate(parts.Input->GetPointData(), this->RoomForPoints);
+  this->Points->Allocate(this->RoomForPoints);
+  this->Coordinates->Allocate(2 * this->RoomForPoints);
+  this->OriginalPoints->Allocate(this->RoomForPoints);
+}
+
+//------------------------------------------------------------------------------
+// Where input points coincide there are more points than the charts have. VTK's arrays double then,
+// and the old one is there until it is copied.
+void AtlasOutput::SurfaceWriter::ReservePoints(vtkIdType more)
+{
+  const vtkIdType count = this->Points->GetNumberOfPoints() + more;
+  if (count > this->RoomForPoints)
+  {
+    constexpr double oldAndNew = 3.0;
+    TransportMemory::Require(oldAndNew * this->BytesPerPoint * static_cast<double>(count));
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIdType AtlasOutput::SurfaceWriter::GetOriginalCell(const AtlasQuadtree::Chart& chart,
+  std::size_t triangle) const
+{
+  return this->Parts.Soup.CellIds[this->Parts.Surface.Sources[chart.Disc.Sources[triangle]]];
 }
 
 //------------------------------------------------------------------------------
@@ -156,7 +201,7 @@ void AtlasOutput::SurfaceWriter::InterpolatePoint(const Weights& weights, vtkIdT
 }
 
 //------------------------------------------------------------------------------
-vtkIdType AtlasOutput::SurfaceWriter::AddPoint(const AtlasQuadtree::Chart& chart, std::size_t point,
+void AtlasOutput::SurfaceWriter::AddPoint(const AtlasQuadtree::Chart& chart, std::size_t point,
   vtkIdType original)
 {
   const vtkIdType id = this->Points->InsertNextPoint(chart.Disc.Points[point].data());
@@ -172,34 +217,55 @@ vtkIdType AtlasOutput::SurfaceWriter::AddPoint(const AtlasQuadtree::Chart& chart
     this->AddWeights(chart, point, 1.0, weights);
     this->InterpolatePoint(weights, id);
   }
-  return id;
+}
+
+//------------------------------------------------------------------------------
+// The corners of the chart's triangles in the output, and the points to be added there.
+std::vector<vtkIdType> AtlasOutput::SurfaceWriter::FindCorners(const AtlasQuadtree::Chart& chart,
+  std::vector<ChartPoint>& points, Heartbeat& heart)
+{
+  // Input points that coincide may differ in their data, so each is there by itself.
+  std::map<ChartPoint, vtkIdType> known;
+  std::vector<vtkIdType> corners;
+  corners.reserve(3 * chart.Disc.Triangles.size());
+  const vtkIdType first = this->Points->GetNumberOfPoints();
+  for (std::size_t i = 0; i < chart.Disc.Triangles.size(); ++i)
+  {
+    heart.Beat();
+    const vtkIdType cell = this->GetOriginalCell(chart, i);
+    for (const std::size_t point : chart.Disc.Triangles[i])
+    {
+      const vtkIdType original =
+        point < chart.Points.size() ? this->GetOriginalPoint(chart.Points[point], cell) : -1;
+      const auto place =
+        known.emplace(ChartPoint(point, original), first + static_cast<vtkIdType>(points.size()));
+      if (place.second)
+      {
+        points.emplace_back(point, original);
+      }
+      corners.push_back(place.first->second);
+    }
+  }
+  return corners;
 }
 
 //------------------------------------------------------------------------------
 void AtlasOutput::SurfaceWriter::WriteChart(int id, const AtlasQuadtree::Chart& chart,
   Heartbeat& heart)
 {
-  // Input points that coincide may differ in their data, so each is there by itself.
-  std::map<std::pair<std::size_t, vtkIdType>, vtkIdType> known;
+  std::vector<ChartPoint> points;
+  const std::vector<vtkIdType> corners = this->FindCorners(chart, points, heart);
+  this->ReservePoints(static_cast<vtkIdType>(points.size()));
+  for (const ChartPoint& point : points)
+  {
+    heart.Beat();
+    this->AddPoint(chart, point.first, point.second);
+  }
   for (std::size_t i = 0; i < chart.Disc.Triangles.size(); ++i)
   {
     heart.Beat();
-    const std::size_t source = this->Parts.Surface.Sources[chart.Disc.Sources[i]];
-    const vtkIdType cell = this->Parts.Soup.CellIds[source];
-    vtkIdType corners[3];
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      const std::size_t point = chart.Disc.Triangles[i][corner];
-      const vtkIdType original =
-        point < chart.Points.size() ? this->GetOriginalPoint(chart.Points[point], cell) : -1;
-      const auto place = known.emplace(std::make_pair(point, original), -1).first;
-      if (place->second < 0)
-      {
-        place->second = this->AddPoint(chart, point, original);
-      }
-      corners[corner] = place->second;
-    }
-    const vtkIdType newCell = this->Cells->InsertNextCell(3, corners);
+    const vtkIdType cell = this->GetOriginalCell(chart, i);
+    const vtkIdType newCell = this->Cells->InsertNextCell(3, corners.data() + 3 * i);
     this->Output->GetCellData()->CopyData(this->Parts.Input->GetCellData(), cell, newCell);
     this->OriginalCells->InsertNextValue(cell);
     this->Charts->InsertNextValue(id);

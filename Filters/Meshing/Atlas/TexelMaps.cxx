@@ -6,6 +6,7 @@
 #include "Common/Heartbeat.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/TransportMemory.h"
+#include "Shared/ZeroedArray.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -73,7 +74,7 @@ public:
     this->Means->SetName(name);
     this->Means->SetNumberOfComponents(this->Components);
     this->Means->CopyComponentNames(source.Array);
-    this->Means->SetNumberOfTuples(maps->GetNumberOfPoints());
+    ZeroedArray::Fill(this->Means, maps->GetNumberOfPoints());
     Fill(this->Means.Get(), 0.0, monitor);
     maps->GetPointData()->AddArray(this->Means);
   }
@@ -133,7 +134,7 @@ vtkSmartPointer<Array> AddMap(const char* name, typename Array::ValueType value,
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
-  array->SetNumberOfTuples(maps->GetNumberOfPoints());
+  ZeroedArray::Fill(array, maps->GetNumberOfPoints());
   Fill(array.Get(), value, monitor);
   maps->GetPointData()->AddArray(array);
   return array;
@@ -154,7 +155,7 @@ vtkSmartPointer<vtkDoubleArray> MakeNormals(vtkPolyData* surface, const Monitor&
   Heartbeat heart(monitor);
   auto normals = vtkSmartPointer<vtkDoubleArray>::New();
   normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(surface->GetNumberOfCells());
+  ZeroedArray::Fill(normals, surface->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
     heart.Beat();

@@ -3,12 +3,13 @@
 /**
  * Asks, every so many steps, whether a job is still wanted, and ends it by an exception where not:
  * for loops deep inside of others, and for libraries that call ours back and know no other way
- * out. MeshingRun::Steps turns the exception into an outcome.
+ * out. Attempt turns the exception into an outcome.
  */
 #ifndef Heartbeat_h
 #define Heartbeat_h
 
 #include "Shared/Monitor.h"
+#include "Shared/Stopped.h"
 
 #include <cstddef>
 
@@ -17,10 +18,8 @@ namespace LightTransport
 class Heartbeat
 {
 public:
-  /// Thrown when the job is to stop. No std::exception, which libraries may catch.
-  struct Stopped
-  {
-  };
+  /// Thrown when the job is to stop.
+  using Stopped = LightTransport::Stopped;
 
   /// The monitor, which must outlive this, hears its first fraction again and again.
   explicit Heartbeat(const Monitor& monitor, std::size_t interval = 4096)

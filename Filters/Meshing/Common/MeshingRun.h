@@ -4,7 +4,6 @@
 #ifndef MeshingRun_h
 #define MeshingRun_h
 
-#include "Common/Heartbeat.h"
 #include "Shared/Attempt.h"
 #include "Shared/Outcome.h"
 #include "vtkDataObject.h"
@@ -19,7 +18,7 @@ namespace MeshingRun
 using LightTransport::Advice;
 
 /// Takes the steps of a filter, each of which returns an Outcome, as long as all before are done.
-/// What CGAL, Eigen and a lack of memory throw ends here and becomes a failure.
+/// What CGAL, Eigen, a lack of memory and a Heartbeat throw ends here.
 class Steps
 {
 public:
@@ -30,27 +29,13 @@ public:
   {
     if (this->Result)
     {
-      this->Result = Attempt([&step]() { return HearAbort(step); }, this->WhatToDo);
+      this->Result = Attempt(step, this->WhatToDo);
     }
   }
 
   const Outcome& GetOutcome() const { return this->Result; }
 
 private:
-  /// A job that nobody wants any more ends by an exception of its own.
-  template <typename Step>
-  static Outcome HearAbort(const Step& step)
-  {
-    try
-    {
-      return step();
-    }
-    catch (const Heartbeat::Stopped&)
-    {
-      return Outcome::Aborted();
-    }
-  }
-
   Advice WhatToDo;
   Outcome Result = Outcome::Done();
 };

@@ -10,10 +10,12 @@
 #include "vtkMath.h"
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 namespace LightTransport
@@ -37,6 +39,12 @@ constexpr double ShortestRatio = 4.0 / 5.0;
 // Beside edges to keep that are shorter than wanted, others may be this much longer than they are:
 // the smallest angle of such a triangle is 39 degrees.
 constexpr double LongestBesideKept = 1.5;
+// A triangle becomes a ladder when its shortest side is shorter than this part of the longest one;
+// its diagonals become rungs that are shorter than this part of them, and are next after edges that
+// are as long as this part of them: after the sides, before the halves of these.
+constexpr double ShortSideOfLong = 0.125;
+constexpr double ShortRung = 0.5;
+constexpr double UrgencyOfDiagonal = 0.75;
 
 //------------------------------------------------------------------------------
 // Whether the normals at an edge differ by more than the angle with this cosine.
@@ -96,15 +104,82 @@ double FindSplit(const WorkingMesh& work, Edge edge)
 }
 
 //------------------------------------------------------------------------------
-// Longest edges come first: it keeps triangles from getting thin.
+// Whether two sides of a triangle are so much longer than the third that it is split into a ladder.
+bool IsLong(const WorkingMesh& work, Face face)
+{
+  double shortest = std::numeric_limits<double>::max();
+  double longest = 0.0;
+  for (const Halfedge h : work.Mesh.halfedges_around_face(work.Mesh.halfedge(face)))
+  {
+    const double length = work.GetLength(work.Mesh.edge(h));
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  return shortest < ShortSideOfLong * longest;
+}
+
+//------------------------------------------------------------------------------
+// Whether an edge lies within one long triangle of the soup.
+bool IsOfLadder(const WorkingMesh& work, Edge edge)
+{
+  const Face a = work.Mesh.face(work.Mesh.halfedge(edge, 0));
+  const Face b = work.Mesh.face(work.Mesh.halfedge(edge, 1));
+  return !work.Kept[edge] && work.Sources[a] == work.Sources[b] && work.Long[a];
+}
+
+//------------------------------------------------------------------------------
+// Replace a diagonal by the rung between the points that its sides have been split at, if that is
+// much shorter.
+bool ReplaceByRung(WorkingMesh& work, Edge edge)
+{
+  const Halfedge h = work.Mesh.halfedge(edge);
+  const Halfedge back = work.Mesh.opposite(h);
+  const Vertex left = work.Mesh.target(work.Mesh.next(h));
+  const Vertex right = work.Mesh.target(work.Mesh.next(back));
+  const Point& p = work.Mesh.point(work.Mesh.source(h));
+  const Point& q = work.Mesh.point(work.Mesh.target(h));
+  const Point& l = work.Mesh.point(left);
+  const Point& r = work.Mesh.point(right);
+  const Vector normal = work.GetNormal(work.Mesh.face(h)) + work.GetNormal(work.Mesh.face(back));
+  if (CGAL::squared_distance(l, r) > ShortRung * ShortRung * CGAL::squared_distance(p, q) ||
+    !(CGAL::cross_product(p - l, r - l) * normal > 0.0) ||
+    !(CGAL::cross_product(r - l, q - l) * normal > 0.0) ||
+    work.Mesh.halfedge(left, right) != WorkingMesh::Surface::null_halfedge())
+  {
+    return false;
+  }
+  CGAL::Euler::flip_edge(h, work.Mesh);
+  work.OnLadder[left] = true;
+  work.OnLadder[right] = true;
+  return true;
+}
+
+// An edge that is to be split.
+struct LongEdge
+{
+  double Urgency;
+  Edge Index;
+  double Length;
+
+  bool operator<(const LongEdge& other) const
+  {
+    return std::tie(this->Urgency, this->Index) < std::tie(other.Urgency, other.Index);
+  }
+};
+
+//------------------------------------------------------------------------------
+// Longest edges come first: it keeps triangles from getting thin. Diagonals come after the sides of
+// their ladder and become rungs, so that long triangles double, and do not treble, each time that
+// their sides are halved.
 void SplitEdges(WorkingMesh& work, Heartbeat& heart)
 {
-  std::priority_queue<std::pair<double, Edge>> queue;
+  std::priority_queue<LongEdge> queue;
   const auto add = [&](Edge edge)
   {
     if (FindSplit(work, edge) > 0.0)
     {
-      queue.emplace(work.GetLength(edge), edge);
+      const double length = work.GetLength(edge);
+      queue.push({ IsOfLadder(work, edge) ? UrgencyOfDiagonal * length : length, edge, length });
     }
   };
   for (const Edge edge : work.Mesh.edges())
@@ -113,13 +188,18 @@ void SplitEdges(WorkingMesh& work, Heartbeat& heart)
   }
   while (!queue.empty())
   {
-    const std::pair<double, Edge> longest = queue.top();
-    const Edge edge = longest.second;
+    const LongEdge longest = queue.top();
+    const Edge edge = longest.Index;
     queue.pop();
     heart.Beat();
     const double part = FindSplit(work, edge);
-    if (longest.first != work.GetLength(edge) || !(part > 0.0))
+    if (longest.Length != work.GetLength(edge) || !(part > 0.0))
     {
+      continue;
+    }
+    if (IsOfLadder(work, edge) && ReplaceByRung(work, edge))
+    {
+      add(edge);
       continue;
     }
     const Vertex from = work.Mesh.vertex(edge, 0);
@@ -251,6 +331,7 @@ bool IsotropicRemesher::Build(const TriangleSoup& soup, const std::vector<int>& 
       return false;
     }
     work.Sources[face] = i;
+    work.Long[face] = IsLong(work, face);
   }
 
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(featureAngle));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/LooseTriangles.h"
 
+#include "Shared/ZeroedArray.h"
+
 #include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
@@ -46,11 +48,13 @@ double FindGap(const TriangleSoup& soup, const std::vector<std::size_t>& loose)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
+  ZeroedArray::Fill(points->GetData(), 3 * static_cast<vtkIdType>(loose.size()));
+  vtkIdType next = 0;
   for (const std::size_t triangle : loose)
   {
     for (const std::size_t corner : soup.Triangles[triangle])
     {
-      points->InsertNextPoint(soup.Points[corner].data());
+      points->SetPoint(next++, soup.Points[corner].data());
     }
   }
   vtkNew<vtkPolyData> cloud;

@@ -6,6 +6,8 @@
 #include "Mesher/SourceSurface.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
+#include "Shared/OutputMemory.h"
+#include "Shared/ZeroedArray.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -99,14 +101,14 @@ void PatchOutput::WriteGeometry(bool flip, vtkPolyData* output) const
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(this->Patches.Points.size()));
+  ZeroedArray::Fill(points->GetData(), static_cast<vtkIdType>(this->Patches.Points.size()));
   for (std::size_t i = 0; i < this->Patches.Points.size(); ++i)
   {
     points->SetPoint(static_cast<vtkIdType>(i), this->Patches.Points[i].data());
   }
   vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(this->Patches.Triangles.size()),
-    3 * static_cast<vtkIdType>(this->Patches.Triangles.size()));
+  const auto size = static_cast<vtkIdType>(this->Patches.Triangles.size());
+  OutputMemory::Allocate(size, 3 * size, cells);
   for (const TriangleSoup::Triangle& triangle : this->Patches.Triangles)
   {
     const vtkIdType ids[3] = { static_cast<vtkIdType>(triangle[0]),
@@ -126,9 +128,9 @@ void PatchOutput::WriteCellData(vtkPolyData* output) const
   const vtkIdType size = static_cast<vtkIdType>(this->Patches.Triangles.size());
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName(ArrayNames::OriginalCellIds);
-  ids->SetNumberOfTuples(size);
+  ZeroedArray::Fill(ids, size);
   to->CopyAllOn();
-  to->CopyAllocate(from, size);
+  OutputMemory::AllocateCopies(from, size, to);
   Heartbeat heart(this->Watcher);
   for (vtkIdType i = 0; i < size; ++i)
   {
@@ -155,7 +157,7 @@ void PatchOutput::WritePointData(vtkPolyData* output) const
   to->CopyNormalsOff();
   to->CopyTangentsOff();
   to->CopyTCoordsOff();
-  to->InterpolateAllocate(from, static_cast<vtkIdType>(this->Patches.Points.size()));
+  OutputMemory::AllocateMeans(from, static_cast<vtkIdType>(this->Patches.Points.size()), to);
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(3);
   Heartbeat heart(this->Watcher);

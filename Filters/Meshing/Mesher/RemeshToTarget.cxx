@@ -41,13 +41,21 @@ Outcome CheckNumberOfTriangles(double number, const PatchTarget& target)
 }
 
 //------------------------------------------------------------------------------
-Outcome CheckTargetNumber(vtkIdType number)
+// Lengths that give `estimate` triangles are to be scaled.
+Outcome CheckTargetNumber(const PatchTarget& target, double estimate)
 {
-  if (number > MaximumNumberOfTriangles)
+  std::ostringstream text;
+  if (!std::isnormal(estimate))
   {
-    std::ostringstream text;
-    text << "TargetNumberOfPatches is " << number << ", more than " << MaximumNumberOfTriangles
-         << " are refused: ask for fewer.";
+    text << "TargetEdgeLength is " << target.TargetEdgeLength
+         << ", too large to be scaled to TargetNumberOfPatches: give one that the surface has room "
+            "for, or 0.";
+    return Outcome::Failed(text.str());
+  }
+  if (target.TargetNumberOfPatches > MaximumNumberOfTriangles)
+  {
+    text << "TargetNumberOfPatches is " << target.TargetNumberOfPatches << ", more than "
+         << MaximumNumberOfTriangles << " are refused: ask for fewer.";
     return Outcome::Failed(text.str());
   }
   return Outcome::Done();
@@ -62,12 +70,26 @@ Outcome RemeshToLengths(IsotropicRemesher& remesher, const PatchTarget& target,
 }
 
 //------------------------------------------------------------------------------
+// The factor of all lengths that gives so many triangles where nothing else shortens them. A part
+// of the number goes with the area, the rest with the borders.
+double EstimateFactor(const SourceSurface& surface, std::vector<double> lengths, double number)
+{
+  const double whole = EdgeLengths::EstimateNumberOfTriangles(surface, lengths);
+  std::for_each(lengths.begin(), lengths.end(), [](double& length) { length *= 0.5; });
+  const double halved = EdgeLengths::EstimateNumberOfTriangles(surface, lengths);
+  const double ofArea = std::max(0.5 * halved - whole, 0.0);
+  const double ofBorders = std::max(whole - ofArea, 0.0);
+  return (ofBorders + std::sqrt(ofBorders * ofBorders + 4.0 * ofArea * number)) / (2.0 * number);
+}
+
+//------------------------------------------------------------------------------
 // Finds the factor of all lengths that leads to a number of triangles.
 class FactorSearch
 {
 public:
-  FactorSearch(IsotropicRemesher& remesher, const PatchTarget& target, double firstFactor)
-    : Remesher(remesher), Grading(target.Grading), Factor(firstFactor)
+  FactorSearch(IsotropicRemesher& remesher, const PatchTarget& target, double firstFactor,
+    double leastFactor)
+    : Remesher(remesher), Grading(target.Grading), Factor(firstFactor), Least(leastFactor)
   {
   }
 
@@ -81,8 +103,18 @@ public:
     double power = 2.0;
     for (int i = 0; i < steps && std::abs(this->Expected / number - 1.0) > tolerance; ++i)
     {
-      const double change = std::pow(this->Expected / number, 1.0 / power);
+      double change = std::pow(this->Expected / number, 1.0 / power);
       const double before = this->Expected;
+      // Lengths beyond those of all edges do not show in the number, so that its power is no guide:
+      // it would lead to any number of triangles.
+      if (this->Factor * change < this->Least)
+      {
+        change = this->Least / this->Factor;
+        if (!(change < 1.0))
+        {
+          return;
+        }
+      }
       this->Factor *= change;
       this->Expected = this->Remesher.Prepare(this->Factor, this->Grading, monitor);
       const double measured = std::log(before / this->Expected) / std::log(change);
@@ -96,16 +128,21 @@ private:
   IsotropicRemesher& Remesher;
   double Grading;
   double Factor;
+  double Least;
   double Expected = 0.0;
 };
 
 //------------------------------------------------------------------------------
-// `factor` becomes that of all lengths.
-Outcome RemeshToNumber(IsotropicRemesher& remesher, const PatchTarget& target, double firstNumber,
+// `lengths` give `firstNumber`; `factor` becomes that of all.
+Outcome RemeshToNumber(IsotropicRemesher& remesher, const SourceSurface& surface,
+  const std::vector<double>& lengths, const PatchTarget& target, double firstNumber,
   const Monitor& monitor, double& factor)
 {
   const double number = static_cast<double>(target.TargetNumberOfPatches);
-  FactorSearch search(remesher, target, std::sqrt(firstNumber / number));
+  // Lengths that differ much give fewer triangles than their estimate.
+  constexpr double largestExcess = 10.0;
+  FactorSearch search(remesher, target, std::sqrt(firstNumber / number),
+    EstimateFactor(surface, lengths, number) / largestExcess);
   // How many triangles come out for each that is expected; measured, then corrected.
   double excess = 1.15;
   const int passes = 4;
@@ -185,16 +222,16 @@ private:
     this->Remesher.SetLengths(this->Lengths);
     const double number = EdgeLengths::EstimateNumberOfTriangles(this->Surface, this->Lengths);
     const bool toNumber = this->Target.TargetNumberOfPatches > 0 && std::isfinite(number);
-    if (Outcome checked = toNumber ? CheckTargetNumber(this->Target.TargetNumberOfPatches)
+    if (Outcome checked = toNumber ? CheckTargetNumber(this->Target, number)
                                    : CheckNumberOfTriangles(number, this->Target);
         !checked)
     {
       return checked;
     }
     double factor = 1.0;
-    Outcome remeshed = toNumber
-      ? RemeshToNumber(this->Remesher, this->Target, number, monitor, factor)
-      : RemeshToLengths(this->Remesher, this->Target, monitor);
+    Outcome remeshed = toNumber ? RemeshToNumber(this->Remesher, this->Surface, this->Lengths,
+                                    this->Target, number, monitor, factor)
+                                : RemeshToLengths(this->Remesher, this->Target, monitor);
     result.Length = factor * this->Length;
     return remeshed;
   }

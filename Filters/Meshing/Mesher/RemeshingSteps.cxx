@@ -28,6 +28,8 @@ constexpr double WorstSplit = 1e-4;
 constexpr double LargestLoss = 0.2;
 // New triangles may be as bad as this, or as the worst they replace. See GetQuality().
 constexpr double GoodEnough = 0.5;
+// But worse by this factor on a ladder, whose rungs can go only one by one.
+constexpr double LossOnLadder = 0.5;
 // Cosine by which the normal of a triangle may turn in one step.
 constexpr double LargestTurn = 0.5;
 
@@ -260,7 +262,8 @@ bool RemeshingSteps::CanCollapse(Halfedge h) const
       return false;
     }
   }
-  return newQuality >= std::min(oldQuality, GoodEnough) && newQuality > 0.0;
+  const double factor = this->Work.OnLadder[p] ? LossOnLadder : 1.0;
+  return newQuality >= factor * std::min(oldQuality, GoodEnough) && newQuality > 0.0;
 }
 
 //------------------------------------------------------------------------------

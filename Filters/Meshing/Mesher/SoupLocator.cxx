@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/SoupLocator.h"
 
+#include "Shared/OutputMemory.h"
+#include "Shared/ZeroedArray.h"
+
 #include "vtkCellArray.h"
 #include "vtkMath.h"
 #include "vtkPoints.h"
@@ -51,12 +54,17 @@ SoupLocator::SoupLocator(const TriangleSoup& soup) : Soup(soup)
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
+  const auto size = static_cast<vtkIdType>(soup.Triangles.size());
+  ZeroedArray::Fill(points->GetData(), 3 * size);
+  OutputMemory::Allocate(size, 3 * size, cells);
+  vtkIdType next = 0;
   for (const TriangleSoup::Triangle& triangle : soup.Triangles)
   {
     vtkIdType ids[3];
     for (int i = 0; i < 3; ++i)
     {
-      ids[i] = points->InsertNextPoint(soup.Points[triangle[i]].data());
+      ids[i] = next++;
+      points->SetPoint(ids[i], soup.Points[triangle[i]].data());
     }
     cells->InsertNextCell(3, ids);
   }

@@ -31,9 +31,11 @@ void WorkingMesh::FindMaps()
   this->Kept = this->Mesh.add_property_map<Edge, bool>("e:kept", false).first;
   this->Parts = this->Mesh.add_property_map<Face, std::size_t>("f:part", none).first;
   this->Sources = this->Mesh.add_property_map<Face, std::size_t>("f:source", none).first;
+  this->Long = this->Mesh.add_property_map<Face, bool>("f:long", false).first;
   this->Ceilings = this->Mesh.add_property_map<Face, double>("f:ceiling", 0.0).first;
   this->Lengths = this->Mesh.add_property_map<Vertex, double>("v:length", 0.0).first;
   this->Fixed = this->Mesh.add_property_map<Vertex, bool>("v:fixed", false).first;
+  this->OnLadder = this->Mesh.add_property_map<Vertex, bool>("v:ladder", false).first;
   this->Origins = this->Mesh.add_property_map<Vertex, std::size_t>("v:origin", none).first;
   this->Places = this->Mesh.add_property_map<Vertex, SourceSurface::Place>("v:place").first;
 }
@@ -103,12 +105,14 @@ WorkingMesh::Vertex WorkingMesh::Split(Halfedge h, const Point& point)
     const Face old = mesh.face(side.first);
     const std::size_t part = this->Parts[old];
     const std::size_t source = this->Sources[old];
+    const bool isLong = this->Long[old];
     const double ceiling = this->Ceilings[old];
     const Halfedge cut = CGAL::Euler::split_face(side.first, side.second, mesh);
     for (const Face face : { mesh.face(cut), mesh.face(mesh.opposite(cut)) })
     {
       this->Parts[face] = part;
       this->Sources[face] = source;
+      this->Long[face] = isLong;
       this->Ceilings[face] = ceiling;
     }
   }

@@ -35,12 +35,16 @@ struct WorkingMesh
   Map<Face, std::size_t> Parts;
   /// The triangle of the soup that each face comes from; of no meaning once places are known.
   Map<Face, std::size_t> Sources;
+  /// Whether that triangle is long.
+  Map<Face, bool> Long;
   /// The length that edges may have inside this face, if longer than those at its corners.
   Map<Face, double> Ceilings;
   /// The length that edges should have at each vertex.
   Map<Vertex, double> Lengths;
   /// Whether the vertex is on an edge to keep, and so must stay where it is.
   Map<Vertex, bool> Fixed;
+  /// Whether the vertex is an end of a rung of a ladder: see IsotropicRemesher::Prepare().
+  Map<Vertex, bool> OnLadder;
   /// The point of the original surface that a fixed vertex is, and the place of the others.
   Map<Vertex, std::size_t> Origins;
   Map<Vertex, SourceSurface::Place> Places;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/SceneRayCaster.h"
 
-#include "Geometry/Embree.h"
+#include "Geometry/EmbreeTree.h"
+#include "Shared/Pulse.h"
 
 #include <Eigen/Geometry>
 
@@ -69,7 +70,7 @@ struct Hit
 // first member back to the functions that test candidates.
 struct Segment
 {
-  QueryContext Context;
+  EmbreeTree::Context Context;
   const PatchScene* Scene;
   const Candidate* Candidates;
   vtkIdType From; // patches that do not stop it
@@ -215,33 +216,15 @@ void TestIntersected(const RTCIntersectFunctionNArguments* arguments)
 
 struct SceneRayCaster::Internals
 {
-  RTCDevice Device = nullptr;
-  RTCScene Tree = nullptr;
+  EmbreeTree Tree;
   const PatchScene* Scene = nullptr;
   std::vector<Candidate> Candidates;
-
-  ~Internals() { this->Close(); }
-
-  void Close()
-  {
-    if (this->Tree)
-    {
-      rtcReleaseScene(this->Tree);
-    }
-    if (this->Device)
-    {
-      rtcReleaseDevice(this->Device);
-    }
-    this->Tree = nullptr;
-    this->Device = nullptr;
-    this->Candidates.clear();
-  }
 
   Segment MakeSegment(const Vector& origin, const Vector& target, vtkIdType from,
     vtkIdType to) const
   {
     Segment segment(origin, target);
-    InitializeContext(segment.Context);
+    EmbreeTree::Initialize(segment.Context);
     segment.Scene = this->Scene;
     segment.Candidates = this->Candidates.data();
     segment.From = from;
@@ -259,6 +242,7 @@ void SceneRayCaster::Internals::AddPatches(const PatchScene& scene, const std::v
   this->Scene = &scene;
   for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
   {
+    Pulse::Beat(patch);
     if (!subset || (*subset)[patch])
     {
       const PatchPlane plane = scene.GetPlane(patch);
@@ -266,15 +250,13 @@ void SceneRayCaster::Internals::AddPatches(const PatchScene& scene, const std::v
         plane.Slope, scene.GetEdgeRounding(patch), patch });
     }
   }
-  RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
+  RTCGeometry geometry = rtcNewGeometry(this->Tree.GetDevice(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(this->Candidates.size()));
   rtcSetGeometryUserData(geometry, this);
   rtcSetGeometryBoundsFunction(geometry, FindBox, nullptr);
   rtcSetGeometryOccludedFunction(geometry, TestOccluded);
   rtcSetGeometryIntersectFunction(geometry, TestIntersected);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(this->Tree, geometry);
-  rtcReleaseGeometry(geometry);
+  this->Tree.Attach(geometry);
 }
 
 //------------------------------------------------------------------------------
@@ -309,25 +291,13 @@ SceneRayCaster::~SceneRayCaster() = default;
 //------------------------------------------------------------------------------
 Outcome SceneRayCaster::Build(const PatchScene& scene, const std::vector<bool>* subset)
 {
-  this->Internal->Close();
-  // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree.
-  this->Internal->Device = rtcNewDevice("threads=1");
-  bool ok = this->Internal->Device != nullptr;
-  if (ok)
+  Internals& self = *this->Internal;
+  self.Candidates.clear();
+  if (self.Tree.Open())
   {
-    this->Internal->Tree = rtcNewScene(this->Internal->Device);
-    this->Internal->AddPatches(scene, subset);
-    rtcCommitScene(this->Internal->Tree);
-    ok = rtcGetDeviceError(this->Internal->Device) == RTC_ERROR_NONE;
+    self.AddPatches(scene, subset);
   }
-  if (!ok)
-  {
-    this->Internal->Close();
-    return Outcome::Failed("Embree could not build its tree of " +
-      std::to_string(scene.GetNumberOfPatches()) +
-      " patches: use fewer patches or a machine with more memory.");
-  }
-  return Outcome::Done();
+  return self.Tree.Build(scene.GetNumberOfPatches());
 }
 
 //------------------------------------------------------------------------------
@@ -337,7 +307,7 @@ bool SceneRayCaster::IsOccluded(const Vector& origin, const Vector& target, vtkI
   Segment segment = this->Internal->MakeSegment(origin, target, from, to);
   RTCRay ray;
   segment.SetRay(ray);
-  FindOccluded(this->Internal->Tree, segment.Context, ray);
+  this->Internal->Tree.FindOccluded(segment.Context, ray);
   return ray.tfar < 0.0f;
 }
 
@@ -349,7 +319,7 @@ vtkIdType SceneRayCaster::FindHit(const Vector& origin, const Vector& direction,
     this->Internal->MakeSegment(origin, origin + OutOfScene * direction.normalized(), from, -1);
   RTCRayHit hit;
   segment.SetRay(hit.ray);
-  Intersect(this->Internal->Tree, segment.Context, hit);
+  this->Internal->Tree.Intersect(segment.Context, hit);
   front = segment.IsFrontFirst();
   return front ? segment.Front.Patch : segment.Back.Patch;
 }

@@ -3,6 +3,7 @@
 #include "Geometry/ShaftCuller.h"
 
 #include "Scene/PatchTree.h"
+#include "Shared/Pulse.h"
 #include "Support/InstructionSets.h"
 
 #include <algorithm>
@@ -97,6 +98,7 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
   this->Occluders.resize(patches);
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
+    Pulse::Beat(patch);
     for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
     {
       this->PatchBounds[patch].Add(scene.GetCorner(patch, corner));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Lighting/Panorama.h"
 
+#include "Shared/Pulse.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
@@ -84,6 +85,7 @@ Outcome Panorama::ReadValues(vtkDataArray* scalars)
   this->Values.reserve(static_cast<std::size_t>(this->Width) * this->Height * LightBands);
   for (vtkIdType pixel = 0; pixel < scalars->GetNumberOfTuples(); ++pixel)
   {
+    Pulse::Beat(pixel);
     for (int band = 0; band < LightBands; ++band)
     {
       const double value = scalars->GetComponent(pixel, isGrey ? 0 : band);
@@ -127,6 +129,7 @@ void Panorama::FindLimit()
     double sum = 0.0;
     for (int row = 0; row < this->Height; ++row)
     {
+      Pulse::Beat();
       double rowSum = 0.0;
       const double* values = &brightness[static_cast<std::size_t>(row) * this->Width];
       for (int column = 0; column < this->Width; ++column)
@@ -170,6 +173,7 @@ void Panorama::FindMoments()
   }
   for (int row = 0; row < this->Height; ++row)
   {
+    Pulse::Beat();
     const double angle = (row + 0.5) * height; // from -z
     const double size = width * (std::cos(row * height) - std::cos((row + 1) * height));
     for (int column = 0; column < this->Width; ++column)
@@ -229,6 +233,7 @@ void Panorama::FillTable()
   { return this->GetPeakShare(pixel) * this->GetBrightness(pixel); };
   for (int row = 0; row <= this->Height; ++row)
   {
+    Pulse::Beat();
     const std::size_t first = this->Columns.size();
     double sum = 0.0;
     for (int column = 0; column < this->Width; ++column)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Photons/MeshBoundary.h"
 
-#include "Geometry/Embree.h"
+#include "Geometry/EmbreeTree.h"
 #include "Photons/BallGrid.h"
 
 #include <Eigen/Geometry>
@@ -31,7 +31,7 @@ struct Triangle
 // A path on its way. Embree hands the first member back to the function that tests what it meets.
 struct Query
 {
-  QueryContext Context;
+  EmbreeTree::Context Context;
   const PatchScene* Scene;
   const Triangle* Triangles;
   const PhotonBoundary::Path* Path;
@@ -120,36 +120,17 @@ bool TestDistance(RTCPointQueryFunctionArguments* arguments)
 //------------------------------------------------------------------------------
 struct MeshBoundary::Internals
 {
-  RTCDevice Device = nullptr;
-  RTCScene Tree = nullptr;
+  EmbreeTree Tree;
   const PatchScene* Scene = nullptr;
   std::vector<Triangle> Triangles;
   double LargestBall = 0.0;
   BallGrid Balls;
 
-  ~Internals() { this->Close(); }
-  void Close();
   void AddTriangles();
   double FindDistance(const Vector& point) const;
   const Triangle* FindFirst(const Path& path, double reach, bool takesExpectedOnly,
     double& distance) const;
 };
-
-//------------------------------------------------------------------------------
-void MeshBoundary::Internals::Close()
-{
-  if (this->Tree)
-  {
-    rtcReleaseScene(this->Tree);
-  }
-  if (this->Device)
-  {
-    rtcReleaseDevice(this->Device);
-  }
-  this->Tree = nullptr;
-  this->Device = nullptr;
-  this->Triangles.clear();
-}
 
 //------------------------------------------------------------------------------
 void MeshBoundary::Internals::AddTriangles()
@@ -164,7 +145,7 @@ void MeshBoundary::Internals::AddTriangles()
           patch });
     }
   }
-  RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(this->Tree.GetDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const std::size_t count = this->Triangles.size();
   auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
     RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * count));
@@ -177,9 +158,7 @@ void MeshBoundary::Internals::AddTriangles()
     indices[k] = static_cast<unsigned int>(k);
   }
   rtcSetGeometryIntersectFilterFunction(geometry, TestHit);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(this->Tree, geometry);
-  rtcReleaseGeometry(geometry);
+  this->Tree.Attach(geometry);
 }
 
 //------------------------------------------------------------------------------
@@ -191,7 +170,7 @@ double MeshBoundary::Internals::FindDistance(const Vector& point) const
     static_cast<float>(point.z()), 0.0f, static_cast<float>(this->LargestBall) };
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(this->Tree, &query, &context, TestDistance, &nearest);
+  rtcPointQuery(this->Tree.Get(), &query, &context, TestDistance, &nearest);
   return std::sqrt(nearest.SquaredDistance);
 }
 
@@ -205,29 +184,16 @@ MeshBoundary::~MeshBoundary() = default;
 Outcome MeshBoundary::Build(const PatchScene& scene, double largestBall)
 {
   Internals& self = *this->Internal;
-  self.Close();
+  self.Triangles.clear();
   self.Scene = &scene;
   self.LargestBall = largestBall;
-  // Paths come from the threads of vtkSMPTools; Embree's own would only build the tree.
-  self.Device = rtcNewDevice("threads=1");
-  bool ok = self.Device != nullptr;
-  if (ok)
-  {
-    self.Tree = rtcNewScene(self.Device);
-    rtcSetSceneFlags(self.Tree, RTC_SCENE_FLAG_ROBUST);
-    self.AddTriangles();
-    rtcCommitScene(self.Tree);
-    ok = rtcGetDeviceError(self.Device) == RTC_ERROR_NONE;
-  }
-  if (!ok)
-  {
-    self.Close();
-    return Outcome::Failed("Embree could not build its tree of " +
-      std::to_string(scene.GetNumberOfPatches()) +
-      " patches: use fewer patches or a machine with more memory.");
-  }
   self.Balls.Build(scene.GetPoints());
-  return Outcome::Done();
+  if (self.Tree.Open())
+  {
+    rtcSetSceneFlags(self.Tree.Get(), RTC_SCENE_FLAG_ROBUST);
+    self.AddTriangles();
+  }
+  return self.Tree.Build(scene.GetNumberOfPatches());
 }
 
 //------------------------------------------------------------------------------
@@ -237,13 +203,13 @@ const Triangle* MeshBoundary::Internals::FindFirst(const Path& path, double reac
   bool takesExpectedOnly, double& distance) const
 {
   Query query{ {}, this->Scene, this->Triangles.data(), &path, takesExpectedOnly };
-  InitializeContext(query.Context);
+  EmbreeTree::Initialize(query.Context);
   RTCRayHit hit;
   const Eigen::Vector3f start = (path.Origin - Margin * path.Direction).cast<float>();
   const Eigen::Vector3f direction = path.Direction.cast<float>();
   hit.ray = { start.x(), start.y(), start.z(), 0.0f, direction.x(), direction.y(), direction.z(),
     0.0f, static_cast<float>(reach + Margin), ~0u, 0, 0 };
-  Intersect(this->Tree, query.Context, hit);
+  this->Tree.Intersect(query.Context, hit);
   distance = hit.ray.tfar - Margin;
   return hit.hit.primID == RTC_INVALID_GEOMETRY_ID ? nullptr : &this->Triangles[hit.hit.primID];
 }

@@ -5,6 +5,7 @@
 #include "Photons/MeshBoundary.h"
 #include "Photons/PhotonSource.h"
 #include "Photons/UniformPath.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 
 #include <algorithm>
@@ -217,6 +218,7 @@ void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const R
       {
         continue;
       }
+      Pulse::Beat();
       PhotonRandom random(seed, this->Photons + k);
       const PhotonSource::Photon photon =
         this->Source.Start((k + random.Get()) / count, this->Walk, random);

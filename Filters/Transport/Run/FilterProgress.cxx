@@ -21,18 +21,14 @@ constexpr double ManySeconds = 120.0;
 
 //------------------------------------------------------------------------------
 FilterProgress::FilterProgress(vtkAlgorithm* filter, const Ranks& ranks)
-  : Filter(filter), AllRanks(ranks)
+  : Filter(filter), AllRanks(ranks), StartTime(vtkTimerLog::GetUniversalTime())
 {
+  filter->SetProgressText(nullptr);
 }
 
 //------------------------------------------------------------------------------
 Monitor FilterProgress::GetMonitor()
 {
-  if (this->StartTime == 0.0)
-  {
-    this->StartTime = vtkTimerLog::GetUniversalTime();
-    this->Filter->SetProgressText(nullptr);
-  }
   return Monitor([this](double done) { return this->Report(done); });
 }
 
@@ -40,20 +36,33 @@ Monitor FilterProgress::GetMonitor()
 // One rank that leaves alone would let the others wait for it for ever.
 bool FilterProgress::Report(double done)
 {
-  this->TellTimeLeft(done);
-  const bool goesOn = MakeFilterMonitor(this->Filter).Report(done);
+  this->Done = done;
+  const bool goesOn = this->TellFilter();
   return this->AllRanks.GetLargest(goesOn ? 0 : 1) == 0;
 }
 
 //------------------------------------------------------------------------------
-void FilterProgress::TellTimeLeft(double done)
+bool FilterProgress::Repeat()
+{
+  return this->TellFilter() || this->AllRanks.AreSeveral();
+}
+
+//------------------------------------------------------------------------------
+bool FilterProgress::TellFilter()
+{
+  this->TellTimeLeft();
+  return MakeFilterMonitor(this->Filter).Report(this->Done);
+}
+
+//------------------------------------------------------------------------------
+void FilterProgress::TellTimeLeft()
 {
   const double elapsed = vtkTimerLog::GetUniversalTime() - this->StartTime;
-  if (elapsed < LongTime || done <= 0.0)
+  if (elapsed < LongTime || this->Done <= 0.0)
   {
     return;
   }
-  const double left = elapsed * (1.0 - done) / done;
+  const double left = elapsed * (1.0 - this->Done) / this->Done;
   std::ostringstream text;
   text << this->Filter->GetClassName() << ": about "
        << (left < ManySeconds ? std::ceil(left) : std::ceil(left / 60.0))

@@ -15,18 +15,25 @@ namespace LightTransport
 class FilterProgress
 {
 public:
+  /// Time is counted from here on.
   FilterProgress(vtkAlgorithm* filter, const Ranks& ranks);
 
-  /// For the whole run; it must not outlive this. Time is counted from the first call on.
+  /// For the whole run; it must not outlive this.
   Monitor GetMonitor();
+
+  /// Say again how far the run is, between two reports, on this rank alone; several hear an abort
+  /// at their next report. False when the run is to stop.
+  bool Repeat();
 
 private:
   bool Report(double done);
-  void TellTimeLeft(double done);
+  bool TellFilter();
+  void TellTimeLeft();
 
   vtkAlgorithm* Filter;
   Ranks AllRanks;
-  double StartTime = 0.0;
+  double StartTime;
+  double Done = 0.0;
 };
 } // namespace LightTransport
 

@@ -3,6 +3,7 @@
 #include "Run/TransportRun.h"
 
 #include "Scene/Leaves.h"
+#include "Shared/Pulse.h"
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -18,7 +19,8 @@ namespace LightTransport
 //------------------------------------------------------------------------------
 TransportRun::TransportRun(const RunPorts& ports)
   : Filter(ports.Filter), Input(ports.Input), Output(ports.Output), Table(ports.Table),
-    AllRanks(ports.Filter->GetController()), Progress(ports.Filter, this->AllRanks)
+    AllRanks(ports.Filter->GetController()), Progress(ports.Filter, this->AllRanks),
+    ProgressInterval(ports.ProgressInterval)
 {
 }
 
@@ -38,6 +40,7 @@ const Advice& TransportRun::GetAdvice()
 //------------------------------------------------------------------------------
 Outcome TransportRun::Go()
 {
+  const Pulse pulse([this]() { return this->Progress.Repeat(); }, this->ProgressInterval);
   Outcome outcome = Outcome::Done();
   for (const auto step : { &TransportRun::Check, &TransportRun::Gather, &TransportRun::WarnOfScene,
          &TransportRun::Read, &TransportRun::Link, &TransportRun::Compute, &TransportRun::Finish })

@@ -30,7 +30,8 @@ struct RunPorts
   vtkTransportAlgorithm* Filter = nullptr;
   vtkDataObject* Input = nullptr;
   vtkDataObject* Output = nullptr;
-  vtkTable* Table = nullptr; ///< of port 1; nullptr where a filter has none
+  vtkTable* Table = nullptr;     ///< of port 1; nullptr where a filter has none
+  double ProgressInterval = 0.0; ///< seconds between progress events within a long step
 };
 
 class TransportRun
@@ -83,6 +84,8 @@ protected:
   PatchScene Scene;
 
 private:
+  double ProgressInterval;
+
   Outcome WarnOfScene();
   Outcome Finish();
   Outcome CheckResults() const;

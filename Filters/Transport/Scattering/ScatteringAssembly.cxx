@@ -4,6 +4,7 @@
 
 #include "Scattering/ScatteringIntegrals.h"
 #include "Scene/PatchScene.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "vtkExchangeMatrix.h"
 
@@ -184,6 +185,7 @@ private:
       {
         break;
       }
+      Pulse::Beat();
       const vtkIdType last = std::min<vtkIdType>(vtkExchangeMatrix::TileSize, count - columnOffset);
       for (vtkIdType column = std::max<vtkIdType>(0, i - columnOffset); column < last; ++column)
       {

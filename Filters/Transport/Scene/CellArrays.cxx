@@ -6,6 +6,7 @@
 #include "Scene/PatchScene.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/InputArrays.h"
+#include "Shared/Pulse.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -156,6 +157,7 @@ std::vector<double> CellArrays::Spread(const std::vector<double>& fronts,
   std::vector<double> values(this->Scene.GetNumberOfPatches() * components);
   for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
+    Pulse::Beat(patch);
     const vtkIdType face = faces.GetFace(patch);
     const std::vector<double>& source = faces.GetSide(face) == 0 ? fronts : backs;
     std::copy_n(source.begin() + faces.GetPolygon(face) * components, components,
@@ -173,6 +175,7 @@ Outcome CellArrays::ReadLocal(const std::string& name, std::vector<double>& valu
   vtkDataArray* array = nullptr;
   for (const LocalCell& local : this->Scene.GetLocalCells())
   {
+    Pulse::Beat(values.size());
     if (local.Block != block)
     {
       block = local.Block;

@@ -5,6 +5,7 @@
 #include "Geometry/FlatRegion.h"
 #include "Scene/PatchScene.h"
 #include "Scene/PolygonList.h"
+#include "Shared/Pulse.h"
 
 #include <Eigen/Geometry>
 
@@ -113,6 +114,7 @@ public:
 
   void Walk(int one, int other) const
   {
+    Pulse::Beat();
     const PatchTree::Node& a = this->Tree.GetNode(one);
     const PatchTree::Node& b = this->Tree.GetNode(other);
     if (one != other && !MayMeet(a, b, this->Tolerance))
@@ -214,6 +216,7 @@ std::vector<CoincidentFaces::Pair> CoincidentFaces::FindPairs() const
   double tolerance = 0.0;
   for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
+    Pulse::Beat(patch);
     tolerance = std::max(tolerance,
       this->Scene.GetPlane(patch).GetTolerance(2.0 * this->Scene.GetRadius(patch)));
   }
@@ -235,6 +238,7 @@ void CoincidentFaces::Decide(const std::vector<Pair>& pairs)
   const SceneFaces& faces = this->Scene.GetFaces();
   for (const auto& [patch, below] : others)
   {
+    Pulse::Beat();
     const double patchNoise = GetNoise(this->Scene, patch, this->Scene.GetEdgeRounding(patch));
     covered[faces.GetFace(patch)] +=
       this->Scene.GetAreas()[patch] - GetUncovered(this->Scene, patch, below, patchNoise);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/EarClipper.h"
 
+#include "Shared/Pulse.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -144,6 +146,7 @@ void EarClipper::ClassifyAll()
   int corner = this->First;
   for (int k = 0; k < this->Count; ++k, corner = this->Next[corner])
   {
+    Pulse::Beat();
     this->Kinds[corner] = this->Classify(corner);
   }
 }
@@ -211,6 +214,7 @@ bool EarClipper::Clip()
   this->ClassifyAll();
   while (this->Count > 2)
   {
+    Pulse::Beat();
     int corner = this->FindNext();
     if (corner < 0)
     {
@@ -238,6 +242,7 @@ bool EarClipper::CrossesItself() const
   std::sort(edges.begin(), edges.end(), [&](int a, int b) { return getBegin(a) < getBegin(b); });
   for (int a = 0; a < count; ++a)
   {
+    Pulse::Beat();
     const double end = std::max(getX(edges[a]), getX(edges[a] + 1));
     for (int b = a + 1; b < count && getBegin(edges[b]) < end; ++b)
     {

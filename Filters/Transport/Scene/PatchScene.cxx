@@ -4,6 +4,7 @@
 
 #include "Scene/CoincidentFaces.h"
 #include "Scene/ScenePieces.h"
+#include "Shared/Pulse.h"
 
 #include <Eigen/Geometry>
 
@@ -150,6 +151,7 @@ std::vector<Vector> PatchScene::MakeCorners(const GatheredPolygons& polygons)
   corners.reserve(polygons.Coordinates.size() / 3);
   for (std::size_t corner = 0; corner < polygons.Coordinates.size(); corner += 3)
   {
+    Pulse::Beat(corner);
     corners.push_back((Vector(&polygons.Coordinates[corner]) - this->Center) / this->Scale);
   }
   return corners;
@@ -239,6 +241,7 @@ void PatchScene::Arrange(const GatheredPolygons& polygons, const std::vector<Vec
   std::vector<vtkIdType> faces;
   for (std::size_t patch = 0; patch < order.size(); ++patch)
   {
+    Pulse::Beat(patch);
     const Vector& plane = pieces.Planes[order[patch]];
     this->ComputePatch(static_cast<vtkIdType>(patch), plane.isZero() ? nullptr : &plane);
     faces.push_back(pieces.Faces[order[patch]]);
@@ -259,6 +262,7 @@ std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
   std::vector<Vector> normals(count, Vector::Zero());
   for (vtkIdType piece = 0; piece < count; ++piece)
   {
+    Pulse::Beat(piece);
     const vtkIdType first = pieces.Offsets[piece];
     const Vector& origin = corners[pieces.Corners[first]];
     for (vtkIdType corner = first; corner < pieces.Offsets[piece + 1]; ++corner)
@@ -310,6 +314,7 @@ void PatchScene::MergePoints(const GatheredPolygons& polygons, const std::vector
   this->Offsets.assign(1, 0);
   for (const vtkIdType piece : order)
   {
+    Pulse::Beat(this->Offsets.size());
     for (vtkIdType k = pieces.Offsets[piece]; k < pieces.Offsets[piece + 1]; ++k)
     {
       const vtkIdType corner = pieces.Corners[k];
@@ -324,6 +329,7 @@ void PatchScene::MergePoints(const GatheredPolygons& polygons, const std::vector
   this->Places.resize(corners.size());
   for (std::size_t corner = 0; corner < corners.size(); ++corner)
   {
+    Pulse::Beat(corner);
     this->Places[corner] = getPlace(static_cast<vtkIdType>(corner));
   }
   this->NumberOfPlaces = static_cast<vtkIdType>(known.size());

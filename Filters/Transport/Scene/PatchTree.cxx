@@ -3,6 +3,7 @@
 #include "Scene/PatchTree.h"
 
 #include "Scene/PatchGeometry.h"
+#include "Shared/Pulse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,7 @@ public:
     // What does not fit into whole units goes by its place.
     const auto isBefore = [&](vtkIdType a, vtkIdType b)
     {
+      Pulse::Beat(++this->Comparisons);
       const bool above[2] = { this->Normals[a][normalAxis] >= middle,
         this->Normals[b][normalAxis] >= middle };
       const double at[2] = { getPlace(a), getPlace(b) };
@@ -110,6 +112,7 @@ private:
   const std::vector<Vector>& Centroids;
   const std::vector<Vector>& Normals;
   std::vector<vtkIdType>& Order;
+  std::size_t Comparisons = 0;
 };
 
 //------------------------------------------------------------------------------
@@ -181,6 +184,7 @@ void FillAllNodes(const PatchGeometry& patches, std::vector<PatchTree::Node>& no
   // Children come after their parents.
   for (std::size_t index = nodes.size(); index-- > 0;)
   {
+    Pulse::Beat();
     PatchTree::Node& node = nodes[index];
     if (node.IsLeaf())
     {
@@ -207,6 +211,7 @@ void PatchTree::Grow(vtkIdType patches, const Divide& divide, const Finish& fini
   this->Nodes[0].Last = patches;
   for (std::size_t index = 0; index < this->Nodes.size(); ++index)
   {
+    Pulse::Beat();
     const vtkIdType first = this->Nodes[index].First;
     const vtkIdType last = this->Nodes[index].Last;
     if (last - first <= LeafSize)
@@ -256,8 +261,13 @@ std::vector<vtkIdType> PatchTree::Sort(const std::vector<std::uint64_t>& codes)
   const auto patches = static_cast<vtkIdType>(codes.size());
   std::vector<vtkIdType> order(patches);
   std::iota(order.begin(), order.end(), 0);
+  std::size_t comparisons = 0;
   std::sort(order.begin(), order.end(),
-    [&](vtkIdType a, vtkIdType b) { return std::tie(codes[a], a) < std::tie(codes[b], b); });
+    [&](vtkIdType a, vtkIdType b)
+    {
+      Pulse::Beat(++comparisons);
+      return std::tie(codes[a], a) < std::tie(codes[b], b);
+    });
   const auto divide = [&](vtkIdType first, vtkIdType last)
   {
     const std::uint64_t different = codes[order[first]] ^ codes[order[last - 1]];

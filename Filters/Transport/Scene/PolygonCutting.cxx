@@ -4,6 +4,7 @@
 
 #include "Scene/EarClipper.h"
 #include "Scene/PolygonMeasures.h"
+#include "Shared/Pulse.h"
 
 #include <Eigen/Geometry>
 
@@ -58,6 +59,7 @@ public:
   {
     for (const Edge& diagonal : this->SortDiagonals())
     {
+      Pulse::Beat();
       this->JoinAcross(diagonal);
     }
     std::vector<Loop> joined;

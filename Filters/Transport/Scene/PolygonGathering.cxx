@@ -6,6 +6,7 @@
 #include "Scene/PatchTree.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/InputArrays.h"
+#include "Shared/Pulse.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -74,6 +75,7 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
   }
   for (vtkIdType polygon = 0; polygon < cells->GetNumberOfCells(); ++polygon)
   {
+    Pulse::Beat(polygon);
     if (IsGhost(ghosts, first + polygon))
     {
       continue;
@@ -148,6 +150,7 @@ Outcome CollectCodes(vtkDataObject* input, GatheredPolygons& polygons)
   vtkDataArray* atlas = nullptr;
   for (const LocalCell& local : polygons.LocalCells)
   {
+    Pulse::Beat(polygons.Codes.size());
     vtkPolyData* data = leaves[local.Block];
     if (local.Block != block)
     {

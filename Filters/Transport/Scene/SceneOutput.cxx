@@ -6,6 +6,8 @@
 #include "Scene/PatchScene.h"
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/OutputMemory.h"
+#include "Shared/Pulse.h"
 #include "Shared/ZeroedArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -33,14 +35,15 @@ void AppendPoints(vtkPolyData* input, const std::vector<vtkIdType>& sources, vtk
   const vtkIdType total = old + static_cast<vtkIdType>(sources.size());
   vtkNew<vtkPoints> points;
   points->SetDataType(input->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(total);
+  ZeroedArray::Fill(points->GetData(), total);
   vtkPointData* from = input->GetPointData();
   vtkPointData* to = output->GetPointData();
   to->Initialize();
   to->CopyAllOn();
-  to->CopyAllocate(from, total);
+  OutputMemory::AllocateCopies(from, total, to);
   for (vtkIdType point = 0; point < total; ++point)
   {
+    Pulse::Beat(point);
     const vtkIdType source = point < old ? point : sources[point - old];
     points->SetPoint(point, input->GetPoint(source));
     to->CopyData(from, source, point);
@@ -129,11 +132,14 @@ void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
   std::vector<vtkIdType> sources; // of the points added
   std::map<PointGroups, vtkIdType> added;
   vtkNew<vtkCellArray> polygons;
+  OutputMemory::Allocate(input->GetPolys()->GetNumberOfCells(),
+    input->GetPolys()->GetNumberOfConnectivityIds(), polygons);
   vtkNew<vtkIdList> corners;
   auto local = static_cast<std::size_t>(firstLocal);
   const vtkIdType first = Leaves::GetFirstPolygonCell(input);
   for (vtkIdType polygon = 0; polygon < input->GetPolys()->GetNumberOfCells(); ++polygon)
   {
+    Pulse::Beat(polygon);
     input->GetPolys()->GetCellAtId(polygon, corners);
     const bool isOfScene =
       local < cells.size() && cells[local].Block == block && cells[local].Cell == first + polygon;
@@ -217,6 +223,7 @@ void SceneOutput::AddCellArray(const std::string& name, const std::vector<Value>
     this->Scene.GetFirstLocalPolygon() + side * this->Scene.GetFaces().GetNumberOfPolygons();
   for (const LocalCell& cell : cells)
   {
+    Pulse::Beat(face);
     arrays[cell.Block]->SetTypedTuple(cell.Cell, &values[face * components]);
     ++face;
   }
@@ -234,6 +241,7 @@ void SceneOutput::AddPointArray(const std::string& name, const std::vector<doubl
     const std::vector<PointGroups>& groups = this->Groups[block];
     for (std::size_t point = 0; point < groups.size(); ++point)
     {
+      Pulse::Beat(point);
       if (groups[point][side] >= 0)
       {
         array->SetTypedTuple(static_cast<vtkIdType>(point),

@@ -5,6 +5,7 @@
 #include "Scene/PatchGeometry.h"
 #include "Scene/PolygonList.h"
 #include "Scene/SceneFaces.h"
+#include "Shared/Pulse.h"
 
 #include <set>
 #include <utility>
@@ -19,6 +20,7 @@ ScenePieces::ScenePieces(const std::vector<vtkIdType>& starts, const std::vector
   std::vector<Vector> places;
   for (std::size_t polygon = 0; polygon < this->Problems.size(); ++polygon)
   {
+    Pulse::Beat(polygon);
     places.assign(corners.begin() + starts[polygon], corners.begin() + starts[polygon + 1]);
     this->Add(static_cast<vtkIdType>(polygon), starts[polygon],
       PolygonCutting::Cut(places, PatchGeometry::MaximumCorners, rounding));
@@ -65,6 +67,7 @@ void ScenePieces::AddBacks()
   const vtkIdType fronts = this->GetNumber();
   for (vtkIdType piece = 0; piece < fronts; ++piece)
   {
+    Pulse::Beat(piece);
     this->Faces.push_back(polygons + this->Faces[piece]);
     for (vtkIdType corner = this->Offsets[piece + 1]; corner-- > this->Offsets[piece];)
     {
@@ -90,6 +93,7 @@ void ScenePieces::Remove(const std::vector<vtkIdType>& faces)
   kept.Planes.clear();
   for (vtkIdType piece = 0; piece < this->GetNumber(); ++piece)
   {
+    Pulse::Beat(piece);
     if (removed.count(this->Faces[piece]) == 0)
     {
       kept.Faces.push_back(this->Faces[piece]);

@@ -4,6 +4,7 @@
 
 #include "Scene/PatchScene.h"
 #include "Shared/DisjointSets.h"
+#include "Shared/Pulse.h"
 #include "vtkMath.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ struct PlaceUses
       vtkIdType corner = 0;
       for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
       {
+        Pulse::Beat(face);
         const vtkIdType side = faces.GetSide(face);
         for (const vtkIdType place : scene.GetPlaces(faces.GetPolygon(face)))
         {
@@ -77,6 +79,7 @@ SmoothPoints::SmoothPoints(const PatchScene& scene, double featureAngle,
   std::vector<PatchScene::Vector> normals;
   for (vtkIdType face = 0; face < scene.GetFaces().GetNumberOfFaces(); ++face)
   {
+    Pulse::Beat(face);
     normals.push_back(GetNormal(scene, face));
   }
   const auto areJoined = [&](vtkIdType a, vtkIdType b)
@@ -91,6 +94,7 @@ SmoothPoints::SmoothPoints(const PatchScene& scene, double featureAngle,
   const PlaceUses uses(scene);
   for (std::size_t key = 0; key + 1 < uses.Starts.size(); ++key)
   {
+    Pulse::Beat(key);
     const vtkIdType first = uses.Starts[key];
     const vtkIdType count = uses.Starts[key + 1] - first;
     DisjointSets sets(count);
@@ -130,6 +134,7 @@ std::vector<double> SmoothPoints::GetMeans(const std::vector<double>& values, in
   const SceneFaces& faces = this->Scene.GetFaces();
   for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
+    Pulse::Beat(patch);
     const vtkIdType face = faces.GetFace(patch);
     if (faces.GetPatch(face) != patch)
     {

@@ -5,6 +5,7 @@
 #include "Links/Links.h"
 #include "Scene/PatchScene.h"
 #include "Shared/FieldValues.h"
+#include "Shared/Pulse.h"
 #include "ViewFactors/ViewFactorClosure.h"
 
 #include <algorithm>
@@ -97,6 +98,7 @@ bool EnclosureVerdict::IsTurnedOutwards() const
   std::map<std::pair<vtkIdType, vtkIdType>, int> edges;
   for (vtkIdType patch = 0; patch < this->Scene.GetNumberOfPatches(); ++patch)
   {
+    Pulse::Beat(patch);
     const vtkIdType* corners = this->Scene.GetCorners(patch);
     const int count = this->Scene.GetNumberOfCorners(patch);
     for (int corner = 0; corner < count; ++corner)

@@ -3,6 +3,7 @@
 #include "ViewFactors/LinkRefinement.h"
 
 #include "Scene/PatchScene.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Shared/TransportMemory.h"
 #include "Support/Ranks.h"
@@ -82,6 +83,7 @@ struct LinkRefinement::Refiner
 
   void Visit(Pair pair, Result& result, PairVisibility& visibility) const
   {
+    Pulse::Beat();
     if (pair.I == pair.J)
     {
       this->VisitWithin(pair, result, visibility);

@@ -4,6 +4,7 @@
 
 #include "Links/Links.h"
 #include "Scene/PatchScene.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
 #include "ViewFactors/BackFaceSearch.h"
@@ -125,6 +126,7 @@ bool Openings::Exist() const
   PatchOutlook::Hits hits(patches);
   for (vtkIdType patch = 0; patch < patches; patch += step)
   {
+    Pulse::Beat();
     if (PatchOutlook(this->Scene, this->Caster, patch, hits).GetOpen().Value > 0.0)
     {
       return true;
@@ -179,6 +181,7 @@ std::vector<double> Openings::CastRays(const Settings& settings, const Ranks& ra
   {
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
+      Pulse::Beat();
       if (patch / PatchesPerTurn % ranks.GetNumber() != ranks.GetMine())
       {
         continue;

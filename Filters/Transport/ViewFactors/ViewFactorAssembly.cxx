@@ -3,6 +3,7 @@
 #include "ViewFactors/ViewFactorAssembly.h"
 
 #include "Scene/PatchTree.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
 
@@ -195,6 +196,7 @@ struct ViewFactorAssembly::Looker
   // List `depth` holds what reaches into the shaft between the two nodes.
   void Descend(int nodeI, int nodeJ, std::size_t depth, Work& work)
   {
+    Pulse::Beat();
     const PatchTree::Node& i = work.Tree.GetNode(nodeI);
     const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
     if (work.GetList(depth).IsEmpty())
@@ -297,6 +299,7 @@ struct ViewFactorAssembly::Refiner
     std::vector<vtkIdType> between;
     for (vtkIdType index = begin; index < end; ++index)
     {
+      Pulse::Beat();
       PartlyVisiblePair& pair = this->Outer.Pairs[index];
       const double allowed = this->Outer.GetAllowedError(pair);
       if (pair.Error <= allowed)
@@ -373,6 +376,7 @@ vtkIdType ViewFactorAssembly::Plan(const vtkExchangeMatrix& structure)
   vtkIdType count = 0;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
   {
+    Pulse::Beat();
     const std::size_t before = this->Units.size();
     this->AddUnits(static_cast<vtkIdType>(tile), tiles[tile]);
     count += this->Units.size() > before ? 1 : 0;
@@ -500,6 +504,7 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
   {
     // Sums of whole numbers, which do not depend on the order: all ranks decide the same.
     std::vector<double> sums(2 * rows, 0.0);
+    std::size_t step = 0;
     const auto add = [&](const PartlyVisiblePair& pair, bool isSettled, vtkIdType row)
     {
       const double budget = VisibilityShare * this->Tolerance * areas[row];
@@ -508,6 +513,7 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
     };
     for (const PartlyVisiblePair& pair : this->Pairs)
     {
+      Pulse::Beat(++step);
       const bool isSettled = pair.Error <= this->GetAllowedError(pair);
       add(pair, isSettled, pair.I);
       add(pair, isSettled, pair.J);

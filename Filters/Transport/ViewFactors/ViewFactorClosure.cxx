@@ -4,6 +4,7 @@
 
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
+#include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
 #include "ViewFactors/ViewFactorAssembly.h"
@@ -176,6 +177,7 @@ private:
     std::vector<vtkExchangeMatrix::Tile>& tiles = this->Exchange->GetTiles();
     for (const PartlyVisiblePair& pair : pairs)
     {
+      Pulse::Beat(this->Pairs.size());
       const vtkIdType index = this->Exchange->GetTileIndex(pair.I / N, pair.J / N);
       vtkExchangeMatrix::Tile& tile = tiles[index / this->Exchange->GetNumberOfParts()];
       if (tile.Values)
@@ -200,8 +202,10 @@ private:
   Array SumPairs(Function&& getValue)
   {
     Array sums = Array::Zero(this->Areas.size());
+    std::size_t step = 0;
     for (const Pair& pair : this->Pairs)
     {
+      Pulse::Beat(++step);
       const double value = getValue(pair);
       sums[pair.I] += value;
       sums[pair.J] += value;

@@ -6,6 +6,7 @@
 #include "Links/Links.h"
 #include "Scene/CellArrays.h"
 #include "Shared/Threads.h"
+#include "Shared/ZeroedArray.h"
 #include "Support/Ranks.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkCompositeDataSet.h"
@@ -202,9 +203,10 @@ void AddColumn(vtkTable* table, const std::string& name, Function&& getValue)
 {
   vtkNew<vtkDoubleArray> column;
   column->SetName(name.c_str());
+  ZeroedArray::Fill(column, table->GetNumberOfRows());
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
-    column->InsertNextValue(getValue(row));
+    column->SetValue(row, getValue(row));
   }
   table->AddColumn(column);
 }

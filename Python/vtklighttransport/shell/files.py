@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces from files and into files."""
 
+import contextlib
 import errno
 import importlib
 import os
 
-from vtklighttransport.replacement import replace_file
-from vtklighttransport.shell.interrupts import tidying_up
+from vtklighttransport.replacement import check_place, replace_file
 from vtklighttransport.shell.stages import Failure, Stage
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -60,9 +60,17 @@ def add_output(parser):
 def check_output(options):
     if get_extension(options.output) != ".vtp":
         options.parser.error(f"argument output: '{options.output}' is not a .vtp file")
-    folder = os.path.dirname(options.output)
-    if folder and not os.path.isdir(folder):
-        raise Failure(f"cannot write {options.output}: no such directory")
+    with naming(options.output):
+        check_place(options.output)
+
+
+@contextlib.contextmanager
+def naming(file):
+    """An OSError ends the run, with the name of the file that could not be written."""
+    try:
+        yield
+    except OSError as error:
+        raise Failure(f"cannot write {file}: {error.strerror}") from error
 
 
 def write_surface(file, surface):
@@ -80,13 +88,10 @@ def write_surface(file, surface):
     replace_file(file, writer.GetOutputString().encode())
 
 
-@tidying_up()
 def write(options, messages, data):
     """The result in its file, or what was there before."""
-    try:
+    with naming(options.output):
         write_surface(options.output, data)
-    except OSError as error:
-        raise Failure(f"cannot write {options.output}: {error.strerror}") from error
     if messages.errors:
         raise Failure(f"cannot write {options.output}")
 

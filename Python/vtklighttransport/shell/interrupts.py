@@ -5,14 +5,13 @@
 Python itself answers a signal between two of its own steps, and loading a library, reading a file
 or computing are one step each, however long. So the command works in a process of its own, which
 the signal ends at once where nothing is left behind, and the process that the shell started does
-nothing but wait for it and tell what became of it. Where there is something to tidy up, the work
-says so (`tidying_up`) and gets Python's KeyboardInterrupt.
+nothing but wait for it and tell what became of it. Where something is to be made of what is there,
+the work says so (`tidying_up`) and gets Python's KeyboardInterrupt.
 
 This is loaded before all else: it needs nothing but Python.
 """
 
 import contextlib
-import ctypes
 import os
 import signal
 import sys
@@ -31,6 +30,7 @@ def work_in_another_process():
         leave_as(wait_for(child, waited_for))
     # Should the first one be killed, this one must not go on.
     if sys.platform == "linux":
+        import ctypes  # which takes a while, and Ctrl-C is answered only now
         set_parent_death_signal = 1
         ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGKILL)
     if os.getppid() != parent:

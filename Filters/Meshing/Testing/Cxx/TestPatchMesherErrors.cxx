@@ -106,6 +106,9 @@ void TestLimits(meshTest::Checker& check)
     vtkNew<vtkPatchMesher> mesher;
     mesher->SetTargetNumberOfPatches(30000000);
     ExpectError(mesher, MakeSquare(), "TargetNumberOfPatches is 30000000", check);
+    mesher->SetTargetNumberOfPatches(100);
+    mesher->SetTargetEdgeLength(1e308);
+    ExpectError(mesher, MakeSquare(), "too large to be scaled", check);
   }
   for (const double value : { -1.0, NOT_A_NUMBER, INFINITE })
   {

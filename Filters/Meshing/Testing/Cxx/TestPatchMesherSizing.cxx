@@ -471,6 +471,10 @@ void TestNumber(const std::vector<Case>& cases, meshTest::Checker& check)
       1.2, 0.4, one.Name + ": length that leads to the number");
   }
   Surface ring = MakeRing(0.3, 90, 30);
+  // Of lengths like that no edge shows anything.
+  mesher->SetTargetEdgeLength(1e12);
+  mesher->SetTargetNumberOfPatches(1000);
+  check.Equal(Remesh(mesher, ring)->GetNumberOfCells() / 1000.0, 1.0, 0.05, "number from 1e12");
   AddLengths(ring, "EdgeLength", [](const Vector& p) { return 1.0 + 0.5 * p[0]; });
   for (const int field : { vtkPatchMesher::SIZE_FIELD_CURVATURE, vtkPatchMesher::SIZE_FIELD_ARRAY })
   {

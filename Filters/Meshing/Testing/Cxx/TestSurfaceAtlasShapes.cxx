@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Atlases of shapes of every kind of topology and size: the argument is the name of a group.
+#include "LongTriangles.h"
 #include "SurfaceAtlasChecks.h"
 
 #include "vtkAppendPolyData.h"
@@ -232,39 +233,6 @@ Surface MakeRoom()
 }
 
 //------------------------------------------------------------------------------
-// As CAD exports it: its sides are two triangles each, its ends fans.
-Surface MakeRod(int sides, double length)
-{
-  std::vector<Vector> points{ { 0, 0, 0 }, { 0, 0, length } };
-  std::vector<std::array<vtkIdType, 3>> triangles;
-  for (vtkIdType i = 0; i < sides; ++i)
-  {
-    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / sides;
-    points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
-    points.push_back({ std::cos(angle), std::sin(angle), length });
-    const vtkIdType a = 2 * i + 2;
-    const vtkIdType b = 2 * ((i + 1) % sides) + 2;
-    triangles.insert(triangles.end(),
-      { { a, b, b + 1 }, { a, b + 1, a + 1 }, { 0, b, a }, { 1, a + 1, b + 1 } });
-  }
-  return meshTest::MakeSurface(points, triangles);
-}
-
-//------------------------------------------------------------------------------
-Surface MakeFan(int sides)
-{
-  std::vector<Vector> points{ { 0, 0, 0 } };
-  std::vector<std::array<vtkIdType, 3>> triangles;
-  for (vtkIdType i = 0; i < sides; ++i)
-  {
-    const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / sides;
-    points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
-    triangles.push_back({ 0, i + 1, (i + 1) % sides + 1 });
-  }
-  return meshTest::MakeSurface(points, triangles);
-}
-
-//------------------------------------------------------------------------------
 // Each triangle that is long in two sides becomes a ladder: 2 k - 1 triangles where its sides have
 // k pieces. A few more come from corners of charts.
 void CheckLadders(const std::string& what, vtkPolyData* input, double ladders, double pieces,
@@ -289,10 +257,11 @@ void CheckLadders(const std::string& what, vtkPolyData* input, double ladders, d
 //------------------------------------------------------------------------------
 void TestLong(Checker& check)
 {
-  CheckLadders("rod 100:2", MakeRod(64, 100.0), 128.0, 64.0, 2.3, check);
-  CheckLadders("rod 100:2 far away", Scale(MakeRod(16, 100.0), 1.0, 6e6), 32.0, 64.0, 2.3, check);
-  CheckLadders("rod 20:2", MakeRod(64, 20.0), 128.0, 64.0, 1.3, check);
-  CheckLadders("fan", MakeFan(500), 500.0, 16.0, 1.1, check);
+  CheckLadders("rod 100:2", meshTest::MakeRod(64, 100.0), 128.0, 64.0, 2.3, check);
+  CheckLadders("rod 100:2 far away", Scale(meshTest::MakeRod(16, 100.0), 1.0, 6e6), 32.0, 64.0, 2.3,
+    check);
+  CheckLadders("rod 20:2", meshTest::MakeRod(64, 20.0), 128.0, 64.0, 1.3, check);
+  CheckLadders("fan", meshTest::MakeFan(500), 500.0, 16.0, 1.1, check);
   CheckLadders("strip 10000:1", MakePlane(1, 1, 1e-4), 2.0, 64.0, 11.0, check);
 }
 

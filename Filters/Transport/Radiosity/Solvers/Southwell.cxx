@@ -5,6 +5,7 @@
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityIteration.h"
 #include "Radiosity/SolverEntry.h"
+#include "Shared/Pulse.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkRadiosity.h"
 
@@ -68,6 +69,7 @@ public:
     this->CheckOvershooting();
     for (vtkIdType shot = 0; shot < this->Patches; ++shot)
     {
+      Pulse::Beat();
       this->ComputeAmbient();
       const vtkIdType from = this->FindBrightest();
       if (!this->Links->GetRow(from, 0, this->Row.data()))

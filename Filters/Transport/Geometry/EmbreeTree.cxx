@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Geometry/EmbreeTree.h"
+
+#include "Shared/Pulse.h"
+#include "Shared/TransportMemory.h"
+
+#include <string>
+
+namespace LightTransport
+{
+namespace
+{
+//------------------------------------------------------------------------------
+// Embree asks before it takes memory, and is told at once how much it has taken or given back.
+bool HasMemory(void*, ssize_t bytes, bool isTaken)
+{
+  return isTaken || bytes <= 0 || TransportMemory::CanAllocate(static_cast<double>(bytes));
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+bool EmbreeTree::Open()
+{
+  this->Close();
+  // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree.
+  this->Device = rtcNewDevice("threads=1");
+  if (this->Device)
+  {
+    rtcSetDeviceMemoryMonitorFunction(this->Device, HasMemory, nullptr);
+    this->Scene = rtcNewScene(this->Device);
+  }
+  return this->Scene != nullptr;
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTree::Close()
+{
+  if (this->Scene)
+  {
+    rtcReleaseScene(this->Scene);
+  }
+  if (this->Device)
+  {
+    rtcReleaseDevice(this->Device);
+  }
+  this->Scene = nullptr;
+  this->Device = nullptr;
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTree::Attach(RTCGeometry geometry)
+{
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(this->Scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+//------------------------------------------------------------------------------
+Outcome EmbreeTree::Build(vtkIdType numberOfPatches)
+{
+  if (this->Scene)
+  {
+    this->Commit();
+  }
+  if (!this->Scene || rtcGetDeviceError(this->Device) != RTC_ERROR_NONE)
+  {
+    this->Close();
+    return Outcome::Failed("Embree could not build its tree of " + std::to_string(numberOfPatches) +
+      " patches: use fewer patches or a machine with more memory.");
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// Embree asks now and then whether to go on; exceptions must not pass through it.
+void EmbreeTree::Commit()
+{
+  bool isStopped = false;
+  const auto goesOn = [](void* stopped, double)
+  {
+    try
+    {
+      Pulse::Beat();
+      return true;
+    }
+    catch (const Stopped&)
+    {
+      *static_cast<bool*>(stopped) = true;
+      return false;
+    }
+  };
+  rtcSetSceneProgressMonitorFunction(this->Scene, goesOn, &isStopped);
+  rtcCommitScene(this->Scene);
+  rtcSetSceneProgressMonitorFunction(this->Scene, nullptr, nullptr);
+  if (isStopped)
+  {
+    throw Stopped();
+  }
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTree::Initialize(Context& context)
+{
+#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
+  rtcInitRayQueryContext(&context);
+#else
+  rtcInitIntersectContext(&context);
+#endif
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTree::Intersect(Context& context, RTCRayHit& hit) const
+{
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
+#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(this->Scene, &hit, &arguments);
+#else
+  rtcIntersect1(this->Scene, &context, &hit);
+#endif
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTree::FindOccluded(Context& context, RTCRay& ray) const
+{
+#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(this->Scene, &ray, &arguments);
+#else
+  rtcOccluded1(this->Scene, &context, &ray);
+#endif
+}
+} // namespace LightTransport
