@@ -39,6 +39,8 @@ constexpr int Bands = 3;
 constexpr double IndexTolerance = 1e-6;
 // The links as a fraction of the progress.
 constexpr double LinksDone = 0.95;
+// More light than entered, beyond the error of the links, that is not worth a warning.
+constexpr double NegligibleExcess = 0.01;
 
 //------------------------------------------------------------------------------
 /// A field data array of one of the data sets, or nullptr.
@@ -83,6 +85,7 @@ private:
   Outcome CheckMedia() const;
   Outcome ReadIrradiance();
   void CompareIndices() const;
+  void CheckEnergy(const double entering[], const double leaving[]) const;
   double GetEntering() const;
 
   vtkSubsurfaceScattering* Owner;
@@ -226,8 +229,8 @@ void vtkSubsurfaceScattering::Run::CompareIndices() const
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::Link()
 {
-  const ScatteringLinks builder(this->Owner->Model, this->Media, this->Owner->MillimetersPerUnit,
-    this->Owner->LinkTolerance);
+  const ScatteringLinks builder(this->Owner->Model, { this->Owner->BurleyFit }, this->Media,
+    this->Owner->MillimetersPerUnit, this->Owner->LinkTolerance);
   LinkCache& cache = *this->Owner->Links;
   Outcome updated = cache.Update(this->Scene, builder, this->AllRanks,
     this->Progress.GetMonitor().GetStage(0.0, LinksDone));
@@ -288,6 +291,28 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
 }
 
 //------------------------------------------------------------------------------
+/// More than all of it comes back only by an error.
+void vtkSubsurfaceScattering::Run::CheckEnergy(const double entering[],
+  const double leaving[]) const
+{
+  const double margin = NegligibleExcess + this->Owner->Links->Get().GetSummary("LinkErrorBound");
+  for (int band = 0; band < Bands; ++band)
+  {
+    if (leaving[band] > (1.0 + margin) * entering[band])
+    {
+      std::ostringstream text;
+      text
+        << "In component " << band << " " << leaving[band] / entering[band]
+        << " times the light that enters leaves again: the model claims too much where little is "
+           "absorbed, or straight links do, across sharp edges and the air between parts of the "
+           "body. Compare with Model Dipole, which gives a flat surface no more than all of it.";
+      this->Warn(text.str());
+      return;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::Write()
 {
   const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
@@ -303,6 +328,7 @@ void vtkSubsurfaceScattering::Run::Write()
     enteringFlux[k % Bands] += area * entering * this->Irradiance[k];
     leavingFlux[k % Bands] += area * this->Scattered[k];
   }
+  this->CheckEnergy(enteringFlux, leavingFlux);
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
@@ -374,6 +400,7 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
   os << indent << "MillimetersPerUnit: " << this->MillimetersPerUnit << "\n";
   os << indent << "Model: " << this->Model << "\n";
+  os << indent << "BurleyFit: " << this->BurleyFit << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";
