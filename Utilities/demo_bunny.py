@@ -32,6 +32,8 @@ class Translucent:
     def __init__(self, material):
         self.filter = lt.vtkSubsurfaceScattering()
         self.filter.SetMaterial(material)
+        # What a flat surface gives back by it is known in closed form.
+        self.filter.SetModelToDipole()
         self.filter.SetMillimetersPerUnit(10.0)
         self.filter.SetIncidenceToTransmitted()
         self.scattering, self.absorption, index = [0.0] * 3, [0.0] * 3, reference(0.0)

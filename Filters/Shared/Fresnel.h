@@ -75,6 +75,40 @@ inline double GetMeanInternalReflectance(double refractiveIndex)
   const double n = refractiveIndex;
   return n > 1.0 ? -1.4399 / (n * n) + 0.7099 / n + 0.6681 + 0.0636 * n : 0.0;
 }
+
+//------------------------------------------------------------------------------
+/// Moments of the reflectance F of light from inside over its cosine c, exact: 2 int F c dc (that
+/// of diffuse light, which GetMeanInternalReflectance approximates) and 3 int F c^2 dc.
+struct InternalMoments
+{
+  double First = 0.0;
+  double Second = 0.0;
+};
+
+//------------------------------------------------------------------------------
+/// By quadrature over the cosine outside, as in GetMeanExternalReflectance.
+inline InternalMoments GetInternalMoments(double refractiveIndex)
+{
+  InternalMoments moments;
+  if (refractiveIndex <= 1.0)
+  {
+    return moments;
+  }
+  const double squared = refractiveIndex * refractiveIndex;
+  const GaussLegendre rule(64);
+  moments.First = 1.0 - (1.0 - GetMeanExternalReflectance(refractiveIndex)) / squared;
+  double transmitted = 0.0;
+  for (std::size_t k = 0; k < rule.Nodes.size(); ++k)
+  {
+    const double t = rule.Nodes[k];
+    const double cosine = t * t * t * t;
+    const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / squared);
+    transmitted += rule.Weights[k] * 3.0 * cosine * inside / squared *
+      GetTransmittance(cosine, refractiveIndex) * 4.0 * t * t * t;
+  }
+  moments.Second = 1.0 - transmitted;
+  return moments;
+}
 } // namespace Fresnel
 } // namespace LightTransport
 

@@ -46,6 +46,8 @@ constexpr double MostAnisotropy = 0.99;
 // Light that photons lose on their way: of less nobody need know, and with more nothing is known.
 constexpr double LostShareToTell = 1e-4;
 constexpr double LostShareToFail = 0.02;
+// More light than entered, beyond the error of the links, that is not worth a warning.
+constexpr double NegligibleExcess = 0.01;
 
 //------------------------------------------------------------------------------
 /// A field data array of one of the data sets, or nullptr.
@@ -91,6 +93,7 @@ private:
   Outcome CheckPhotons() const;
   Outcome ReadIrradiance();
   void CompareIndices() const;
+  void CheckEnergy(const double entering[], const double leaving[]) const;
   double GetEntering() const;
   bool IsMonteCarlo() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
   /// Without links.
@@ -295,8 +298,9 @@ std::unique_ptr<LinkBuilder> vtkSubsurfaceScattering::Run::MakeBuilder() const
     return std::make_unique<PhotonLinks>(this->Media, this->GetAnisotropies(),
       this->Owner->MillimetersPerUnit, this->GetPhotonSettings());
   }
-  return std::make_unique<ScatteringLinks>(this->Owner->Model, this->Media,
-    this->Owner->MillimetersPerUnit, this->Owner->LinkTolerance);
+  return std::make_unique<ScatteringLinks>(this->Owner->Model,
+    ScatteringOptions{ this->Owner->BurleyFit }, this->Media, this->Owner->MillimetersPerUnit,
+    this->Owner->LinkTolerance);
 }
 
 //------------------------------------------------------------------------------
@@ -436,6 +440,28 @@ Outcome vtkSubsurfaceScattering::Run::ApplyLinks()
 }
 
 //------------------------------------------------------------------------------
+/// More than all of it comes back only by an error.
+void vtkSubsurfaceScattering::Run::CheckEnergy(const double entering[],
+  const double leaving[]) const
+{
+  const double margin = NegligibleExcess + this->Owner->Links->Get().GetSummary("LinkErrorBound");
+  for (int band = 0; band < Bands; ++band)
+  {
+    if (leaving[band] > (1.0 + margin) * entering[band])
+    {
+      std::ostringstream text;
+      text
+        << "In component " << band << " " << leaving[band] / entering[band]
+        << " times the light that enters leaves again: the model claims too much where little is "
+           "absorbed, or straight links do, across sharp edges and the air between parts of the "
+           "body. Compare with Model Dipole, which gives a flat surface no more than all of it.";
+      this->Warn(text.str());
+      return;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::Write()
 {
   const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
@@ -476,6 +502,7 @@ void vtkSubsurfaceScattering::Run::WriteLinks() const
     leavingFlux[k % Bands] +=
       this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands] * this->Scattered[k];
   }
+  this->CheckEnergy(enteringFlux, leavingFlux);
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
@@ -583,6 +610,7 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfPhotons: " << this->NumberOfPhotons << "\n";
   os << indent << "TargetError: " << this->TargetError << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "BurleyFit: " << this->BurleyFit << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

@@ -23,7 +23,7 @@ HIDDEN = {
     "ViewFactors": {"LinkTolerance", "ClusterTree"},
     "DirectIrradiance": set(),
     "Radiosity": set(),
-    "SubsurfaceScattering": set(),
+    "SubsurfaceScattering": {"BurleyFit"},
 }
 # What is chosen in a panel, and who is seen then.
 CHOICES = (
@@ -34,6 +34,7 @@ CHOICES = (
     ("Radiosity", "LinkMethod", "Hierarchical",
      {"LinkTolerance": True, "ViewFactorTolerance": False, "EnforceClosure": False}),
     ("SubsurfaceScattering", "Material", "Marble", {"ScatteringCoefficient": False}),
+    ("SubsurfaceScattering", "Model", "Christensen Burley", {"BurleyFit": True}),
 )
 # What is chosen at first, where it is the name of an array.
 ARRAYS = (("PatchMesher", "RegionArray", "Region"), ("ViewFactors", "GroupArray", "Group"),

@@ -252,6 +252,19 @@ class TestCommandLine(FolderTestCase):
         values = get_values(self.load("out.vtp"), "ScatteredIrradiance")
         self.assertLess(max(map(max, values)) - min(map(min, values)), 1e-6)
 
+    def test_scatter_models(self):
+        cube = add_array(make_cube(outside=True), "Light", [1.0] * 6)
+        source = self.save("in.vtp", cube)
+        results = set()
+        for options in (("--model", "dipole"), ("--model", "better-dipole"),
+                        ("--model", "photon-beam-diffusion"), ("--model", "christensen-burley"),
+                        ("--model", "christensen-burley", "--burley-fit", "searchlight")):
+            result = self.run_command(
+                "scatter", source, self.path("out.vtp"), "--irradiance", "Light", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            results.add(round(get_values(self.load("out.vtp"), "ScatteredIrradiance")[0][0], 6))
+        self.assertEqual(len(results), 5, results)
+
     def test_usage(self):
         source = self.make_lit_cube()
         out = self.path("out.vtp")

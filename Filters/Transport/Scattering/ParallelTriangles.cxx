@@ -31,7 +31,7 @@ double GetAngle(const FlatRegion::Point& way)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool ParallelTriangles::Set(const Vector a[3], const Vector b[3], double scale)
+bool ParallelTriangles::Set(const Vector a[3], const Vector b[3], double scale, double smallest)
 {
   const Vector normal = (a[1] - a[0]).cross(a[2] - a[0]).normalized();
   const Vector u = normal.unitOrthogonal();
@@ -58,13 +58,14 @@ bool ParallelTriangles::Set(const Vector a[3], const Vector b[3], double scale)
       std::reverse(region.begin(), region.end());
     }
   }
-  if (highest - lowest > Unevenness * scale)
+  const double distance = 0.5 * (lowest + highest);
+  const double change = std::max(smallest, std::min(scale, std::abs(distance)));
+  if (highest - lowest > Unevenness * change)
   {
     return false;
   }
-  const double distance = 0.5 * (lowest + highest);
   this->SquaredDistance = distance * distance;
-  this->Scale = std::max(scale, std::abs(distance));
+  this->Scale = std::max(change, std::abs(distance));
   this->FindDirections();
   return std::abs(distance) > Unevenness * scale || this->GetCommonArea(Point(0.0, 0.0)) > 0.0;
 }

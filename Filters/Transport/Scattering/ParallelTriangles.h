@@ -29,9 +29,12 @@ public:
   /// The profile of a squared distance.
   using Profile = std::function<Bands(double)>;
 
-  /// False where the planes are not parallel, to a profile that changes over `scale`, or are one
-  /// plane in which the two do not overlap.
-  bool Set(const Vector a[3], const Vector b[3], double scale);
+  /// False where the planes are not parallel, to a profile that changes over `scale` or, down to
+  /// the smallest one, over the distance itself, or are one plane in which the two do not overlap.
+  bool Set(const Vector a[3], const Vector b[3], double scale, double smallest);
+
+  /// Over which the profile changes along the planes.
+  double GetScale() const { return this->Scale; }
 
   /// With a rule for each range of directions between those that lead from corner to corner.
   Bands Integrate(const Profile& profile, const GaussLegendre& rule) const;
@@ -46,7 +49,6 @@ private:
 
   FlatRegion::Region Regions[2];
   double SquaredDistance = 0.0;
-  /// Over which the profile changes along the planes.
   double Scale = 1.0;
   /// Of a whole turn, in order; the last is the first again.
   std::vector<double> Directions;

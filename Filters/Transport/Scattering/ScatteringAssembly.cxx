@@ -97,7 +97,7 @@ public:
       this->Totals[band] = profiles[band]->GetTotal();
     }
     // A patch receives at most everything, and on a small body at most the peak from all of it.
-    const double allowed = tolerance * std::min(1.0, integrals.GetBound(0.0) * body.TotalArea);
+    const double allowed = tolerance * integrals.GetLargestShare(body.TotalArea);
     this->PerArea = ShareOfAreas * allowed / body.TotalArea;
     this->PerNeighbour = ShareOfNeighbours * allowed;
     this->FindCutOff(furthest);

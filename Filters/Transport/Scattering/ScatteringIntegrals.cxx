@@ -5,6 +5,7 @@
 #include "Scattering/EdgeNeighbours.h"
 #include "Scattering/ParallelTriangles.h"
 #include "Shared/GaussLegendre.h"
+#include "vtkMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,9 @@ constexpr int PlaceBits = MantissaBits - PieceBits;
 /// Cuts after which the rules have the last word: sides are 2^-6 of what they were. Patches wider
 /// than some 60 mean free paths then get a worse error estimate, but never endless work.
 constexpr int MaximumDepth = 12;
+/// Towards a peak of 1/r: pairs folded along an edge, which nothing else takes, are little but
+/// that.
+constexpr int MaximumDepthAtPeak = 16;
 
 /// A common edge, or an extent across, of more than this many of the profile's smallest scales
 /// would be cut into as many parts, and more: exact along the radius is cheaper.
@@ -49,11 +53,17 @@ constexpr double Margin = 1.01;
 /// What is smaller counts as nothing: denormal numbers would be slow.
 constexpr double SmallestValue = 1e-30;
 
-///@{ The logarithm of a profile changes by about SlopeNearby / sqrt(r^2 + scale^2) + decay per
-/// length: by 3 near a point source, and there is a margin. The distance of the points from the
+/// Of the smaller of a singular profile's scale and the longest distance: closer than this all is
+/// one. What that changes of an integral is less than this, of all that is given back.
+constexpr double CoreSize = 1e-6;
+/// Of the core's square: the table's value at 0.
+constexpr double CentreOfCore = 0.01;
+
+///@{ The logarithm of a profile changes by about ScatteringProfile::GetNearbySlope + decay per
+/// length, and there is a margin. The distance of the points from the
 /// centroids on that scale is the spread s of a pair. Each rule's error is estimated from its value
 /// v and its difference from the rule before; these factors bound 99 of 100 errors of random pairs.
-constexpr double SlopeNearby = 3.5;
+constexpr double SlopeMargin = 3.5 / 3.0;
 constexpr double ErrorOfOne = 0.15;               // s^2 v1
 constexpr double ErrorOfThree[] = { 0.1, 0.01 };  // s |v3 - v1| and s^4 v3
 constexpr double ErrorOfSix[] = { 0.05, 0.0005 }; // s |v6 - v3| and s^6 v6
@@ -117,17 +127,25 @@ ScatteringIntegrals::ScatteringIntegrals(const ScatteringProfiles& profiles, dou
   double relativeTolerance)
   : Profiles(profiles), RelativeTolerance(relativeTolerance)
 {
-  double smallest = profiles[0]->GetSmallestScale();
+  this->Scale = profiles[0]->GetSmallestScale();
+  double core = std::numeric_limits<double>::infinity();
   for (int band = 0; band < NumberOfBands; ++band)
   {
-    const double total = profiles[band]->GetTotal();
-    const double scale = profiles[band]->GetSmallestScale();
+    const ScatteringProfile& profile = *profiles[band];
+    const double total = profile.GetTotal();
+    const double scale = profile.GetSmallestScale();
+    const double slopeOfCentre = profile.IsSingular() ? ScatteringProfile::SlopeOfCentre : 0.0;
     this->InverseTotals[band] = total > 0.0 ? 1.0 / total : 0.0;
     this->SquaredScales[band] = scale * scale;
-    this->Decays[band] = profiles[band]->GetDecay();
-    smallest = std::min(smallest, scale);
+    this->Decays[band] = profile.GetDecay();
+    this->SlopesOfSource[band] = SlopeMargin * (ScatteringProfile::SlopeOfSource - slopeOfCentre);
+    this->SlopesOfCentre[band] = SlopeMargin * slopeOfCentre;
+    this->Scale = std::min(this->Scale, scale);
+    this->Singular = this->Singular || profile.IsSingular();
+    core =
+      std::min(core, profile.IsSingular() ? CoreSize * std::min(scale, maximumDistance) : scale);
   }
-  this->SquaredScale = smallest * smallest;
+  this->SquaredCore = core * core;
   this->Tabulate(maximumDistance);
 }
 
@@ -135,11 +153,11 @@ ScatteringIntegrals::ScatteringIntegrals(const ScatteringProfiles& profiles, dou
 void ScatteringIntegrals::Tabulate(double maximumDistance)
 {
   const auto pieceOf = [](double value) { return BitsOf(static_cast<float>(value)) >> PlaceBits; };
-  this->FirstPiece = pieceOf(this->SquaredScale);
+  this->FirstPiece = pieceOf(this->SquaredCore);
   // The table starts at the beginning of a piece, so that no piece reaches below distance zero.
-  this->SquaredScale = FloatOf(this->FirstPiece << PlaceBits);
+  this->SquaredCore = FloatOf(this->FirstPiece << PlaceBits);
   const std::uint32_t lastPiece =
-    pieceOf(Margin * (maximumDistance * maximumDistance + this->SquaredScale)) + 1;
+    pieceOf(Margin * (maximumDistance * maximumDistance + this->SquaredCore)) + 1;
   this->Table.resize(lastPiece - this->FirstPiece + 1);
   for (std::size_t i = 0; i < this->Table.size(); ++i)
   {
@@ -155,9 +173,8 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
       double values[3];
       for (int k = 0; k < 3; ++k)
       {
-        const double squared = begin + 0.5 * k * length - this->SquaredScale;
-        const double value = this->InverseTotals[band] *
-          this->Profiles[band]->Evaluate(std::sqrt(std::max(0.0, squared)));
+        const double squared = begin + 0.5 * k * length - this->SquaredCore;
+        const double value = this->EvaluateExactly(band, squared);
         values[k] = value > SmallestValue ? value : 0.0;
       }
       this->Table[i].Coefficients[0][band] = static_cast<float>(values[0]);
@@ -170,9 +187,19 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
 }
 
 //------------------------------------------------------------------------------
+/// Over the total, finite at 0, too.
+double ScatteringIntegrals::EvaluateExactly(int band, double squaredDistance) const
+{
+  const double nearest =
+    this->Profiles[band]->IsSingular() ? CentreOfCore * this->SquaredCore : 0.0;
+  return this->InverseTotals[band] *
+    this->Profiles[band]->Evaluate(std::sqrt(std::max(nearest, squaredDistance)));
+}
+
+//------------------------------------------------------------------------------
 inline ScatteringIntegrals::Lane ScatteringIntegrals::Evaluate(double squaredDistance) const
 {
-  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredScale));
+  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredCore));
   const Piece& piece = this->Table[(bits >> PlaceBits) - this->FirstPiece];
   constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
   const float place = static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits));
@@ -189,6 +216,42 @@ double ScatteringIntegrals::GetBound(double distance) const
       this->InverseTotals[band] * this->Profiles[band]->Evaluate(std::max(0.0, distance)));
   }
   return bound;
+}
+
+//------------------------------------------------------------------------------
+double ScatteringIntegrals::GetLargestShare(double area) const
+{
+  double share = 0.0;
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    const ScatteringProfile& profile = *this->Profiles[band];
+    double value = this->InverseTotals[band];
+    if (profile.IsSingular())
+    {
+      // No area has more of the profile than a disc around the centre.
+      double moments[3];
+      profile.GetMoments(std::sqrt(area / vtkMath::Pi()), moments);
+      value *= 2.0 * vtkMath::Pi() * moments[0];
+    }
+    else
+    {
+      value *= profile.Evaluate(0.0);
+      value *= area;
+    }
+    share = std::max(share, value);
+  }
+  return std::min(1.0, share);
+}
+
+//------------------------------------------------------------------------------
+inline ScatteringIntegrals::Bands ScatteringIntegrals::GetSlopes(double squaredDistance) const
+{
+  Bands slopes = this->SlopesOfSource / (squaredDistance + this->SquaredScales).sqrt();
+  if (this->Singular)
+  {
+    slopes += this->SlopesOfCentre / std::sqrt(squaredDistance + this->SquaredCore);
+  }
+  return slopes + this->Decays;
 }
 
 //------------------------------------------------------------------------------
@@ -214,8 +277,7 @@ bool ScatteringIntegrals::TryRules(const Triangle& a, const Triangle& b, const G
 {
   const double areas = a.Area * b.Area;
   const double distance2 = (a.Centroid - b.Centroid).squaredNorm();
-  const Bands slope = SlopeNearby / (distance2 + this->SquaredScales).sqrt() + this->Decays;
-  const Bands spread2 = slope.square() * (a.Moment + b.Moment);
+  const Bands spread2 = this->GetSlopes(distance2).square() * (a.Moment + b.Moment);
   const auto accept = [&](const Bands& value, const Bands& error)
   {
     // Where a profile ends in underflow its parabolas may dip below 0.
@@ -307,13 +369,14 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
     // e sqrt(s).
     goal.Relative = RoughTolerance;
     goal.Absolute = NegligiblePart * tolerance;
+    const int depth = this->Singular ? MaximumDepthAtPeak : MaximumDepth;
     Sum rough;
-    this->AddParts(a, b, goal, MaximumDepth, rough);
+    this->AddParts(a, b, goal, depth, rough);
     const Bands allowed = this->RelativeTolerance * rough.Value + tolerance;
     goal.Relative = 0.0;
     goal.Shared =
       allowed.square() / rough.Value.max(tolerance).max(std::numeric_limits<double>::min());
-    this->AddParts(a, b, goal, MaximumDepth, sum);
+    this->AddParts(a, b, goal, depth, sum);
   }
   result.Value += sum.Value;
   result.Error += std::sqrt(sum.SquaredError);
@@ -323,8 +386,10 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
 bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, double tolerance,
   Sum& sum) const
 {
-  const double scale = std::sqrt(this->SquaredScale);
-  const double wide = WidePair * scale;
+  // What changes like 1/r is wide at any width.
+  const double core = std::sqrt(this->SquaredCore);
+  const double scale = this->Singular ? this->Scale : core;
+  const double wide = WidePair * core;
   // No edge is longer than its triangle's sphere is wide.
   if (2.0 * std::min(a.Radius, b.Radius) < wide)
   {
@@ -346,7 +411,8 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
       return value;
     };
   }
-  else if (std::min(a.Radius, b.Radius) >= wide && sheets.Set(a.Corners, b.Corners, scale))
+  else if (std::min(a.Radius, b.Radius) >= wide && sheets.Set(a.Corners, b.Corners, scale, core) &&
+    (!this->Singular || std::min(a.Radius, b.Radius) >= WidePair * sheets.GetScale()))
   {
     integrate = [&](const GaussLegendre& rule)
     {

@@ -3,7 +3,7 @@
 /**
  * Diffuse reflectance profiles of three bands, integrated over pairs of triangles. The profiles
  * change over a fraction of a millimetre near by and over centimetres far away, and triangles may
- * be much smaller or much larger than either, so:
+ * be much smaller or much larger than either; some go like 1/r at the centre. So:
  *
  * - a triangle with itself: exact, by the moments of the profile. A triangle and its copy displaced
  * by r in direction theta overlap in a similar triangle, of area A (1 - r gamma(theta))^2, which
@@ -73,6 +73,9 @@ public:
   /// Largest of all bands' R_d(distance) / total: an upper bound, as profiles fall with distance.
   double GetBound(double distance) const;
 
+  /// Upper bound of what an area can give back of its own light, over the total; at most 1.
+  double GetLargestShare(double area) const;
+
   /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
   void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
 
@@ -104,6 +107,7 @@ private:
   };
 
   Lane Evaluate(double squaredDistance) const;
+  Bands GetSlopes(double squaredDistance) const;
   Bands IntegrateProduct(const Vector* a, const float* weightsA, int countA, const Vector* b,
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
@@ -113,15 +117,21 @@ private:
   static void RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
     double relativeTolerance, double tolerance, Sum& sum);
   void Tabulate(double maximumDistance);
+  double EvaluateExactly(int band, double squaredDistance) const;
 
   const ScatteringProfiles& Profiles;
   double InverseTotals[NumberOfBands];
   double RelativeTolerance;
-  /// Smallest scale of all profiles, squared.
-  double SquaredScale = 0.0;
+  /// Smallest scale of all profiles.
+  double Scale = 0.0;
+  /// Within its root the table does not change: the scale, or little of it for singular profiles.
+  double SquaredCore = 0.0;
+  bool Singular = false;
   ///@{ Per band; the padding is flat.
   Bands SquaredScales = Bands::Constant(std::numeric_limits<double>::infinity());
   Bands Decays = Bands::Zero();
+  Bands SlopesOfSource = Bands::Zero();
+  Bands SlopesOfCentre = Bands::Zero();
   ///@}
   std::vector<Piece> Table;
   std::uint32_t FirstPiece = 0;

@@ -60,9 +60,9 @@ Outcome FailForSize(double size)
 } // namespace
 
 //------------------------------------------------------------------------------
-ScatteringLinks::ScatteringLinks(int model, std::vector<ScatteringMedium> bands,
-  double millimetersPerUnit, double tolerance)
-  : Model(model), Bands(std::move(bands)), MillimetersPerUnit(millimetersPerUnit),
+ScatteringLinks::ScatteringLinks(int model, const ScatteringOptions& options,
+  std::vector<ScatteringMedium> bands, double millimetersPerUnit, double tolerance)
+  : Model(model), Options(options), Bands(std::move(bands)), MillimetersPerUnit(millimetersPerUnit),
     Tolerance(tolerance)
 {
 }
@@ -71,7 +71,9 @@ ScatteringLinks::ScatteringLinks(int model, std::vector<ScatteringMedium> bands,
 LinkKey ScatteringLinks::GetKey() const
 {
   LinkKey key{ "ScatteringLinks",
-    { static_cast<double>(this->Model), this->MillimetersPerUnit, this->Tolerance }, {} };
+    { static_cast<double>(this->Model), static_cast<double>(this->Options.BurleyFit),
+      this->MillimetersPerUnit, this->Tolerance },
+    {} };
   for (const ScatteringMedium& band : this->Bands)
   {
     key.Parameters.insert(key.Parameters.end(),
@@ -100,7 +102,8 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   ScatteringAssembly::Summary summary;
   Outcome built =
     LinkOperators::AllocateMatrix(areas, static_cast<int>(this->Bands.size()), ranks, links.Matrix);
-  built = built ? ScatteringModels::MakeProfiles(this->Model, this->Bands, profiles) : built;
+  built = built ? ScatteringModels::MakeProfiles(this->Model, this->Options, this->Bands, profiles)
+                : built;
   built = built ? ScatteringAssembly::Fill(scene, scale, profiles, this->Tolerance, links.Matrix,
                     monitor, summary)
                 : built;

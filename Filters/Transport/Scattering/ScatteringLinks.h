@@ -7,6 +7,7 @@
 
 #include "Links/LinkBuilder.h"
 #include "Scattering/ScatteringMedium.h"
+#include "Scattering/ScatteringModels.h"
 
 #include <vector>
 
@@ -17,8 +18,8 @@ class ScatteringLinks : public LinkBuilder
 public:
   /// `model` is one of vtkSubsurfaceScattering::ModelType, `tolerance` the error that the links of
   /// a patch may have together, relative to the profile's total.
-  ScatteringLinks(int model, std::vector<ScatteringMedium> bands, double millimetersPerUnit,
-    double tolerance);
+  ScatteringLinks(int model, const ScatteringOptions& options, std::vector<ScatteringMedium> bands,
+    double millimetersPerUnit, double tolerance);
 
   LinkKey GetKey() const override;
   Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
@@ -26,6 +27,7 @@ public:
 
 private:
   int Model;
+  ScatteringOptions Options;
   std::vector<ScatteringMedium> Bands;
   double MillimetersPerUnit;
   double Tolerance;

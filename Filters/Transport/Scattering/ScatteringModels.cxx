@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringModels.h"
 
+#include "Scattering/BetterDipoleProfile.h"
+#include "Scattering/ChristensenBurleyProfile.h"
 #include "Scattering/DipoleProfile.h"
+#include "Scattering/PhotonBeamProfile.h"
 #include "vtkSubsurfaceScattering.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace LightTransport
@@ -14,9 +18,39 @@ namespace
 {
 //------------------------------------------------------------------------------
 template <typename Profile>
-std::unique_ptr<const ScatteringProfile> Make(const ScatteringMedium& medium)
+std::unique_ptr<const ScatteringProfile> Make(const ScatteringMedium& medium,
+  const ScatteringOptions&)
 {
   return std::make_unique<const Profile>(medium);
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<const ScatteringProfile> MakeChristensenBurley(const ScatteringMedium& medium,
+  const ScatteringOptions& options)
+{
+  return std::make_unique<const ChristensenBurleyProfile>(medium, options.BurleyFit);
+}
+
+//------------------------------------------------------------------------------
+// The diffuse mean free path is a length that exists.
+Outcome CheckOptions(int number, const ScatteringOptions& options,
+  const std::vector<ScatteringMedium>& bands)
+{
+  if (number == vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY &&
+    options.BurleyFit == vtkSubsurfaceScattering::BURLEY_FIT_DIFFUSE_MEAN_FREE_PATH)
+  {
+    for (std::size_t band = 0; band < bands.size(); ++band)
+    {
+      if (bands[band].Absorption == 0.0)
+      {
+        return Outcome::Failed("BurleyFit is DiffuseMeanFreePath, but component " +
+          std::to_string(band) +
+          " absorbs nothing: its diffuse mean free path is infinite. Choose DiffuseSurface or "
+          "Searchlight, or set AbsorptionCoefficient above 0.");
+      }
+    }
+  }
+  return Outcome::Done();
 }
 } // namespace
 
@@ -25,6 +59,11 @@ const std::vector<ScatteringModel>& ScatteringModels::GetAll()
 {
   static const std::vector<ScatteringModel> models = {
     { vtkSubsurfaceScattering::MODEL_DIPOLE, "Dipole", Make<DipoleProfile> },
+    { vtkSubsurfaceScattering::MODEL_BETTER_DIPOLE, "BetterDipole", Make<BetterDipoleProfile> },
+    { vtkSubsurfaceScattering::MODEL_PHOTON_BEAM_DIFFUSION, "PhotonBeamDiffusion",
+      Make<PhotonBeamProfile> },
+    { vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY, "ChristensenBurley",
+      MakeChristensenBurley },
   };
   return models;
 }
@@ -39,8 +78,8 @@ const ScatteringModel* ScatteringModels::Find(int number)
 }
 
 //------------------------------------------------------------------------------
-Outcome ScatteringModels::MakeProfiles(int number, const std::vector<ScatteringMedium>& bands,
-  ScatteringProfiles& profiles)
+Outcome ScatteringModels::MakeProfiles(int number, const ScatteringOptions& options,
+  const std::vector<ScatteringMedium>& bands, ScatteringProfiles& profiles)
 {
   const ScatteringModel* model = Find(number);
   if (!model)
@@ -54,10 +93,14 @@ Outcome ScatteringModels::MakeProfiles(int number, const std::vector<ScatteringM
     return Outcome::Failed(
       "Model is " + std::to_string(number) + ", which no profile has. Choose from: " + names + ".");
   }
+  if (Outcome fits = CheckOptions(number, options, bands); !fits)
+  {
+    return fits;
+  }
   profiles.clear();
   for (const ScatteringMedium& band : bands)
   {
-    profiles.push_back(model->MakeProfile(band));
+    profiles.push_back(model->MakeProfile(band, options));
   }
   return Outcome::Done();
 }

@@ -17,12 +17,20 @@
 
 namespace LightTransport
 {
+/// What some models depend on beside the medium.
+struct ScatteringOptions
+{
+  /// In vtkSubsurfaceScattering::BurleyFitType.
+  int BurleyFit = 1;
+};
+
 struct ScatteringModel
 {
   /// In vtkSubsurfaceScattering::ModelType.
   int Number;
   const char* Name;
-  std::unique_ptr<const ScatteringProfile> (*MakeProfile)(const ScatteringMedium& medium);
+  std::unique_ptr<const ScatteringProfile> (
+    *MakeProfile)(const ScatteringMedium& medium, const ScatteringOptions& options);
 };
 
 namespace ScatteringModels
@@ -32,9 +40,10 @@ const std::vector<ScatteringModel>& GetAll();
 /// nullptr for a number that no profile has.
 const ScatteringModel* Find(int number);
 
-/// One profile for each band. Fails for a number that no profile has.
-Outcome MakeProfiles(int number, const std::vector<ScatteringMedium>& bands,
-  ScatteringProfiles& profiles);
+/// One profile for each band. Fails for a number that no profile has, and where options do not fit
+/// the medium.
+Outcome MakeProfiles(int number, const ScatteringOptions& options,
+  const std::vector<ScatteringMedium>& bands, ScatteringProfiles& profiles);
 } // namespace ScatteringModels
 } // namespace LightTransport
 

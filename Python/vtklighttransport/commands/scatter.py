@@ -26,6 +26,9 @@ PROPERTIES = (
     Number("--refractive-index", "RefractiveIndex", float, "refractive index of the object"),
     Number("--mm-per-unit", "MillimetersPerUnit", float,
            "length of the mesh's unit in millimetres; 10 for centimetres"),
+    Choice("--model", "Model", "MODEL_", "the diffuse reflectance profile"),
+    Choice("--burley-fit", "BurleyFit", "BURLEY_FIT_",
+           "what the model of Christensen and Burley is fitted to, which is one for an index of 1"),
     Choice("--incidence", "Incidence", "INCIDENCE_",
            "without a light: whether the mesh's array is diffuse irradiance or has entered the "
            "surface"),

@@ -143,6 +143,39 @@ void TestIndexWarning()
 }
 
 //------------------------------------------------------------------------------
+void TestModels()
+{
+  ExpectScattering(MakeSurface(), "diffuse mean free path is infinite",
+    [](vtkSubsurfaceScattering* filter)
+    {
+      filter->SetModelToChristensenBurley();
+      filter->SetBurleyFitToDiffuseMeanFreePath();
+      filter->SetAbsorptionCoefficient(0.1, 0.0, 0.1);
+    });
+  // More light than there is: said for the model that claims it, and for no other.
+  vtkNew<vtkTest::ErrorObserver> messages;
+  vtkNew<vtkSubsurfaceScattering> filter;
+  filter->AddObserver(vtkCommand::WarningEvent, messages);
+  filter->SetInputData(MakeSurface());
+  filter->SetMillimetersPerUnit(1e4);
+  filter->SetAbsorptionCoefficient(0.0, 0.0, 0.0);
+  filter->SetLinkTolerance(1e-2);
+  filter->SetRefractiveIndex(1.0);
+  filter->SetDeviceToCPU();
+  for (int model = 0; model <= vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY; ++model)
+  {
+    filter->SetModel(model);
+    filter->Update();
+    const bool claims = model == vtkSubsurfaceScattering::MODEL_BETTER_DIPOLE ||
+      model == vtkSubsurfaceScattering::MODEL_PHOTON_BEAM_DIFFUSION;
+    Check((messages->GetWarningMessage().find("times the light that enters") !=
+            std::string::npos) == claims,
+      "a warning of too much light, model " + std::to_string(model));
+    messages->Clear();
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestLights()
 {
   using Filter = vtkDirectIrradiance;
@@ -229,6 +262,7 @@ int TestScatteringErrors(int, char*[])
   TestOptics();
   TestIrradiance();
   TestIndexWarning();
+  TestModels();
   TestLights();
   TestEnvironments();
   TestAbort();

@@ -3,6 +3,7 @@
 // Spheres in uniform light against their exact value, and the properties of the filter.
 #include "LightTransportTesting.h"
 #include "Scattering/DipoleProfile.h"
+#include "Scattering/ScatteringModels.h"
 #include "vtkDirectIrradiance.h"
 #include "vtkLight.h"
 #include "vtkPLYReader.h"
@@ -69,6 +70,7 @@ vtkSmartPointer<vtkSubsurfaceScattering> MakeFilter(vtkPolyData* data)
   filter->SetScatteringCoefficient(Scattering);
   filter->SetAbsorptionCoefficient(Absorption);
   filter->SetIncidenceToTransmitted();
+  filter->SetModelToDipole();
   filter->SetDeviceToCPU();
   return filter;
 }
@@ -102,10 +104,11 @@ double GetMean(vtkSubsurfaceScattering* filter, int band)
 //------------------------------------------------------------------------------
 /// On a sphere the area between two distances from a point grows as in the plane, so uniform light
 /// 1 gives exactly the profile's total less its tail beyond the diameter.
-double GetExact(int band, double radius)
+double GetExact(int band, double radius, int model = vtkSubsurfaceScattering::MODEL_DIPOLE)
 {
-  const DipoleProfile profile({ Scattering[band], Absorption[band], 1.3 });
-  return profile.GetTotal() - profile.GetTail(2.0 * radius);
+  const auto profile =
+    ScatteringModels::Find(model)->MakeProfile({ Scattering[band], Absorption[band], 1.3 }, {});
+  return profile->GetTotal() - profile->GetTail(2.0 * radius);
 }
 
 //------------------------------------------------------------------------------
@@ -132,17 +135,20 @@ void TestSphere(double radius, int levels, double linkTolerance)
 //------------------------------------------------------------------------------
 /// Flat patches err with the square of their size, which extrapolation removes: what is left is the
 /// error of the links.
-void TestExtrapolatedSphere(double radius)
+void TestExtrapolatedSphere(double radius, int model = vtkSubsurfaceScattering::MODEL_DIPOLE)
 {
   auto coarse = MakeFilter(MakeSphere(2));
   auto fine = MakeFilter(MakeSphere(3));
+  coarse->SetModel(model);
+  fine->SetModel(model);
   coarse->SetMillimetersPerUnit(radius);
   fine->SetMillimetersPerUnit(radius);
   for (int band = 0; band < 3; ++band)
   {
     const double value = (4.0 * GetMean(fine, band) - GetMean(coarse, band)) / 3.0;
-    CheckClose(value, GetExact(band, radius), 1e-3,
-      "extrapolated sphere of radius " + std::to_string(radius) + ", band " + std::to_string(band));
+    CheckClose(value, GetExact(band, radius, model), 1e-3,
+      "extrapolated sphere of radius " + std::to_string(radius) + ", band " + std::to_string(band) +
+        ", model " + std::to_string(model));
   }
 }
 
@@ -282,6 +288,10 @@ void TestInvariance()
   Check(GetSummary(first->GetOutput(), "LinkSeconds") == seconds, "links are kept");
   first->SetRefractiveIndex(1.4);
   Check(GetLargestDifference(GetScattered(first), before, 2.0) > 1e-3, "links are made anew");
+  first->SetModelToChristensenBurley();
+  before->DeepCopy(GetScattered(first));
+  first->SetBurleyFitToSearchlight();
+  Check(GetLargestDifference(GetScattered(first), before) > 1e-3, "so they are for another fit");
 }
 
 //------------------------------------------------------------------------------
@@ -343,6 +353,7 @@ void TestBunny(const char* fileName)
   vtkNew<vtkSubsurfaceScattering> scattering;
   scattering->SetInputConnection(direct->GetOutputPort());
   scattering->SetMaterialToMarble();
+  scattering->SetModelToDipole();
   scattering->SetMillimetersPerUnit(10.0);
   scattering->SetIncidenceToTransmitted();
   scattering->SetLinkTolerance(1e-3);
@@ -433,6 +444,12 @@ int TestSubsurfaceScattering(int, char*[])
   TestSphere(0.1, 3, 1e-4);
   TestSphere(1.0, 3, 1e-4);
   TestExtrapolatedSphere(10.0);
+  for (const int model : { vtkSubsurfaceScattering::MODEL_BETTER_DIPOLE,
+         vtkSubsurfaceScattering::MODEL_PHOTON_BEAM_DIFFUSION,
+         vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY })
+  {
+    TestExtrapolatedSphere(2.0, model);
+  }
   TestSphere(100.0, 3, 1e-3);
   TestSphere(1000.0, 1, 5e-4);
   TestMaterials();
