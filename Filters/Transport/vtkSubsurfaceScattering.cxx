@@ -95,6 +95,7 @@ private:
   void CompareIndices() const;
   void CheckEnergy(const double entering[], const double leaving[]) const;
   double GetEntering() const;
+  void SumFlux(double entering[], double leaving[]) const;
   bool IsMonteCarlo() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
   /// Without links.
   bool FollowsPhotons() const
@@ -406,10 +407,11 @@ Outcome vtkSubsurfaceScattering::Run::ApplyLinks()
   const std::vector<double>& areas = exchange->GetAreas();
   std::vector<double> left(this->Irradiance.size());
   std::vector<double> light = this->Irradiance;
+  const double share = this->GetEntering();
   for (std::size_t k = 0; k < left.size(); ++k)
   {
     left[k] = 1.0 / areas[k / Bands];
-    light[k] *= this->GetEntering();
+    light[k] *= share;
   }
   this->Scattered.resize(this->Irradiance.size());
   const std::vector<double> right(left.size(), 1.0);
@@ -454,7 +456,7 @@ void vtkSubsurfaceScattering::Run::CheckEnergy(const double entering[],
         << "In component " << band << " " << leaving[band] / entering[band]
         << " times the light that enters leaves again: the model claims too much where little is "
            "absorbed, or straight links do, across sharp edges and the air between parts of the "
-           "body. Compare with Model Dipole, which gives a flat surface no more than all of it.";
+           "body. Compare with Model MonteCarlo, which keeps energy in closed bodies.";
       this->Warn(text.str());
       return;
     }
@@ -466,15 +468,12 @@ void vtkSubsurfaceScattering::Run::Write()
 {
   const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
   const SceneOutput output(this->Scene, &points, this->Input, this->Output);
-  double enteringFlux[Bands] = {};
-  const double entering = this->GetEntering();
-  for (std::size_t k = 0; k < this->Irradiance.size(); ++k)
-  {
-    enteringFlux[k % Bands] +=
-      this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands] * entering * this->Irradiance[k];
-  }
+  double entering[Bands] = {};
+  double leaving[Bands] = {};
+  this->SumFlux(entering, leaving);
   vtkFieldData* fields = this->GetOutputFields();
-  FieldValues::Add(fields, "EnteringFlux", enteringFlux, Bands);
+  FieldValues::Add(fields, "EnteringFlux", entering, Bands);
+  FieldValues::Add(fields, "LeavingFlux", leaving, Bands);
   FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
   FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
   this->Table->Initialize();
@@ -489,26 +488,39 @@ void vtkSubsurfaceScattering::Run::Write()
     {
       output.AddArray(ArrayNames::ScatteredIrradianceError, this->Errors, Bands);
     }
+    else
+    {
+      this->CheckEnergy(entering, leaving);
+    }
     this->WriteLinks();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScattering::Run::SumFlux(double entering[], double leaving[]) const
+{
+  const double share = this->GetEntering();
+  for (std::size_t k = 0; k < this->Irradiance.size(); ++k)
+  {
+    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands];
+    entering[k % Bands] += area * share * this->Irradiance[k];
+    leaving[k % Bands] += this->FollowsPhotons() ? 0.0 : area * this->Scattered[k];
+  }
+  for (std::size_t k = 0; k < this->Photons.Scattered.size(); ++k)
+  {
+    const double area = this->GetAreaUnit() * this->Scene.GetFaces().GetArea(k / Bands);
+    leaving[k % Bands] += area * this->Photons.Scattered[k];
   }
 }
 
 //------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::WriteLinks() const
 {
-  double leavingFlux[Bands] = {};
-  for (std::size_t k = 0; k < this->Scattered.size(); ++k)
-  {
-    leavingFlux[k % Bands] +=
-      this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands] * this->Scattered[k];
-  }
-  this->CheckEnergy(enteringFlux, leavingFlux);
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
   FieldValues::Add(fields, "LinksReused", this->Owner->Links->WereMade() ? 0.0 : 1.0);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
-  FieldValues::Add(fields, "LeavingFlux", leavingFlux, Bands);
 
   vtkFieldData* row = this->Table->GetRowData();
   FieldValues::Add(row, "Links", links.GetSummary("NumberOfLinks"));
@@ -524,17 +536,10 @@ void vtkSubsurfaceScattering::Run::WritePhotons(const SceneOutput& output) const
   const PhotonScattering::Result& photons = this->Photons;
   output.AddFaceArray(ArrayNames::ScatteredIrradiance, photons.Scattered, Bands);
   output.AddFaceArray(ArrayNames::ScatteredIrradianceError, photons.Errors, Bands);
-  double leavingFlux[Bands] = {};
-  for (std::size_t k = 0; k < photons.Scattered.size(); ++k)
-  {
-    leavingFlux[k % Bands] +=
-      this->GetAreaUnit() * this->Scene.GetFaces().GetArea(k / Bands) * photons.Scattered[k];
-  }
   const double count = std::max<double>(photons.Photons, 1.0);
   const double error =
     *std::max_element(photons.RelativeErrors.begin(), photons.RelativeErrors.end());
   vtkFieldData* fields = this->GetOutputFields();
-  FieldValues::Add(fields, "LeavingFlux", leavingFlux, Bands);
   FieldValues::Add(fields, "LeavingShare", photons.LeavingShares.data(), Bands);
   FieldValues::Add(fields, "LeavingShareError", photons.LeavingShareErrors.data(), Bands);
   FieldValues::Add(fields, "UnscatteredShare", photons.UnscatteredShares.data(), Bands);

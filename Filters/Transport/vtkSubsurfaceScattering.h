@@ -14,6 +14,13 @@
  * that stays within the patch it entered comes from the profile's exact moments, so patches may be
  * any number of mean free paths wide.
  *
+ * With MODEL_MONTE_CARLO photons walk in the body itself instead: they start on the patches that
+ * light enters, as diffuse light under either Incidence (cosine outside, refracted), are scattered
+ * by the phase function of Henyey and Greenstein, reflected and refracted at the patches as at
+ * smooth facets, and enter again where the body is not convex. The surface must be closed, its
+ * fronts outside; there may be several bodies, and cavities. All three components share their
+ * photons where their Anisotropy is the same.
+ *
  * Input arrays (cells, float or double, 1 component = the same in all bands or 3 = red, green,
  * blue; choose others with SetInputArrayToProcess(0, ...)):
  * - "Irradiance" when Incidence is Diffuse, incident flux per unit area;
@@ -22,21 +29,32 @@
  *
  * Output arrays (cells and points, double):
  * - "ScatteredIrradiance" (3 components): radiant exitance that leaves the surface by scattering,
- * in all directions, per unit area, without a factor 1/pi; in the unit of the input array.
+ * in all directions, per unit area, without a factor 1/pi; in the unit of the input array. What
+ * was scattered once or more: light that runs through the body unscattered is not in it;
+ * - "ScatteredIrradianceError" (MODEL_MONTE_CARLO): one standard error of it; of a patch that no
+ * photon has reached that of one photon.
  *
  * Output field data: "NumberOfLinks", "LinksLeftOut", "LinkErrorBound", "LinkSeconds",
  * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
  * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
- * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
+ * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
+ * where links of an earlier run were taken. Monte Carlo without links has in their place
+ * "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters,
+ * what goes away for good after scattering) with "LeavingShareError", "UnscatteredShare",
+ * "LostShare" (0 but for surfaces that cross themselves and very large bodies),
+ * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
+ * "WalkSeconds", "Error".
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
- * finite, links that do not fit into memory.
+ * finite, links that do not fit into memory. Monte Carlo: a surface that is open, inside out, has
+ * no inside or crosses itself; irradiance below 0 without links; Anisotropy out of its range.
  *
  * H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model for Subsurface Light
  * Transport", SIGGRAPH 2001; H. W. Jensen, J. Buhler, "A Rapid Hierarchical Rendering Technique for
  * Translucent Materials", SIGGRAPH 2002; N. A. Carr, J. D. Hall, J. C. Hart, "GPU Algorithms for
- * Radiosity and Subsurface Scattering", Graphics Hardware 2003.
+ * Radiosity and Subsurface Scattering", Graphics Hardware 2003; L. Wang, S. L. Jacques, L. Zheng,
+ * "MCML - Monte Carlo modeling of light transport in multi-layered tissues", 1995.
  *
  * @sa vtkDirectIrradiance, vtkRadiosity
  */

@@ -23,7 +23,8 @@ HIDDEN = {
     "ViewFactors": {"LinkTolerance", "ClusterTree"},
     "DirectIrradiance": set(),
     "Radiosity": set(),
-    "SubsurfaceScattering": {"BurleyFit"},
+    "SubsurfaceScattering": {"BurleyFit", "LinkMethod", "TargetError", "NumberOfPhotons",
+                             "Anisotropy", "Seed"},
 }
 # What is chosen in a panel, and who is seen then.
 CHOICES = (
@@ -35,6 +36,9 @@ CHOICES = (
      {"LinkTolerance": True, "ViewFactorTolerance": False, "EnforceClosure": False}),
     ("SubsurfaceScattering", "Material", "Marble", {"ScatteringCoefficient": False}),
     ("SubsurfaceScattering", "Model", "Christensen Burley", {"BurleyFit": True}),
+    ("SubsurfaceScattering", "Model", "Monte Carlo",
+     {"BurleyFit": False, "TargetError": True, "NumberOfPhotons": True, "Anisotropy": True,
+      "LinkTolerance": False}),
 )
 # What is chosen at first, where it is the name of an array.
 ARRAYS = (("PatchMesher", "RegionArray", "Region"), ("ViewFactors", "GroupArray", "Group"),

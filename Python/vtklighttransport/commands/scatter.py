@@ -26,9 +26,18 @@ PROPERTIES = (
     Number("--refractive-index", "RefractiveIndex", float, "refractive index of the object"),
     Number("--mm-per-unit", "MillimetersPerUnit", float,
            "length of the mesh's unit in millimetres; 10 for centimetres"),
-    Choice("--model", "Model", "MODEL_", "the diffuse reflectance profile"),
+    Choice("--model", "Model", "MODEL_",
+           "the diffuse reflectance profile of a flat surface, or photons in the body itself "
+           "(monte-carlo), which must be closed"),
     Choice("--burley-fit", "BurleyFit", "BURLEY_FIT_",
            "what the model of Christensen and Burley is fitted to, which is one for an index of 1"),
+    Number("--target-error", "TargetError", float,
+           "standard error of the result of monte-carlo, relative"),
+    Number("--photons", "NumberOfPhotons", int,
+           "photons of monte-carlo; 0 for as many as --target-error asks"),
+    Color("--anisotropy", "Anisotropy",
+          "mean cosine of the angle of scattering of red, green and blue, for monte-carlo"),
+    Number("--seed", "Seed", int, "of the random numbers of monte-carlo"),
     Choice("--incidence", "Incidence", "INCIDENCE_",
            "without a light: whether the mesh's array is diffuse irradiance or has entered the "
            "surface"),
@@ -70,9 +79,15 @@ def run(options, messages):
         else:
             choose_array(scattering, IRRADIANCE.index, "DirectIrradiance")
     result = Stage("scattering", scattering, options.quiet).run(messages, surface)
-    return write_patches(
-        options, messages, result,
-        f"{get_summary(result, 'NumberOfLinks'):.0f} links, {get_summary(result, 'DeviceUsed')}")
+    return write_patches(options, messages, result, describe(result))
+
+
+def describe(result):
+    if result.GetFieldData().HasArray("NumberOfLinks"):
+        work = f"{get_summary(result, 'NumberOfLinks'):.0f} links"
+    else:
+        work = f"{get_summary(result, 'PhotonsTraced'):.0f} photons"
+    return f"{work}, {get_summary(result, 'DeviceUsed')}"
 
 
 def find_refractive_index(scattering):
