@@ -5,6 +5,7 @@
 #include "Links/LinkCache.h"
 #include "Links/LinkOperators.h"
 #include "Run/TransportRun.h"
+#include "Scattering/BodyThickness.h"
 #include "Scattering/ScatteringLinks.h"
 #include "Scattering/ScatteringMaterials.h"
 #include "Scene/CellArrays.h"
@@ -41,6 +42,9 @@ constexpr double IndexTolerance = 1e-6;
 constexpr double LinksDone = 0.95;
 // More light than entered, beyond the error of the links, that is not worth a warning.
 constexpr double NegligibleExcess = 0.01;
+// Diffusion lengths below which a body is thin, and how much of it may be.
+constexpr double ThinBody = 2.0;
+constexpr double LargestThinShare = 0.1;
 
 //------------------------------------------------------------------------------
 /// A field data array of one of the data sets, or nullptr.
@@ -87,6 +91,7 @@ private:
   void CompareIndices() const;
   void CheckEnergy(const double entering[], const double leaving[]) const;
   double GetEntering() const;
+  void WriteThickness(const SceneOutput& output) const;
 
   vtkSubsurfaceScattering* Owner;
   std::vector<ScatteringMedium> Media; ///< of each band
@@ -94,6 +99,7 @@ private:
   std::vector<double> Irradiance;
   std::vector<double> Scattered;
   ///@}
+  std::vector<double> Thickness; ///< of each patch, in scene units
   double ApplySeconds = 0.0;
   std::string DeviceUsed;
   std::string DeviceExplanation;
@@ -253,6 +259,15 @@ double vtkSubsurfaceScattering::Run::GetEntering() const
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::Compute()
 {
+  if (this->Owner->ComputeThickness)
+  {
+    if (Outcome measured =
+          this->AllRanks.Agree(BodyThickness::Measure(this->Scene, this->Thickness));
+        !measured)
+    {
+      return measured;
+    }
+  }
   enum Slot
   {
     INCIDENT,
@@ -313,11 +328,54 @@ void vtkSubsurfaceScattering::Run::CheckEnergy(const double entering[],
 }
 
 //------------------------------------------------------------------------------
+void vtkSubsurfaceScattering::Run::WriteThickness(const SceneOutput& output) const
+{
+  const double scale = this->Scene.GetScale() * this->Owner->MillimetersPerUnit;
+  const std::size_t patches = this->Thickness.size();
+  std::vector<double> millimeters(patches);
+  std::vector<double> lengths(patches * Bands);
+  double thin[Bands] = {};
+  double total = 0.0;
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    const double area = this->Scene.GetAreas()[patch];
+    millimeters[patch] = scale * this->Thickness[patch];
+    total += area;
+    for (int band = 0; band < Bands; ++band)
+    {
+      double& value = lengths[patch * Bands + band];
+      value = millimeters[patch] * BodyThickness::GetTransportCoefficient(this->Media[band]);
+      thin[band] += value < ThinBody ? area : 0.0;
+    }
+  }
+  for (double& share : thin)
+  {
+    share /= total;
+  }
+  output.AddArray("Thickness", millimeters, 1);
+  output.AddArray("DiffusionThickness", lengths, Bands);
+  FieldValues::Add(this->GetOutputFields(), "ThinShare", thin, Bands);
+  const double* worst = std::max_element(thin, thin + Bands);
+  if (*worst > LargestThinShare)
+  {
+    std::ostringstream text;
+    text << "In component " << worst - thin << " " << 100.0 * *worst
+         << " % of the surface is thinner than two diffusion lengths (DiffusionThickness), where "
+            "models of a medium without end claim too much. Use Model MonteCarlo.";
+    this->WarnOnce({ text.str() });
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::Write()
 {
   const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
-  SceneOutput(this->Scene, &points, this->Input, this->Output)
-    .AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
+  const SceneOutput output(this->Scene, &points, this->Input, this->Output);
+  output.AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
+  if (this->Owner->ComputeThickness)
+  {
+    this->WriteThickness(output);
+  }
 
   double enteringFlux[Bands] = {};
   double leavingFlux[Bands] = {};
@@ -401,6 +459,7 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MillimetersPerUnit: " << this->MillimetersPerUnit << "\n";
   os << indent << "Model: " << this->Model << "\n";
   os << indent << "BurleyFit: " << this->BurleyFit << "\n";
+  os << indent << "ComputeThickness: " << this->ComputeThickness << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

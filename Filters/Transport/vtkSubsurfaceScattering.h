@@ -22,12 +22,14 @@
  *
  * Output arrays (cells and points, double):
  * - "ScatteredIrradiance" (3 components): radiant exitance that leaves the surface by scattering,
- * in all directions, per unit area, without a factor 1/pi; in the unit of the input array.
+ * in all directions, per unit area, without a factor 1/pi; in the unit of the input array;
+ * - with ComputeThickness "Thickness" (mm) and "DiffusionThickness" (3 components).
  *
  * Output field data: "NumberOfLinks", "LinksLeftOut", "LinkErrorBound", "LinkSeconds",
  * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
- * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
- * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
+ * of the input's length unit), "DeviceUsed", "DeviceExplanation"; with ComputeThickness "ThinShare"
+ * (3 components: the part of the surface that is thinner than two diffusion lengths). Port 1 is a
+ * vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
@@ -207,6 +209,19 @@ public:
 
   ///@{
   /**
+   * Tell how thick the body is: the way along the inward normal to its far side, in mm
+   * ("Thickness") and in diffusion lengths of each band ("DiffusionThickness", 0 where nothing is
+   * absorbed); the diagonal of the bounding box where an open surface has no far side. Models stand
+   * for a medium without end: a warning tells where more than a tenth of the surface is thinner
+   * than two diffusion lengths. Default off.
+   */
+  vtkSetMacro(ComputeThickness, bool);
+  vtkGetMacro(ComputeThickness, bool);
+  vtkBooleanMacro(ComputeThickness, bool);
+  ///@}
+
+  ///@{
+  /**
    * Error that the links of one patch may have together, relative to all that a unit of entering
    * light gives back (the profile's total). Default 1e-4, range 1e-8 to 0.1.
    */
@@ -257,6 +272,7 @@ private:
   double MillimetersPerUnit = 1.0;
   int Model = MODEL_PHOTON_BEAM_DIFFUSION;
   int BurleyFit = BURLEY_FIT_DIFFUSE_SURFACE;
+  bool ComputeThickness = false;
   double LinkTolerance = 1e-4;
   int Incidence = INCIDENCE_DIFFUSE;
   int Device = DEVICE_AUTO;
