@@ -204,7 +204,7 @@ public:
    * - MODEL_PHOTON_BEAM_DIFFUSION (the default), of Habel et al. 2013, with exact single
    * scattering: 6 % (6 %);
    * - MODEL_CHRISTENSEN_BURLEY, of 2015, a fit for index 1, see BurleyFit: RefractiveIndex has no
-   * influence on it. At index 1 as Searchlight: 0 % (6 %), the best there; at 1.4 93 % (119 %).
+   * influence on it. At index 1 as Searchlight: 0 % (6 %), the best there; at 1.4 81 % (82 %).
    * At index 1 the better dipole and photon beam diffusion are 18 % and 14 % off, and may give back
    * up to 1.15 and 1.09 of what enters where nothing is absorbed.
    * MODEL_MONTE_CARLO is none: photons walk in the body itself, which must be closed, as light that
