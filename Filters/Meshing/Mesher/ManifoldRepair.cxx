@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesher/ManifoldRepair.h"
 
+#include "Common/Heartbeat.h"
 #include "Mesher/SoupLocator.h"
+#include "Mesher/TriangleCrossings.h"
 #include "vtkMath.h"
 #include "vtkSphere.h"
 
@@ -11,7 +13,7 @@
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -61,6 +63,12 @@ std::array<Vertex, 3> GetCorners(const Mesh& mesh, Face face)
 {
   const Halfedge h = mesh.halfedge(face);
   return { mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)) };
+}
+
+//------------------------------------------------------------------------------
+std::vector<Face> GetFaces(const Mesh& mesh)
+{
+  return { mesh.faces().begin(), mesh.faces().end() };
 }
 
 //------------------------------------------------------------------------------
@@ -125,65 +133,50 @@ struct Components
 };
 
 //------------------------------------------------------------------------------
-// Whether two triangles that meet have only corners or sides in common, by their coordinates: where
+// The pairs of triangles that have more in common than corners and sides, sorted. Where
 // non-manifold edges and points were split, neighbours meet that share no point of the mesh.
-bool OnlyTouch(const Kernel::Triangle_3& t, const Kernel::Triangle_3& u)
+std::vector<Pair> FindIntersections(const Mesh& mesh, const Monitor& monitor)
 {
-  int first[3] = { 0, 1, 2 };
-  int second[3] = { 0, 1, 2 };
-  int common = 0;
-  for (int i = 0; i < 3; ++i)
+  TriangleCrossings::Points points(mesh.num_vertices());
+  for (const Vertex vertex : mesh.vertices())
   {
-    for (int j = common; j < 3; ++j)
-    {
-      if (t[first[i]] == u[second[j]])
-      {
-        std::swap(first[common], first[i]);
-        std::swap(second[common], second[j]);
-        ++common;
-        break;
-      }
-    }
+    points[vertex] = FromKernel(mesh.point(vertex));
   }
-  if (common == 1)
+  const std::vector<Face> faces = GetFaces(mesh);
+  TriangleCrossings::Triangles triangles;
+  triangles.reserve(faces.size());
+  for (const Face face : faces)
   {
-    return !CGAL::do_intersect(t, Kernel::Segment_3(u[second[1]], u[second[2]])) &&
-      !CGAL::do_intersect(u, Kernel::Segment_3(t[first[1]], t[first[2]]));
+    const std::array<Vertex, 3> corners = GetCorners(mesh, face);
+    triangles.push_back({ corners[0], corners[1], corners[2] });
   }
-  const Point& a = t[first[0]];
-  const Point& b = t[first[1]];
-  const Point& c = t[first[2]];
-  const Point& d = u[second[2]];
-  return common == 2 &&
-    (!CGAL::coplanar(a, b, c, d) || CGAL::coplanar_orientation(a, b, c, d) != CGAL::POSITIVE);
-}
-
-//------------------------------------------------------------------------------
-// The pairs of triangles that intersect, sorted.
-std::vector<Pair> GetIntersections(const Mesh& mesh)
-{
   std::vector<Pair> pairs;
-  PMP::self_intersections(mesh, std::back_inserter(pairs));
-  const auto touch = [&mesh](const Pair& pair)
-  { return OnlyTouch(GetTriangle(mesh, pair.first), GetTriangle(mesh, pair.second)); };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), touch), pairs.end());
-  for (Pair& pair : pairs)
+  for (const TriangleCrossings::Pair& pair : TriangleCrossings::Find(points, triangles, monitor))
   {
-    if (pair.second < pair.first)
+    if (!pair.OnlyTouches)
     {
-      std::swap(pair.first, pair.second);
+      pairs.emplace_back(faces[pair.First], faces[pair.Second]);
     }
   }
-  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 //------------------------------------------------------------------------------
-void Extract(const RepairMesh& whole, const std::vector<Face>& faces, RepairMesh& part)
+bool HasDegenerateTriangle(const Mesh& mesh)
+{
+  const auto faces = mesh.faces();
+  return std::any_of(faces.begin(), faces.end(),
+    [&mesh](Face face) { return PMP::is_degenerate_triangle_face(face, mesh); });
+}
+
+//------------------------------------------------------------------------------
+void Extract(const RepairMesh& whole, const std::vector<Face>& faces, Heartbeat& heart,
+  RepairMesh& part)
 {
   std::map<Vertex, Vertex> known;
   for (const Face face : faces)
   {
+    heart.Beat();
     std::array<Vertex, 3> corners = GetCorners(whole.Triangles, face);
     for (Vertex& corner : corners)
     {
@@ -225,14 +218,8 @@ void Append(const RepairMesh& surface, const std::vector<Face>& faces, TriangleS
 }
 
 //------------------------------------------------------------------------------
-std::vector<Face> GetFaces(const Mesh& mesh)
-{
-  return { mesh.faces().begin(), mesh.faces().end() };
-}
-
-//------------------------------------------------------------------------------
 // Gives new triangles and points the ids of the old surface where it is closest.
-void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
+void TakeNearestIds(RepairMesh& surface, const RepairMesh& old, Heartbeat& heart)
 {
   TriangleSoup soup;
   Append(old, GetFaces(old.Triangles), soup);
@@ -241,6 +228,7 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
   const Mesh& mesh = surface.Triangles;
   for (const Face face : mesh.faces())
   {
+    heart.Beat();
     if (surface.CellIds[face] == New)
     {
       const Point center = CGAL::centroid(GetTriangle(mesh, face));
@@ -249,6 +237,7 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
   }
   for (const Vertex vertex : mesh.vertices())
   {
+    heart.Beat();
     if (surface.PointIds[vertex] == New)
     {
       const auto place = locator.Find(FromKernel(mesh.point(vertex)), reach);
@@ -307,38 +296,111 @@ std::array<std::size_t, 3> GetTopology(const Mesh& input)
     mesh.number_of_vertices() + mesh.number_of_faces() - mesh.number_of_edges() };
 }
 
-using DefaultVisitor = PMP::experimental::Remove_self_intersection_default_visitor<Mesh>;
-struct StoppingVisitor : public DefaultVisitor
+// The points of a mesh for CGAL's algorithms, which read them all the time: they hear so that they
+// are to stop, by an exception. What they were working on is lost then.
+struct WatchedPoints
 {
-  explicit StoppingVisitor(const Monitor& monitor) : Watcher(&monitor) {}
-  bool stop() const { return !this->Watcher->Report(0.0); }
-  const Monitor* Watcher;
+  using key_type = Vertex;
+  using value_type = Point;
+  using reference = Point&;
+  using category = boost::lvalue_property_map_tag;
+
+  friend Point& get(const WatchedPoints& points, Vertex vertex)
+  {
+    points.Heart->Beat();
+    return get(points.Points, vertex);
+  }
+  friend void put(const WatchedPoints& points, Vertex vertex, const Point& point)
+  {
+    put(points.Points, vertex, point);
+  }
+
+  Mesh::Property_map<Vertex, Point> Points;
+  Heartbeat* Heart;
+};
+
+// Where algorithms take no such points: predicates that hear it.
+struct WatchedKernel : public Kernel
+{
+  struct Do_intersect_3
+  {
+    using result_type = bool;
+    template <typename... Items>
+    bool operator()(const Items&... items) const
+    {
+      if (this->Heart)
+      {
+        this->Heart->Beat();
+      }
+      return Kernel::Do_intersect_3()(items...);
+    }
+    Heartbeat* Heart = nullptr;
+  };
+  Do_intersect_3 do_intersect_3_object() const { return Do_intersect_3{ this->Heart }; }
+
+  /// Algorithms make their own, on a few triangles.
+  WatchedKernel() = default;
+  explicit WatchedKernel(Heartbeat& heart) : Heart(&heart) {}
+  Heartbeat* Heart = nullptr;
+};
+
+using ResolvingVisitor = PMP::experimental::Remove_self_intersection_default_visitor<Mesh>;
+struct WatchedResolving : public ResolvingVisitor
+{
+  explicit WatchedResolving(Heartbeat& heart) : Heart(&heart) {}
+  bool stop() const
+  {
+    this->Heart->Beat();
+    return false;
+  }
+  Heartbeat* Heart;
+};
+
+struct WatchedFilling : public PMP::Hole_filling::Default_visitor
+{
+  explicit WatchedFilling(Heartbeat& heart) : Heart(&heart) {}
+  void quadratic_step() const { this->Heart->Beat(); }
+  void cubic_step() const { this->Heart->Beat(); }
+  Heartbeat* Heart;
 };
 
 //------------------------------------------------------------------------------
-bool Resolve(Mesh& mesh, double distance, const Monitor& monitor)
+bool Resolve(Mesh& mesh, double distance, Heartbeat& heart, const Monitor& monitor)
 {
-  const Mesh old = mesh;
-  const auto touch = [&mesh](const Pair& pair)
-  { return OnlyTouch(GetTriangle(mesh, pair.first), GetTriangle(mesh, pair.second)); };
+  Mesh old = mesh;
+  const auto getCorners = [&mesh](Face face)
+  {
+    const Kernel::Triangle_3 triangle = GetTriangle(mesh, face);
+    return TriangleCrossings::Corners{ FromKernel(triangle[0]), FromKernel(triangle[1]),
+      FromKernel(triangle[2]) };
+  };
+  const auto touch = [&getCorners](const Pair& pair)
+  { return TriangleCrossings::OnlyTouch(getCorners(pair.first), getCorners(pair.second)); };
   PMP::experimental::remove_self_intersections(mesh,
-    CGAL::parameters::preserve_genus(true).filter(touch).visitor(StoppingVisitor(monitor)));
+    CGAL::parameters::preserve_genus(true)
+      .geom_traits(WatchedKernel(heart))
+      .filter(touch)
+      .visitor(WatchedResolving(heart)));
   mesh.collect_garbage();
-  return GetIntersections(mesh).empty() && GetTopology(mesh) == GetTopology(old) &&
+  return !HasDegenerateTriangle(mesh) && FindIntersections(mesh, monitor).empty() &&
+    GetTopology(mesh) == GetTopology(old) &&
     !PMP::is_Hausdorff_distance_larger<CGAL::Sequential_tag>(old, mesh, distance, 0.01 * distance,
-      CGAL::parameters::use_one_sided_hausdorff(false));
+      CGAL::parameters::use_one_sided_hausdorff(false).vertex_point_map(
+        WatchedPoints{ old.points(), &heart }),
+      CGAL::parameters::vertex_point_map(WatchedPoints{ mesh.points(), &heart }));
 }
 
 //------------------------------------------------------------------------------
 // CGAL 6 takes as a named parameter what CGAL 5.5 takes as an argument.
-std::vector<Face> TriangulateHole(Mesh& mesh, Halfedge border)
+std::vector<Face> TriangulateHole(Mesh& mesh, Halfedge border, const Monitor& monitor)
 {
   std::vector<Face> added;
+  Heartbeat heart(monitor);
+  const auto parameters = CGAL::parameters::visitor(WatchedFilling(heart));
 #if CGAL_VERSION_NR >= 1060000000
-  PMP::triangulate_hole(mesh, border,
-    CGAL::parameters::face_output_iterator(std::back_inserter(added)));
+  PMP::triangulate_hole(mesh, border, parameters.face_output_iterator(std::back_inserter(added)));
 #else
-  PMP::triangulate_hole(mesh, border, std::back_inserter(added));
+  PMP::triangulate_hole(mesh, border, std::back_inserter(added), parameters);
 #endif
   return added;
 }
@@ -439,7 +501,7 @@ vtkIdType ManifoldRepair::DropCrumbs(double size)
 }
 
 //------------------------------------------------------------------------------
-vtkIdType ManifoldRepair::FillHoles(double size)
+vtkIdType ManifoldRepair::FillHoles(double size, const Monitor& monitor)
 {
   Mesh& mesh = this->Surface->Triangles;
   const Components components(mesh);
@@ -467,7 +529,7 @@ vtkIdType ManifoldRepair::FillHoles(double size)
     }
     if (radius <= 0.5 * inserted.first->second)
     {
-      const std::vector<Face> added = TriangulateHole(mesh, border);
+      const std::vector<Face> added = TriangulateHole(mesh, border, monitor);
       TakeIdsOfNeighbours(*this->Surface, added);
       filled += !added.empty();
     }
@@ -476,12 +538,12 @@ vtkIdType ManifoldRepair::FillHoles(double size)
 }
 
 //------------------------------------------------------------------------------
-ManifoldRepair::Intersections ManifoldRepair::FindSelfIntersections()
+ManifoldRepair::Intersections ManifoldRepair::FindSelfIntersections(const Monitor& monitor)
 {
   const Components components(this->Surface->Triangles);
   this->Surface->Replaced.assign(components.Faces.size(), false);
   this->Surface->Replacements.clear();
-  this->Surface->Within = GetIntersections(this->Surface->Triangles);
+  this->Surface->Within = FindIntersections(this->Surface->Triangles, monitor);
   const auto between = [&components](const Pair& pair)
   { return components.OfFace[pair.first] != components.OfFace[pair.second]; };
   std::vector<Pair>& within = this->Surface->Within;
@@ -527,12 +589,13 @@ Outcome ManifoldRepair::ResolveSelfIntersections(double distance, const Monitor&
     {
       tried[component] = true;
       RepairMesh old;
-      Extract(*this->Surface, components.Faces[component], old);
+      Heartbeat heart(monitor);
+      Extract(*this->Surface, components.Faces[component], heart, old);
       auto part = std::make_unique<RepairMesh>();
-      Extract(*this->Surface, components.Faces[component], *part);
-      if (Resolve(part->Triangles, distance, monitor))
+      Extract(*this->Surface, components.Faces[component], heart, *part);
+      if (Resolve(part->Triangles, distance, heart, monitor))
       {
-        TakeNearestIds(*part, old);
+        TakeNearestIds(*part, old, heart);
         replaced[component] = true;
         this->Surface->Replacements.push_back(std::move(part));
       }

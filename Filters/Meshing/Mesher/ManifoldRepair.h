@@ -4,7 +4,8 @@
  * Repairs that need to know neighbours: crumbs, holes and self-intersections of an oriented
  * manifold.
  *
- * A component is what is connected by edges. All methods throw what CGAL throws (std::exception).
+ * A component is what is connected by edges. All methods throw what CGAL throws (std::exception),
+ * those that get a monitor Heartbeat::Stopped when aborted: nothing is of use then.
  */
 #ifndef ManifoldRepair_h
 #define ManifoldRepair_h
@@ -40,7 +41,7 @@ public:
    * Fill the holes whose border fits into a sphere of radius `size` and into one half as large as
    * the component's. Returns their number.
    */
-  vtkIdType FillHoles(double size);
+  vtkIdType FillHoles(double size, const Monitor& monitor);
 
   struct Intersections
   {
@@ -52,7 +53,7 @@ public:
     TriangleSoup::Point Place{ 0.0, 0.0, 0.0 };
     std::array<vtkIdType, 2> CellIds{ -1, -1 };
   };
-  Intersections FindSelfIntersections();
+  Intersections FindSelfIntersections(const Monitor& monitor);
 
   /**
    * Take away the surface around the self-intersections that were found and close the gap. A

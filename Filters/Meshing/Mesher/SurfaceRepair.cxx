@@ -107,11 +107,8 @@ Outcome RepairDefects(const Settings& settings, const Monitor& monitor, Triangle
     crumbs = surface->DropCrumbs(size);
   }
   counts.NumberOfDroppedTriangles += crumbs;
-  if (!monitor.Report(0.75))
-  {
-    return Outcome::Aborted();
-  }
-  counts.NumberOfFilledHoles = settings.FillHoles ? surface->FillHoles(size) : 0;
+  counts.NumberOfFilledHoles =
+    settings.FillHoles ? surface->FillHoles(size, monitor.GetStage(0.75, 0.9)) : 0;
   if (counts.NumberOfFilledHoles + crumbs > 0)
   {
     surface->Write(soup);
@@ -120,7 +117,7 @@ Outcome RepairDefects(const Settings& settings, const Monitor& monitor, Triangle
     SoupRepair filled(soup, settings.WeldTolerance, others);
     if (filled.DropDegenerateTriangles() > 0)
     {
-      return JoinTriangles(filled, monitor.GetStage(0.75, 1.0));
+      return JoinTriangles(filled, monitor.GetStage(0.9, 1.0));
     }
   }
   return monitor.Check(1.0);
@@ -151,7 +148,8 @@ Outcome TreatSelfIntersections(const Settings& settings, const Monitor& monitor,
   {
     return built;
   }
-  const ManifoldRepair::Intersections found = surface.FindSelfIntersections();
+  const ManifoldRepair::Intersections found =
+    surface.FindSelfIntersections(monitor.GetStage(0.0, 0.5));
   counts.NumberOfSelfIntersections = found.NumberWithin;
   counts.NumberOfIntersectionsBetweenComponents = found.NumberBetween;
   if (!monitor.Report(0.5))

@@ -9,6 +9,8 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -19,9 +21,9 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t,
   CGAL::Box_intersection_d::ID_EXPLICIT>;
-using TriangleCrossings::Points;
 
 //------------------------------------------------------------------------------
+template <typename Points>
 Kernel::Triangle_3 ToKernel(const Points& points, const TriangleSoup::Triangle& triangle)
 {
   const auto corner = [&points, &triangle](int i)
@@ -84,11 +86,25 @@ bool MeetBeyond(const CornerOrder& order, const Kernel::Triangle_3& t, const Ker
       return true;
   }
 }
+
+//------------------------------------------------------------------------------
+// The same, where common corners are those with equal coordinates.
+bool MeetBeyond(const Kernel::Triangle_3& t, const Kernel::Triangle_3& u)
+{
+  return MeetBeyond(CornerOrder([&](int i, int j) { return t[i] == u[j]; }), t, u);
+}
 } // namespace
 
 //------------------------------------------------------------------------------
+bool TriangleCrossings::OnlyTouch(const Corners& first, const Corners& second)
+{
+  const TriangleSoup::Triangle all{ 0, 1, 2 };
+  return !MeetBeyond(ToKernel(first, all), ToKernel(second, all));
+}
+
+//------------------------------------------------------------------------------
 std::vector<TriangleCrossings::Pair> TriangleCrossings::Find(const Points& points,
-  const Triangles& triangles, const Monitor& monitor)
+  const Triangles& triangles, const Monitor& monitor, std::size_t most)
 {
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
@@ -109,10 +125,14 @@ std::vector<TriangleCrossings::Pair> TriangleCrossings::Find(const Points& point
     const Kernel::Triangle_3 t = ToKernel(points, triangles[i]);
     const Kernel::Triangle_3 u = ToKernel(points, triangles[j]);
     const auto shared = [&](int k, int l) { return triangles[i][k] == triangles[j][l]; };
-    const auto equal = [&](int k, int l) { return t[k] == u[l]; };
     if (MeetBeyond(CornerOrder(shared), t, u))
     {
-      pairs.push_back({ i, j, !MeetBeyond(CornerOrder(equal), t, u) });
+      if (pairs.size() == most)
+      {
+        throw std::runtime_error(
+          "more than " + std::to_string(most) + " pairs of triangles meet each other");
+      }
+      pairs.push_back({ i, j, !MeetBeyond(t, u) });
     }
   };
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), look);

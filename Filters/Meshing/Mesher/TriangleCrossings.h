@@ -9,6 +9,7 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -31,9 +32,16 @@ struct Pair
 
 /**
  * The pairs of triangles that meet, sorted, without those that meet where the mesh says so, in the
- * points they share. Triangles without area do not count. Throws Heartbeat::Stopped when aborted.
+ * points they share. Triangles without area do not count. Throws Heartbeat::Stopped when aborted,
+ * std::runtime_error where there are more than `most`: they would take gigabytes, and are no
+ * surface that could be repaired.
  */
-std::vector<Pair> Find(const Points& points, const Triangles& triangles, const Monitor& monitor);
+std::vector<Pair> Find(const Points& points, const Triangles& triangles, const Monitor& monitor,
+  std::size_t most = 10000000);
+
+using Corners = std::array<TriangleSoup::Point, 3>;
+/// Whether two triangles that meet only have corners and sides in common, by their coordinates.
+bool OnlyTouch(const Corners& first, const Corners& second);
 
 CGAL::Bbox_3 GetBox(const Points& points, const TriangleSoup::Triangle& triangle);
 /// A box that reaches further by `reach` on all sides.
