@@ -5,21 +5,15 @@
 #include "Geometry/SceneRayCaster.h"
 #include "Lighting/Environment.h"
 #include "Lighting/LightErrors.h"
+#include "Lighting/LightingRun.h"
 #include "Lighting/LitParts.h"
-#include "Lighting/PunctualLight.h"
-#include "Run/TransportRun.h"
 #include "Scene/SceneOutput.h"
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
-#include "Shared/Pulse.h"
-#include "Shared/Threads.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
-#include "vtkLight.h"
-#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
-#include "vtkSmartPointer.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
@@ -33,26 +27,16 @@ vtkStandardNewMacro(vtkDirectIrradiance);
 
 namespace
 {
-/// Calls of the progress function, at least, and rays at most between two of them, by which a user
-/// who aborts does not wait. The same on all ranks.
-constexpr double LeastBatches = 50.0;
-constexpr double RaysOfBatch = 4e6;
 // The light as a fraction of the progress.
 constexpr double LightDone = 0.97;
 } // namespace
 
 //------------------------------------------------------------------------------
-struct vtkDirectIrradiance::LightList
-{
-  std::vector<vtkSmartPointer<vtkLight>> Objects;
-};
-
-//------------------------------------------------------------------------------
-class vtkDirectIrradiance::Run : public TransportRun
+class vtkDirectIrradiance::Run : public LightingRun
 {
 public:
   Run(vtkDirectIrradiance* owner, const RunPorts& ports)
-    : TransportRun(ports), Owner(owner), StartTime(vtkTimerLog::GetUniversalTime())
+    : LightingRun(owner, ports), Owner(owner), StartTime(vtkTimerLog::GetUniversalTime())
   {
     this->NumberOfSides = owner->TwoSided ? 2 : 1;
   }
@@ -64,9 +48,8 @@ protected:
   void Write() override;
 
 private:
-  Outcome ReadLights();
   LightEffort GetEffort() const;
-  vtkIdType GetNumberOfBatches() const;
+  double GetMostRays() const;
   void ComputePatch(vtkIdType patch);
   void WriteErrors();
 
@@ -101,7 +84,12 @@ Outcome vtkDirectIrradiance::Run::Check()
 //------------------------------------------------------------------------------
 Outcome vtkDirectIrradiance::Run::Read()
 {
-  Outcome read = this->ReadLights();
+  std::vector<PunctualLight> lights;
+  Outcome read = this->ReadLights(lights);
+  for (const PunctualLight& light : lights)
+  {
+    this->Sources.push_back(light.MakeSource(this->GetEffort(), this->Owner->LightAngularDiameter));
+  }
   if (read && this->Owner->Environment)
   {
     auto environment = std::make_unique<LightTransport::Environment>(this->GetEffort());
@@ -112,54 +100,20 @@ Outcome vtkDirectIrradiance::Run::Read()
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkDirectIrradiance::Run::ReadLights()
-{
-  for (int index = 0; index < this->Owner->GetNumberOfLights(); ++index)
-  {
-    vtkLight* object = this->Owner->GetLight(index);
-    if (!object->GetSwitch())
-    {
-      continue;
-    }
-    const std::string name = "Light " + std::to_string(index);
-    if (!object->LightTypeIsSceneLight())
-    {
-      return Outcome::Failed(name +
-        " is a headlight or camera light, which follows a camera, and a filter has none: call "
-        "SetLightTypeToSceneLight().");
-    }
-    PunctualLight light;
-    if (Outcome read = light.Read(object, this->Scene); !read)
-    {
-      return Outcome::Failed(name + read.GetMessage());
-    }
-    this->Sources.push_back(light.MakeSource(this->GetEffort(), this->Owner->LightAngularDiameter));
-  }
-  if (this->Sources.empty() && !this->Owner->Environment)
-  {
-    this->Warn("No light is on and there is no environment: the irradiance is 0. Add one with "
-               "AddLight or SetEnvironment.");
-  }
-  return Outcome::Done();
-}
-
-//------------------------------------------------------------------------------
 LightEffort vtkDirectIrradiance::Run::GetEffort() const
 {
   return { this->Owner->Tolerance, this->Owner->EnvironmentSamples, this->Owner->ShadowSamples };
 }
 
 //------------------------------------------------------------------------------
-vtkIdType vtkDirectIrradiance::Run::GetNumberOfBatches() const
+// Of a patch, about.
+double vtkDirectIrradiance::Run::GetMostRays() const
 {
-  const auto patches = static_cast<double>(this->Scene.GetAreas().size());
   // A direction of a light costs about as much as ten rays.
-  const double rays = this->Owner->Environment
+  return this->Owner->Environment
     ? 2.0 * this->Owner->EnvironmentSamples * LightTransport::Environment::MostRefined
     : (this->Owner->LightAngularDiameter > 0.0 ? 10.0 : 1.0) * this->Owner->ShadowSamples *
       LitParts::MostRefined;
-  return static_cast<vtkIdType>(
-    std::max(LeastBatches, std::min(patches, std::ceil(patches * rays / RaysOfBatch))));
 }
 
 //------------------------------------------------------------------------------
@@ -177,27 +131,11 @@ Outcome vtkDirectIrradiance::Run::Compute()
   this->Error.assign(patches * LightBands, 0.0);
   this->Rays.assign(patches, 0.0);
   this->Unshadowed.assign(patches, 0.0);
-  const std::vector<vtkIdType> locals = this->Scene.GetLocalPatches();
-  const auto count = static_cast<vtkIdType>(locals.size());
-  auto compute = [this, &locals](vtkIdType first, vtkIdType last)
+  if (Outcome lit = this->ForLocalPatches(this->GetMostRays(), LightDone,
+        [this](vtkIdType patch) { this->ComputePatch(patch); });
+      !lit)
   {
-    for (vtkIdType local = first; local < last; ++local)
-    {
-      Pulse::Beat();
-      this->ComputePatch(locals[local]);
-    }
-  };
-  const Monitor monitor = this->Progress.GetMonitor().GetStage(0.0, LightDone);
-  const vtkIdType batches = this->GetNumberOfBatches();
-  for (vtkIdType batch = 0; batch < batches; ++batch)
-  {
-    const vtkIdType first = count * batch / batches;
-    const vtkIdType last = count * (batch + 1) / batches;
-    Threads::For(first, last, std::min<vtkIdType>(16, 1 + (last - first) / 16), compute);
-    if (!monitor.Report(static_cast<double>(batch + 1) / static_cast<double>(batches)))
-    {
-      return Outcome::Aborted();
-    }
+    return lit;
   }
   for (std::vector<double>* values :
     { &this->Incident, &this->Transmitted, &this->Error, &this->Rays, &this->Unshadowed })
@@ -271,77 +209,10 @@ void vtkDirectIrradiance::Run::WriteErrors()
 }
 
 //------------------------------------------------------------------------------
-vtkDirectIrradiance::vtkDirectIrradiance() : Lights(new LightList) {}
+vtkDirectIrradiance::vtkDirectIrradiance() = default;
 
 //------------------------------------------------------------------------------
-vtkDirectIrradiance::~vtkDirectIrradiance()
-{
-  this->SetEnvironment(nullptr);
-}
-
-//------------------------------------------------------------------------------
-vtkCxxSetObjectMacro(vtkDirectIrradiance, Environment, vtkImageData);
-
-//------------------------------------------------------------------------------
-void vtkDirectIrradiance::AddLight(vtkLight* light)
-{
-  auto& lights = this->Lights->Objects;
-  if (light && std::find(lights.begin(), lights.end(), light) == lights.end())
-  {
-    lights.emplace_back(light);
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkDirectIrradiance::RemoveLight(vtkLight* light)
-{
-  auto& lights = this->Lights->Objects;
-  const auto found = std::find(lights.begin(), lights.end(), light);
-  if (found != lights.end())
-  {
-    lights.erase(found);
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkDirectIrradiance::RemoveAllLights()
-{
-  if (!this->Lights->Objects.empty())
-  {
-    this->Lights->Objects.clear();
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkDirectIrradiance::GetNumberOfLights()
-{
-  return static_cast<int>(this->Lights->Objects.size());
-}
-
-//------------------------------------------------------------------------------
-vtkLight* vtkDirectIrradiance::GetLight(int index)
-{
-  return index >= 0 && index < this->GetNumberOfLights() ? this->Lights->Objects[index].Get()
-                                                         : nullptr;
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkDirectIrradiance::GetMTime()
-{
-  vtkMTimeType time = this->Superclass::GetMTime();
-  for (vtkLight* light : this->Lights->Objects)
-  {
-    time = std::max(time, light->GetMTime());
-    if (vtkMatrix4x4* matrix = light->GetTransformMatrix())
-    {
-      time = std::max(time, matrix->GetMTime());
-    }
-  }
-  return this->Environment ? std::max(time, this->Environment->GetMTime()) : time;
-}
+vtkDirectIrradiance::~vtkDirectIrradiance() = default;
 
 //------------------------------------------------------------------------------
 std::unique_ptr<TransportRun> vtkDirectIrradiance::MakeRun(const RunPorts& ports)
@@ -353,13 +224,9 @@ std::unique_ptr<TransportRun> vtkDirectIrradiance::MakeRun(const RunPorts& ports
 void vtkDirectIrradiance::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfLights: " << this->GetNumberOfLights() << "\n";
-  os << indent << "Environment: " << this->Environment << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnvironmentSamples: " << this->EnvironmentSamples << "\n";
   os << indent << "ShadowSamples: " << this->ShadowSamples << "\n";
-  os << indent << "LightAngularDiameter: " << this->LightAngularDiameter << "\n";
-  os << indent << "Shadows: " << this->Shadows << "\n";
   os << indent << "TwoSided: " << this->TwoSided << "\n";
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
 }

@@ -13,13 +13,8 @@
  *   unit. It is an estimate; it does not know of things that all rays to an environment have
  *   missed.
  *
- * Lights are vtkLight objects of type scene light. Irradiance on a surface facing the light is
- * Intensity x DiffuseColor / attenuation(d), with d the distance in the input's length unit
- * (positional lights; attenuation values as vtkLight has them: constant, linear, quadratic), times
- * cos^Exponent of the angle from the axis within a cone narrower than 90 degrees. Directional
- * lights shine from Position to FocalPoint, both through the light's transform matrix. The angle of
- * incidence weighs it; back faces get nothing. A light that touches a surface is in front of it.
- * Lights that are switched off are left out.
+ * Lights and environment are those of vtkLightingAlgorithm. The angle of incidence weighs the
+ * irradiance; back faces get nothing.
  *
  * Shadows of lights are cut out of the patches exactly, however thin light or shadow are; rays
  * decide only where more lies before a patch than it may be cut for (ShadowSamples). An environment
@@ -33,48 +28,21 @@
  *
  * A warning tells on how many polygons Tolerance was not reached, and how far the worst is off.
  *
- * Errors: a headlight or camera light (they follow a camera, and a filter has none), a negative or
- * non-finite attenuation or intensity, attenuation that is zero, a refractive index below 1, an
- * environment that is not a two-dimensional image of 1 or 3 components.
+ * Errors: a refractive index below 1, and those of vtkLightingAlgorithm.
  *
  * @sa vtkSubsurfaceScattering, vtkRadiosity
  */
 #ifndef vtkDirectIrradiance_h
 #define vtkDirectIrradiance_h
 
-#include "vtkTransportAlgorithm.h"
+#include "vtkLightingAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
-
-class vtkDataObject;
-class vtkImageData;
-class vtkLight;
-
-class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkDirectIrradiance : public vtkTransportAlgorithm
+class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkDirectIrradiance : public vtkLightingAlgorithm
 {
 public:
   static vtkDirectIrradiance* New();
-  vtkTypeMacro(vtkDirectIrradiance, vtkTransportAlgorithm);
+  vtkTypeMacro(vtkDirectIrradiance, vtkLightingAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /// The lights. A light is in the list at most once.
-  void AddLight(vtkLight* light);
-  void RemoveLight(vtkLight* light);
-  void RemoveAllLights();
-  int GetNumberOfLights();
-  vtkLight* GetLight(int index);
-  ///@}
-
-  ///@{
-  /**
-   * Radiance from afar in all directions, or nullptr (the default). A picture in longitude and
-   * latitude with +z up, 1 or 3 components in its point scalars: the columns start at longitude 0
-   * (+x) and go counter-clockwise seen from +z (through +y); the rows go from -z (first) to +z.
-   */
-  virtual void SetEnvironment(vtkImageData* environment);
-  vtkGetObjectMacro(Environment, vtkImageData);
-  ///@}
 
   ///@{
   /**
@@ -111,23 +79,6 @@ public:
 
   ///@{
   /**
-   * Angle that directional lights take in the sky, in degrees: their shadows get soft edges. The
-   * sun's is 0.53. Each light is a disc then, evenly bright. Default 0 (sharp shadows), range 0 to
-   * 180.
-   */
-  vtkSetClampMacro(LightAngularDiameter, double, 0.0, 180.0);
-  vtkGetMacro(LightAngularDiameter, double);
-  ///@}
-
-  ///@{
-  /// Whether patches cast shadows on others. Default on.
-  vtkSetMacro(Shadows, bool);
-  vtkGetMacro(Shadows, bool);
-  vtkBooleanMacro(Shadows, bool);
-  ///@}
-
-  ///@{
-  /**
    * Refractive index of the surface relative to its surroundings. Default 1: opaque, and no
    * "TransmittedIrradiance". Range 1 and up.
    */
@@ -146,9 +97,6 @@ public:
   vtkBooleanMacro(TwoSided, bool);
   ///@}
 
-  /// Includes the lights and the environment.
-  vtkMTimeType GetMTime() override;
-
 protected:
   vtkDirectIrradiance();
   ~vtkDirectIrradiance() override;
@@ -161,15 +109,10 @@ private:
   void operator=(const vtkDirectIrradiance&) = delete;
 
   class Run;
-  struct LightList;
 
-  std::unique_ptr<LightList> Lights;
-  vtkImageData* Environment = nullptr;
   double Tolerance = 1e-2;
   int EnvironmentSamples = 256;
   int ShadowSamples = 16;
-  double LightAngularDiameter = 0.0;
-  bool Shadows = true;
   bool TwoSided = false;
   double RefractiveIndex = 1.0;
 };

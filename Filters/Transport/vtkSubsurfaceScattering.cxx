@@ -9,6 +9,7 @@
 #include "Photons/PhotonScattering.h"
 #include "Run/TransportRun.h"
 #include "Scattering/BodyThickness.h"
+#include "Scattering/MediumProperties.h"
 #include "Scattering/ScatteringLinks.h"
 #include "Scattering/ScatteringMaterials.h"
 #include "Scene/CellArrays.h"
@@ -43,7 +44,6 @@ constexpr int Bands = 3;
 constexpr double IndexTolerance = 1e-6;
 // The links as a fraction of the progress.
 constexpr double LinksDone = 0.95;
-constexpr double MostAnisotropy = 0.99;
 // Light that photons lose on their way: of less nobody need know, and with more nothing is known.
 constexpr double LostShareToTell = 1e-4;
 constexpr double LostShareToFail = 0.02;
@@ -93,7 +93,6 @@ protected:
   void Write() override;
 
 private:
-  Outcome CheckMedia() const;
   Outcome CheckPhotons() const;
   Outcome ReadIrradiance();
   void CompareIndices() const;
@@ -139,75 +138,19 @@ Outcome vtkSubsurfaceScattering::Run::Check()
   {
     return device;
   }
-  double scattering[Bands];
-  double absorption[Bands];
-  double index;
-  if (!GetMaterialProperties(this->Owner->Material, scattering, absorption, index))
-  {
-    std::copy_n(this->Owner->ScatteringCoefficient, Bands, scattering);
-    std::copy_n(this->Owner->AbsorptionCoefficient, Bands, absorption);
-    index = this->Owner->RefractiveIndex;
-  }
-  for (int band = 0; band < Bands; ++band)
-  {
-    this->Media.push_back({ scattering[band], absorption[band], index });
-  }
-  Outcome checked = this->CheckMedia();
+  const MediumProperties properties{ this->Owner->Material, this->Owner->ScatteringCoefficient,
+    this->Owner->AbsorptionCoefficient, this->Owner->RefractiveIndex,
+    this->Owner->MillimetersPerUnit };
+  Outcome checked = properties.MakeMedia(this->Media);
   return checked && this->IsMonteCarlo() ? this->CheckPhotons() : checked;
-}
-
-//------------------------------------------------------------------------------
-Outcome vtkSubsurfaceScattering::Run::CheckMedia() const
-{
-  std::ostringstream text;
-  for (int band = 0; band < Bands; ++band)
-  {
-    const double scattering = this->Media[band].Scattering;
-    const double absorption = this->Media[band].Absorption;
-    if (!(scattering >= 0.0) || !(absorption >= 0.0) || !std::isfinite(scattering + absorption))
-    {
-      text << "ScatteringCoefficient and AbsorptionCoefficient must be finite and not negative, "
-              "but component "
-           << band << " has " << scattering << " and " << absorption << " per mm.";
-      return Outcome::Failed(text.str());
-    }
-    if (scattering + absorption == 0.0)
-    {
-      text << "ScatteringCoefficient and AbsorptionCoefficient are both 0 in component " << band
-           << ": light would pass through unchanged. Set one of them above 0.";
-      return Outcome::Failed(text.str());
-    }
-  }
-  const double index = this->Media[0].RefractiveIndex;
-  if (!(index >= 1.0) || !std::isfinite(index))
-  {
-    text << "RefractiveIndex is " << index
-         << ": it must be at least 1 (1.3 for water, 1.5 for glass and marble).";
-    return Outcome::Failed(text.str());
-  }
-  const double unit = this->Owner->MillimetersPerUnit;
-  if (!(unit > 0.0) || !std::isfinite(unit))
-  {
-    text << "MillimetersPerUnit is " << unit
-         << ": it must be above 0 (10 for a mesh in centimetres).";
-    return Outcome::Failed(text.str());
-  }
-  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::CheckPhotons() const
 {
-  for (int band = 0; band < Bands; ++band)
+  if (Outcome checked = MediumProperties::CheckAnisotropy(this->Owner->Anisotropy); !checked)
   {
-    const double anisotropy = this->Owner->Anisotropy[band];
-    if (!(std::abs(anisotropy) <= MostAnisotropy))
-    {
-      std::ostringstream text;
-      text << "Component " << band << " of Anisotropy is " << anisotropy << ": it must be between "
-           << -MostAnisotropy << " and " << MostAnisotropy << ".";
-      return Outcome::Failed(text.str());
-    }
+    return checked;
   }
   if (this->Owner->Device == DEVICE_OPENGL)
   {

@@ -79,24 +79,6 @@ public:
   vtkTypeMacro(vtkSubsurfaceScattering, vtkTransportAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Measured materials of Jensen et al. 2001.
-  enum MaterialType
-  {
-    MATERIAL_CUSTOM = 0,
-    MATERIAL_APPLE = 1,
-    MATERIAL_CHICKEN1 = 2,
-    MATERIAL_CHICKEN2 = 3,
-    MATERIAL_CREAM = 4,
-    MATERIAL_KETCHUP = 5,
-    MATERIAL_MARBLE = 6,
-    MATERIAL_POTATO = 7,
-    MATERIAL_SKIMMILK = 8,
-    MATERIAL_SKIN1 = 9,
-    MATERIAL_SKIN2 = 10,
-    MATERIAL_SPECTRALON = 11,
-    MATERIAL_WHOLEMILK = 12
-  };
-
   /// Diffuse reflectance profiles of a flat body, and photons in the body itself.
   enum ModelType
   {

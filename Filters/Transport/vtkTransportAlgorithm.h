@@ -73,6 +73,24 @@ public:
     CLUSTER_TREE_ATLAS = 2
   };
 
+  /// Measured materials of Jensen et al. 2001, for the filters that have a Material property.
+  enum MaterialType
+  {
+    MATERIAL_CUSTOM = 0,
+    MATERIAL_APPLE = 1,
+    MATERIAL_CHICKEN1 = 2,
+    MATERIAL_CHICKEN2 = 3,
+    MATERIAL_CREAM = 4,
+    MATERIAL_KETCHUP = 5,
+    MATERIAL_MARBLE = 6,
+    MATERIAL_POTATO = 7,
+    MATERIAL_SKIMMILK = 8,
+    MATERIAL_SKIN1 = 9,
+    MATERIAL_SKIN2 = 10,
+    MATERIAL_SPECTRALON = 11,
+    MATERIAL_WHOLEMILK = 12
+  };
+
   ///@{
   /**
    * Point values are not averaged across edges whose two normals differ by more than this angle, in

@@ -94,22 +94,10 @@ double DistantLight::LightFromPoint(const LitPatch& patch, LightSum& sum) const
 }
 
 //------------------------------------------------------------------------------
-// The direction that is `radius` (a tangent) away from the axis.
-DistantLight::Vector DistantLight::Lean(double radius, double angle) const
-{
-  const Vector& axis = this->Origin.Axis;
-  const Vector tangent = axis.unitOrthogonal();
-  return (axis + radius * (std::cos(angle) * tangent + std::sin(angle) * axis.cross(tangent)))
-    .normalized();
-}
-
-//------------------------------------------------------------------------------
-// As dense as the disc is bright to a surface that faces it.
 DistantLight::Vector DistantLight::GetDirection(const LitPatch& patch, int k) const
 {
-  const double sine = std::sin(this->Radius) * std::sqrt(patch.GetSampler().Get(k, 2));
-  return this->Lean(sine / std::sqrt(1.0 - sine * sine),
-    2.0 * vtkMath::Pi() * patch.GetSampler().Get(k, 3));
+  return this->Origin.GetDirection(this->Radius, patch.GetSampler().Get(k, 2),
+    patch.GetSampler().Get(k, 3));
 }
 
 //------------------------------------------------------------------------------
@@ -144,7 +132,8 @@ bool DistantLight::IsEdgeAlike(const ShadowClipper& clipper, const Blockers& blo
   const double step = vtkMath::Pi() / EdgeDirections;
   for (int k = 0; k < EdgeDirections; ++k)
   {
-    const Vector direction = this->Lean(std::tan(this->Radius) / std::cos(step), 2.0 * k * step);
+    const Vector direction =
+      this->Origin.Lean(std::tan(this->Radius) / std::cos(step), 2.0 * k * step);
     if (!(direction.dot(clipper.GetPatch().GetNormal()) < 0.0))
     {
       return false;

@@ -35,7 +35,6 @@ private:
   void AddParts(const ShadowClipper& clipper, const LitParts& parts, const Vector& direction,
     LightSum& sum) const;
   Vector GetDirection(const LitPatch& patch, int k) const;
-  Vector Lean(double radius, double angle) const;
   static ShadowClipper::Origin GetOrigin(const Vector& direction);
   bool IsEdgeAlike(const ShadowClipper& clipper, const Blockers& blockers, double& share) const;
 

@@ -26,16 +26,8 @@ constexpr double TriangleReach = 0.5;
 // Irradiance at normal incidence over the color, times the cosine.
 double PointLight::GetStrength(const Vector& point, const LitPatch& patch, double& cosine) const
 {
-  const Vector path = this->Origin.Position - point;
-  const double distance = path.norm();
-  const Vector towards = path / distance;
-  const double length = distance * patch.GetScene().GetScale();
-  const double* attenuation = this->Origin.Attenuation;
-  double strength = 1.0 / (attenuation[0] + length * (attenuation[1] + length * attenuation[2]));
-  if (this->Origin.ConeCosine > 0.0)
-  {
-    strength *= std::pow(std::max(0.0, -towards.dot(this->Origin.Axis)), this->Origin.Exponent);
-  }
+  const Vector towards = (this->Origin.Position - point).normalized();
+  const double strength = this->Origin.GetStrength(point, patch.GetScene().GetScale());
   cosine = towards.dot(patch.GetNormal());
   return cosine > 0.0 ? strength * cosine : 0.0;
 }

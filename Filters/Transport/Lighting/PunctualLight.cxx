@@ -8,6 +8,8 @@
 #include "vtkLight.h"
 #include "vtkMath.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,38 @@ Outcome PunctualLight::Read(vtkLight* object, const PatchScene& scene)
   }
   this->Axis.normalize();
   return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+double PunctualLight::GetStrength(const Vector& point, double unit) const
+{
+  const Vector path = this->Position - point;
+  const double distance = path.norm();
+  const double length = distance * unit;
+  double strength =
+    1.0 / (this->Attenuation[0] + length * (this->Attenuation[1] + length * this->Attenuation[2]));
+  if (this->ConeCosine > 0.0)
+  {
+    const Vector towards = path / distance;
+    strength *= std::pow(std::max(0.0, -towards.dot(this->Axis)), this->Exponent);
+  }
+  return strength;
+}
+
+//------------------------------------------------------------------------------
+PunctualLight::Vector PunctualLight::Lean(double radius, double angle) const
+{
+  const Vector tangent = this->Axis.unitOrthogonal();
+  return (
+    this->Axis + radius * (std::cos(angle) * tangent + std::sin(angle) * this->Axis.cross(tangent)))
+    .normalized();
+}
+
+//------------------------------------------------------------------------------
+PunctualLight::Vector PunctualLight::GetDirection(double radius, double u, double v) const
+{
+  const double sine = std::sin(radius) * std::sqrt(u);
+  return this->Lean(sine / std::sqrt(1.0 - sine * sine), 2.0 * vtkMath::Pi() * v);
 }
 
 //------------------------------------------------------------------------------

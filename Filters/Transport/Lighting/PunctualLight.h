@@ -33,6 +33,22 @@ struct PunctualLight
   /// Take over a light that is on. A failure's message begins after the light's name.
   Outcome Read(vtkLight* object, const PatchScene& scene);
 
+  /// Irradiance of a positional light at a point that faces it, over the color; within its cone.
+  /// `unit` is a length of 1 in the input's unit.
+  double GetStrength(const Vector& point, double unit) const;
+  bool IsInCone(const Vector& point) const
+  {
+    const Vector path = point - this->Position;
+    return path.dot(this->Axis) >= this->ConeCosine * path.norm() || this->ConeCosine == 0.0;
+  }
+
+  ///@{ A direction of a directional light that is a disc: the one that is `radius` (a tangent) away
+  /// from the axis; for two numbers evenly spread in (0, 1) and the radius in radians, as dense as
+  /// the disc is bright to a surface that faces it.
+  Vector Lean(double radius, double angle) const;
+  Vector GetDirection(double radius, double u, double v) const;
+  ///@}
+
   /// `angularDiameter`, in degrees, is that of directional lights.
   std::unique_ptr<LightSource> MakeSource(const LightEffort& effort, double angularDiameter) const;
 };

@@ -52,8 +52,13 @@ public:
     this->PerBlock *= 2;
   }
 
-  /// `isPartial`: something may be in the way of samples, although none has met it.
-  LightSum GetMean(bool isPartial = false) const
+  // Errors over spreads, root mean squares over the patches of scenes with little and with much in
+  // the way: 0.6 to 0.8.
+  static constexpr double Evenness = 0.75;
+
+  /// `isPartial`: something may be in the way of samples, although none has met it. `evenness` is
+  /// the factor for samples of other kinds than light that falls on patches.
+  LightSum GetMean(bool isPartial = false, double evenness = Evenness) const
   {
     LightSum mean;
     for (const LightSum& sum : this->Sums)
@@ -71,16 +76,13 @@ public:
       const bool isMixed =
         mean.Incident[band] != 0.0 && mean.Incident[band] != mean.Unshadowed[band];
       const double unmet = isPartial || isMixed ? mean.Unshadowed[band] / this->GetCount() : 0.0;
-      mean.Variance[band] = Evenness * Evenness * squares / (Blocks * (Blocks - 1)) + unmet * unmet;
+      mean.Variance[band] = evenness * evenness * squares / (Blocks * (Blocks - 1)) + unmet * unmet;
     }
     return mean;
   }
 
 private:
   static constexpr int Blocks = 8;
-  // Errors over spreads, root mean squares over the patches of scenes with little and with much in
-  // the way: 0.6 to 0.8.
-  static constexpr double Evenness = 0.75;
 
   int PerBlock;
   bool IsEmpty;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Photons/PhotonWalk.h"
 
+#include "Photons/HenyeyGreenstein.h"
+
 #include <cmath>
 
 namespace LightTransport
@@ -62,8 +64,7 @@ Eigen::Vector3d PhotonWalk::Scatter(const Vector& direction, PhotonRandom& rando
   {
     return random.GetDirection();
   }
-  const double part = (1.0 - g * g) / (1.0 + g * (2.0 * random.Get() - 1.0));
-  const double cosine = (1.0 + g * g - part * part) / (2.0 * g);
+  const double cosine = HenyeyGreenstein::GetCosine(g, random.Get());
   double x, y;
   const double square = random.GetInCircle(x, y);
   const double sine = std::sqrt(std::max(0.0, (1.0 - cosine * cosine) / square));

@@ -20,7 +20,7 @@ struct ScatteringMaterial
 
 namespace ScatteringMaterials
 {
-/// By the number in vtkSubsurfaceScattering::MaterialType, 1 to 12. nullptr for all others, also
+/// By the number in vtkTransportAlgorithm::MaterialType, 1 to 12. nullptr for all others, also
 /// for 0, a custom material.
 const ScatteringMaterial* Find(int number);
 } // namespace ScatteringMaterials
