@@ -39,6 +39,8 @@ constexpr const char* Irradiance = "Irradiance";
 constexpr const char* TransmittedIrradiance = "TransmittedIrradiance";
 constexpr const char* ScatteredIrradiance = "ScatteredIrradiance";
 constexpr const char* ScatteredIrradianceError = "ScatteredIrradianceError";
+constexpr const char* SingleScatteredIrradiance = "SingleScatteredIrradiance";
+constexpr const char* SingleScatteredIrradianceError = "SingleScatteredIrradianceError";
 ///@}
 } // namespace ArrayNames
 } // namespace LightTransport

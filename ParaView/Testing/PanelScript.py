@@ -23,6 +23,7 @@ HIDDEN = {
     "ViewFactors": {"LinkTolerance", "ClusterTree"},
     "DirectIrradiance": set(),
     "Radiosity": set(),
+    "SingleScattering": set(),
     "SubsurfaceScattering": {"BurleyFit", "LinkMethod", "TargetError", "NumberOfPhotons",
                              "Anisotropy", "Seed"},
 }
@@ -35,6 +36,7 @@ CHOICES = (
     ("Radiosity", "LinkMethod", "Hierarchical",
      {"LinkTolerance": True, "ViewFactorTolerance": False, "EnforceClosure": False}),
     ("SubsurfaceScattering", "Material", "Marble", {"ScatteringCoefficient": False}),
+    ("SingleScattering", "Material", "Marble", {"ScatteringCoefficient": False}),
     ("SubsurfaceScattering", "Model", "Christensen Burley", {"BurleyFit": True}),
     ("SubsurfaceScattering", "Model", "Monte Carlo",
      {"BurleyFit": False, "TargetError": True, "NumberOfPhotons": True, "Anisotropy": True,

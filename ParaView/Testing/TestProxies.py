@@ -15,7 +15,8 @@ from vtkmodules import vtkRenderingCore
 WITHOUT_PROPERTY = {
     "Brightness", "Controller", "Environment", "EnvironmentSamples", "ViewFactors"}
 FILTERS = ("vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas", "vtkAtlasToSurface",
-           "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering")
+           "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering",
+           "vtkSingleScattering")
 LIGHTS = ("NoLight", "DirectionalLight", "PointLight", "SpotLight")
 
 

@@ -23,7 +23,8 @@ FOLDERS = {
 }
 FILTERS = {
     "vtkLightTransportFilters": (
-        "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering", "vtkViewFactors"),
+        "vtkDirectIrradiance", "vtkRadiosity", "vtkSingleScattering", "vtkSubsurfaceScattering",
+        "vtkViewFactors"),
     "vtkLightTransportMeshing": (
         "vtkAtlasToSurface", "vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas"),
     "vtkLightTransportRendering": (),

@@ -165,6 +165,49 @@ private:
 
   std::uint32_t Flips[4];
 };
+/// Points of a PatchSampler with the same key in another order, so that both together are points in
+/// more dimensions: every 2^k that follow each other are a permutation of some that do (B. Burley,
+/// "Practical Hash-based Owen Scrambling", JCGT 9, 2020).
+class ShuffledSampler
+{
+public:
+  explicit ShuffledSampler(std::uint64_t key)
+    : Sampler(~key), Seed(static_cast<std::uint32_t>(key * 0x9E3779B9u + 0x85EBCA6Bu))
+  {
+  }
+
+  /// Coordinate `dimension` (0 to 3) of point `index`, in (0, 1).
+  double Get(int index, int dimension) const
+  {
+    return this->Sampler.Get(static_cast<int>(this->Shuffle(index)), dimension);
+  }
+
+private:
+  // Each digit of the index is flipped or not by those before it (S. Laine, T. Karras, "Stratified
+  // Sampling for Stochastic Transparency", EGSR 2011).
+  std::uint32_t Shuffle(int index) const
+  {
+    std::uint32_t bits = Reverse(static_cast<std::uint32_t>(index));
+    bits += this->Seed;
+    for (const std::uint32_t factor : { 0x6C50B47Cu, 0xB82F1E52u, 0xC7AFE638u, 0x8D22F6E6u })
+    {
+      bits ^= bits * factor;
+    }
+    return Reverse(bits);
+  }
+
+  static std::uint32_t Reverse(std::uint32_t bits)
+  {
+    bits = (bits >> 16) | (bits << 16);
+    bits = ((bits & 0xFF00FF00u) >> 8) | ((bits & 0x00FF00FFu) << 8);
+    bits = ((bits & 0xF0F0F0F0u) >> 4) | ((bits & 0x0F0F0F0Fu) << 4);
+    bits = ((bits & 0xCCCCCCCCu) >> 2) | ((bits & 0x33333333u) << 2);
+    return ((bits & 0xAAAAAAAAu) >> 1) | ((bits & 0x55555555u) << 1);
+  }
+
+  PatchSampler Sampler;
+  std::uint32_t Seed;
+};
 } // namespace LightTransport
 
 #endif

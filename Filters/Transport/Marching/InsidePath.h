@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A ray inside a body, followed against the light: from where it has been refracted inwards to the
+ * surface, and on from there, reflected, with what is reflected. Until next to nothing is left.
+ */
+#ifndef InsidePath_h
+#define InsidePath_h
+
+#include "Photons/PhotonBoundary.h"
+#include "Photons/PhotonInterface.h"
+#include "Photons/PhotonMedium.h"
+
+#include <array>
+#include <vector>
+
+namespace LightTransport
+{
+class InsidePath
+{
+public:
+  using Vector = Eigen::Vector3d;
+  static constexpr int Bands = 3;
+
+  /// A straight piece.
+  struct Leg
+  {
+    Vector Origin;
+    Vector Direction;
+    double Begin;  ///< on the way from the start
+    double End;    ///< where it meets the surface
+    double Weight; ///< what reflections have left
+    vtkIdType Patch;
+    Vector Normal; ///< of the surface at its end, outwards
+  };
+
+  /// A point of the path.
+  struct Place
+  {
+    Vector Position;
+    Vector Direction;
+    /// Of each band: what reaches the start of it, over the density of such points in length.
+    double Weights[Bands];
+  };
+
+  /// `from`: the patch that the ray starts on, or -1.
+  InsidePath(const PhotonBoundary& boundary, const PhotonInterface& interface,
+    const std::vector<PhotonMedium>& media, const Vector& origin, const Vector& direction,
+    vtkIdType from);
+
+  int GetNumberOfLegs() const { return this->NumberOfLegs; }
+  const Leg& GetLeg(int leg) const { return this->Legs[leg]; }
+
+  /// A point for a number evenly spread in (0, 1): as dense as light of all bands reaches it. Not
+  /// where there is no leg.
+  Place Choose(double u) const;
+
+private:
+  /// More reflections are not followed, nor what is worth less.
+  static constexpr int MostLegs = 32;
+  static constexpr double LeastWeight = 1e-4;
+
+  double GetMeanTransmission(double length) const;
+  double FindLength(const Leg& leg, double u) const;
+
+  std::array<double, Bands> Extinction;
+  std::array<Leg, MostLegs> Legs;
+  int NumberOfLegs = 0;
+};
+} // namespace LightTransport
+
+#endif
