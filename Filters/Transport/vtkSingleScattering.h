@@ -124,8 +124,8 @@ public:
   ///@{
   /**
    * Rays of a patch, well spread over its area and its directions; at least 8 are taken. Default
-   * 256, range 1 to 1048576; powers of two spread best. Errors fall faster than by the square root
-   * of it; "SingleScatteredIrradianceError" tells them.
+   * 256, range 1 to 1048576; powers of two spread best. Four times as many leave a little less
+   * than half the error; "SingleScatteredIrradianceError" tells them.
    */
   vtkSetClampMacro(NumberOfSamples, int, 1, 1 << 20);
   vtkGetMacro(NumberOfSamples, int);
