@@ -43,6 +43,7 @@ class vtkMultiProcessController;
 
 namespace LightTransport
 {
+class Outcome;
 class TransportRun;
 struct RunPorts;
 } // namespace LightTransport
@@ -109,6 +110,8 @@ protected:
 private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
+
+  LightTransport::Outcome Run(const LightTransport::RunPorts& ports);
 };
 
 #endif
