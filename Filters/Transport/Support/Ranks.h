@@ -130,7 +130,12 @@ Outcome Ranks::Attempt(const Step& step, const Advice& advice) const
   {
     return this->Agree(Outcome::Done());
   }
-  return mine || !this->AreSeveral() ? mine : this->Agree(mine);
+  // Moved: a copy of the message would need memory.
+  if (mine || !this->AreSeveral())
+  {
+    return mine;
+  }
+  return this->Agree(mine);
 }
 } // namespace LightTransport
 
