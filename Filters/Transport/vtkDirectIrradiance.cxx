@@ -16,10 +16,13 @@
 #include "Shared/Threads.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkLight.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
@@ -102,10 +105,10 @@ Outcome vtkDirectIrradiance::Run::Check()
 Outcome vtkDirectIrradiance::Run::Read()
 {
   Outcome read = this->ReadLights();
-  if (read && this->Owner->Environment)
+  if (vtkImageData* picture = this->Owner->GetEnvironment(); read && picture)
   {
-    auto environment = std::make_unique<LightTransport::Environment>(this->GetEffort());
-    read = environment->Read(this->Owner->Environment);
+    auto environment = std::make_unique<Environment>(this->GetEffort());
+    read = environment->Read(picture);
     this->Sources.push_back(std::move(environment));
   }
   return read;
@@ -135,7 +138,7 @@ Outcome vtkDirectIrradiance::Run::ReadLights()
     }
     this->Sources.push_back(light.MakeSource(this->GetEffort(), this->Owner->LightAngularDiameter));
   }
-  if (this->Sources.empty() && !this->Owner->Environment)
+  if (this->Sources.empty() && !this->Owner->GetEnvironment())
   {
     this->Warn("No light is on and there is no environment: the irradiance is 0. Add one with "
                "AddLight or SetEnvironment.");
@@ -154,8 +157,8 @@ vtkIdType vtkDirectIrradiance::Run::GetNumberOfBatches() const
 {
   const auto patches = static_cast<double>(this->Scene.GetAreas().size());
   // A direction of a light costs about as much as ten rays.
-  const double rays = this->Owner->Environment
-    ? 2.0 * this->Owner->EnvironmentSamples * LightTransport::Environment::MostRefined
+  const double rays = this->Owner->GetEnvironment()
+    ? 2.0 * this->Owner->EnvironmentSamples * Environment::MostRefined
     : (this->Owner->LightAngularDiameter > 0.0 ? 10.0 : 1.0) * this->Owner->ShadowSamples *
       LitParts::MostRefined;
   return static_cast<vtkIdType>(
@@ -263,7 +266,7 @@ void vtkDirectIrradiance::Run::WriteErrors()
   FieldValues::Add(fields, ArrayNames::DirectIrradianceError, errors.GetTotal());
   FieldValues::Add(fields, "LargestDirectIrradianceError", errors.GetLargest());
   const std::string warning = errors.Describe(this->Owner->Tolerance,
-    this->Owner->Environment ? "EnvironmentSamples" : "ShadowSamples");
+    this->Owner->GetEnvironment() ? "EnvironmentSamples" : "ShadowSamples");
   if (!warning.empty())
   {
     this->Warn(warning);
@@ -271,16 +274,56 @@ void vtkDirectIrradiance::Run::WriteErrors()
 }
 
 //------------------------------------------------------------------------------
-vtkDirectIrradiance::vtkDirectIrradiance() : Lights(new LightList) {}
-
-//------------------------------------------------------------------------------
-vtkDirectIrradiance::~vtkDirectIrradiance()
+vtkDirectIrradiance::vtkDirectIrradiance() : Lights(new LightList)
 {
-  this->SetEnvironment(nullptr);
+  this->SetNumberOfInputPorts(2);
 }
 
 //------------------------------------------------------------------------------
-vtkCxxSetObjectMacro(vtkDirectIrradiance, Environment, vtkImageData);
+vtkDirectIrradiance::~vtkDirectIrradiance() = default;
+
+//------------------------------------------------------------------------------
+void vtkDirectIrradiance::SetEnvironment(vtkImageData* environment)
+{
+  this->SetInputDataObject(1, environment);
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkDirectIrradiance::GetEnvironment()
+{
+  return vtkImageData::SafeDownCast(this->GetInputDataObject(1, 0));
+}
+
+//------------------------------------------------------------------------------
+int vtkDirectIrradiance::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Every rank needs the whole picture for its piece of the surface.
+int vtkDirectIrradiance::RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+  vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (vtkInformation* picture = inputs[1]->GetInformationObject(0))
+  {
+    picture->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    picture->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    picture->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    if (picture->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      picture->Set(Pipeline::UPDATE_EXTENT(), picture->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
 
 //------------------------------------------------------------------------------
 void vtkDirectIrradiance::AddLight(vtkLight* light)
@@ -340,7 +383,7 @@ vtkMTimeType vtkDirectIrradiance::GetMTime()
       time = std::max(time, matrix->GetMTime());
     }
   }
-  return this->Environment ? std::max(time, this->Environment->GetMTime()) : time;
+  return time;
 }
 
 //------------------------------------------------------------------------------
@@ -354,7 +397,7 @@ void vtkDirectIrradiance::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfLights: " << this->GetNumberOfLights() << "\n";
-  os << indent << "Environment: " << this->Environment << "\n";
+  os << indent << "Environment: " << this->GetEnvironment() << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnvironmentSamples: " << this->EnvironmentSamples << "\n";
   os << indent << "ShadowSamples: " << this->ShadowSamples << "\n";

@@ -70,10 +70,11 @@ public:
   /**
    * Radiance from afar in all directions, or nullptr (the default). A picture in longitude and
    * latitude with +z up, 1 or 3 components in its point scalars: the columns start at longitude 0
-   * (+x) and go counter-clockwise seen from +z (through +y); the rows go from -z (first) to +z.
+   * (+x) and go counter-clockwise seen from +z (through +y); the rows go from -z (first) to +z. It
+   * is input port 1, which a reader may be connected to as well.
    */
-  virtual void SetEnvironment(vtkImageData* environment);
-  vtkGetObjectMacro(Environment, vtkImageData);
+  void SetEnvironment(vtkImageData* environment);
+  vtkImageData* GetEnvironment();
   ///@}
 
   ///@{
@@ -146,13 +147,16 @@ public:
   vtkBooleanMacro(TwoSided, bool);
   ///@}
 
-  /// Includes the lights and the environment.
+  /// Includes the lights.
   vtkMTimeType GetMTime() override;
 
 protected:
   vtkDirectIrradiance();
   ~vtkDirectIrradiance() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
   std::unique_ptr<LightTransport::TransportRun> MakeRun(
     const LightTransport::RunPorts& ports) override;
 
@@ -164,7 +168,6 @@ private:
   struct LightList;
 
   std::unique_ptr<LightList> Lights;
-  vtkImageData* Environment = nullptr;
   double Tolerance = 1e-2;
   int EnvironmentSamples = 256;
   int ShadowSamples = 16;

@@ -231,9 +231,10 @@ Outcome vtkSubsurfaceScattering::Run::Read()
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::ReadIrradiance()
 {
-  const std::string name = this->GetArrayName(0,
-    this->Owner->Incidence == INCIDENCE_DIFFUSE ? ArrayNames::Irradiance
-                                                : ArrayNames::TransmittedIrradiance);
+  const bool isDiffuse = this->Owner->Incidence == INCIDENCE_DIFFUSE;
+  const std::string first =
+    this->GetArrayName(0, isDiffuse ? ArrayNames::Irradiance : ArrayNames::TransmittedIrradiance);
+  const std::string name = isDiffuse ? first : this->GetArrayName(1, first.c_str());
   std::vector<double> values;
   int components = 0;
   const CellArrays arrays(this->Scene, this->Input, this->AllRanks);

@@ -25,7 +25,8 @@
  * blue; choose others with SetInputArrayToProcess(0, ...)):
  * - "Irradiance" when Incidence is Diffuse, incident flux per unit area;
  * - "TransmittedIrradiance" when Incidence is Transmitted, flux per unit area that has entered the
- *   surface already; vtkDirectIrradiance writes it.
+ *   surface already; vtkDirectIrradiance writes it. Array 1, where one is chosen, comes before
+ * array 0 then, so that both choices can be kept.
  *
  * Output arrays (cells and points, double):
  * - "ScatteredIrradiance" (3 components): radiant exitance that leaves the surface by scattering,
