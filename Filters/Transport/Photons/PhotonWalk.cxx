@@ -42,6 +42,7 @@ PhotonWalk::Fate PhotonWalk::WalkOutside(State& photon, PhotonRandom& random, Co
     {
       return Fate::LOST;
     }
+    photon.HasJustEntered = crossing.Distance < SamePlace;
     photon.Position += crossing.Distance * photon.Direction;
     photon.From = crossing.Patch;
     const double cosine = -photon.Direction.dot(crossing.Normal);

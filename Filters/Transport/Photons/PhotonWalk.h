@@ -70,6 +70,9 @@ public:
 
 private:
   static constexpr int MostBands = 3;
+  // Between surfaces in one place, in the unit of the walk.
+  static constexpr double SamePlace = 1e-6;
+
   struct State
   {
     Vector Position;
@@ -77,6 +80,7 @@ private:
     vtkIdType From;  ///< the patch that the photon is on, or -1
     PhotonBall Ball; ///< that the photon is in, or an empty one
     PhotonCrossing Crossing;
+    bool HasJustEntered; ///< where it had left before
     double Weights[MostBands];
   };
   enum class Fate
@@ -104,7 +108,7 @@ template <typename Path>
 void PhotonWalk::Follow(const PhotonStart& start, bool isInside, Path& path, PhotonRandom& random,
   PhotonListener& listener, Counts& counts) const
 {
-  State photon{ start.Position, start.Direction, start.Patch, {}, {}, {} };
+  State photon{ start.Position, start.Direction, start.Patch, {}, {}, false, {} };
   path.GetWeights(photon.Weights);
   Fate fate = isInside ? Fate::CROSSED : this->WalkOutside(photon, random, counts);
   while (fate == Fate::CROSSED)
@@ -149,6 +153,7 @@ PhotonWalk::Fate PhotonWalk::WalkInside(State& photon, Path& path, PhotonRandom&
       path.Advance(step);
       photon.Position = target;
       photon.From = -1;
+      photon.HasJustEntered = false;
       if (!path.Scatter(random))
       {
         return Fate::ABSORBED;
@@ -161,6 +166,12 @@ PhotonWalk::Fate PhotonWalk::WalkInside(State& photon, Path& path, PhotonRandom&
     {
       return Fate::LOST;
     }
+    // At an edge that rounding has taken for two surfaces: it would turn there for ever.
+    if (photon.HasJustEntered && crossing.Distance < SamePlace)
+    {
+      return Fate::ESCAPED;
+    }
+    photon.HasJustEntered = false;
     path.Advance(crossing.Distance);
     photon.Position += crossing.Distance * photon.Direction;
     photon.From = crossing.Patch;

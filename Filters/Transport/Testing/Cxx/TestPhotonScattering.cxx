@@ -171,6 +171,19 @@ void TestTotals()
 }
 
 //------------------------------------------------------------------------------
+/// Nothing bends the light at an index of 1: near edges it could leave through one face and enter
+/// through the other for ever.
+void TestEdges()
+{
+  Run run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  run.SetMedium(1.0, 0.005, 1.0);
+  run.Filter->SetMillimetersPerUnit(60.0);
+  run.Filter->SetNumberOfPhotons(400000);
+  CheckWorks(run, "edges at an index of 1");
+  CheckClose(run.GetNumber("EntriesPerPhoton"), 1.0, 1e-5, "a box is entered once");
+}
+
+//------------------------------------------------------------------------------
 void TestTarget()
 {
   Run run(MakeSphere(1));
@@ -408,6 +421,7 @@ int TestPhotonScattering(int, char*[])
 {
   TestErrorsOfPatches();
   TestTotals();
+  TestEdges();
   TestTarget();
   TestSameBits();
   TestBodies();
