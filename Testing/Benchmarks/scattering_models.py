@@ -168,8 +168,9 @@ def print_speed(photons):
 def print_models(error):
     print(f"{'body':7} {'material':10} {'across':>6} {'model':20} {'CPU s':>7} "
           f"{'leaving share':>21} {'off by, %':>18} {'MC error, %':>12}")
-    for name, make in (("sphere", lambda: make_sphere(3)), ("plate", lambda: make_box(1, 1, 0.1, 4)),
-                       ("bunny", make_bunny)):
+    bodies = {"sphere": lambda: make_sphere(3), "plate": lambda: make_box(1, 1, 0.1, 4),
+              "bunny": make_bunny}
+    for name, make in bodies.items():
         for material in MATERIALS:
             for across in (20, 100):
                 surface = make()

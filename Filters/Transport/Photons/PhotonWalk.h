@@ -178,7 +178,7 @@ PhotonWalk::Fate PhotonWalk::WalkInside(State& photon, Path& path, PhotonRandom&
     const double cosine = photon.Direction.dot(crossing.Normal);
     if (random.Get() >= this->Interface.GetInternalReflectance(cosine))
     {
-      photon.Direction = this->Interface.GoOut(photon.Direction, crossing.Normal);
+      photon.Direction = this->Interface.RefractOutwards(photon.Direction, crossing.Normal);
       return Fate::CROSSED;
     }
     photon.Direction = PhotonInterface::Reflect(photon.Direction, crossing.Normal);
