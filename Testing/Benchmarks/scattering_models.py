@@ -6,9 +6,9 @@
     scattering_models.py speed                  photons per millisecond of one thread
     scattering_models.py models [--error 0.01]  all models on three bodies
 
-Bodies are so many mean free paths across (of red); light falls in from one side, as diffuse light of
-that flux. Errors are area-weighted, relative, root mean square over the surface; that of Monte Carlo
-itself is taken off, and stands beside.
+Bodies are so many mean free paths across (of red); light falls in from one side, as diffuse light
+of that flux. Errors are area-weighted, relative, root mean square over the surface; that of Monte
+Carlo itself is taken off, and stands beside.
 """
 
 import argparse
