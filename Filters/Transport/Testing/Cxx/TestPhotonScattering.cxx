@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Monte Carlo in meshes, through the filter: its errors, its totals, and bodies of every kind.
 #include "LightTransportTesting.h"
+#include "Links/Links.h"
 #include "MessageLog.h"
+#include "Photons/PhotonLinks.h"
+#include "RanksInThreads.h"
 #include "vtkExecutive.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkReverseSense.h"
@@ -366,6 +369,54 @@ void TestMedia()
 }
 
 //------------------------------------------------------------------------------
+/// Photons and links are the same to the last bit on one rank and on three.
+void TestRanks()
+{
+  using namespace LightTransport;
+  auto body = MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3);
+  const std::vector<ScatteringMedium> media = { { 1.0, 0.1, 1.3 }, { 2.0, 0.1, 1.3 },
+    { 1.0, 0.2, 1.3 } };
+  PhotonScattering::Settings settings;
+  settings.NumberOfPhotons = 20000;
+  const auto compute = [&](const Ranks& ranks, std::vector<double>& result)
+  {
+    PatchScene scene;
+    Check(bool(scene.Build(body, Ranks())), "scene built");
+    const std::size_t values = 3 * scene.GetNumberOfPatches();
+    const PhotonScattering scattering(scene,
+      PhotonScattering::GetMedia(media, { 0.0, 0.0, 0.3 }, scene.GetScale()), 1.3);
+    PhotonScattering::Result photons;
+    Check(
+      bool(scattering.Run(std::vector<double>(values, 1.0), settings, ranks, Monitor(), photons)),
+      "photons followed");
+    result = photons.Scattered;
+    result.insert(result.end(), photons.Errors.begin(), photons.Errors.end());
+    Links links;
+    const PhotonLinks builder(media, { 0.0, 0.0, 0.3 }, 1.0, settings);
+    Check(bool(builder.Build(scene, ranks, Monitor(), links)), "links built");
+    std::vector<double> all;
+    for (std::size_t k = 0; k < values * values / 3; ++k)
+    {
+      const auto patches = static_cast<vtkIdType>(values / 3);
+      const auto pair = static_cast<vtkIdType>(k / 3);
+      all.push_back(
+        links.Matrix->GetValue(pair / patches, pair % patches, static_cast<int>(k % 3)));
+    }
+    ranks.Sum(all);
+    result.insert(result.end(), all.begin(), all.end());
+  };
+  std::vector<double> one, three[3];
+  compute(Ranks(), one);
+  RunRanks(3,
+    [&](vtkMultiProcessController* controller, int rank)
+    { compute(Ranks(controller), three[rank]); });
+  for (const std::vector<double>& result : three)
+  {
+    Check(result == one, "three ranks get the bits of one");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestRefusals()
 {
   Surface lid;
@@ -428,5 +479,6 @@ int TestPhotonScattering(int, char*[])
   TestLinks();
   TestMedia();
   TestRefusals();
+  TestRanks();
   return Result();
 }
