@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 
@@ -68,20 +69,22 @@ double VaryingMedium::GetMeanMajorant() const
 }
 
 //------------------------------------------------------------------------------
-VaryingMedium::Span VaryingMedium::Clip(const Vector& index, const Vector& step) const
+VaryingMedium::Span VaryingMedium::Clip(const Vector& position, const Vector& direction) const
 {
-  Span span{ 0.0, Infinite };
+  const Vector step = this->Image.GetIndexDirection(direction);
+  Span span{ this->Image.GetIndex(position), step, step.cwiseInverse(), 0.0, Infinite };
   for (int axis = 0; axis < 3; ++axis)
   {
+    const double start = span.Start[axis];
     const double high = this->Image.GetNumbersOfVoxels()[axis];
     if (step[axis] != 0.0)
     {
-      const double low = -index[axis] / step[axis];
-      const double far = (high - index[axis]) / step[axis];
-      span.Begin = std::max(span.Begin, std::min(low, far));
-      span.End = std::min(span.End, std::max(low, far));
+      const double first = -start * span.Inverse[axis];
+      const double last = (high - start) * span.Inverse[axis];
+      span.Begin = std::max(span.Begin, std::min(first, last));
+      span.End = std::min(span.End, std::max(first, last));
     }
-    else if (index[axis] < 0.0 || index[axis] > high)
+    else if (start < 0.0 || start > high)
     {
       span.End = 0.0;
     }
@@ -94,15 +97,13 @@ VaryingMedium::Place VaryingMedium::FindPlace(const Vector& position, const Vect
   double depth) const
 {
   const double extinction = this->Outside.GetExtinction();
-  const Vector index = this->Image.GetIndex(position);
-  const Vector step = this->Image.GetIndexDirection(direction);
-  const Span span = this->Clip(index, step);
-  Place place{ 0.0, extinction, false, index };
+  const Span span = this->Clip(position, direction);
+  Place place{ 0.0, extinction, false, Vector::Zero() };
   if (span.Begin < span.End && depth >= extinction * span.Begin)
   {
     depth -= extinction * span.Begin;
     place.Distance = span.Begin;
-    if (this->FindInImage(index, step, span, depth, place))
+    if (this->FindInImage(span, depth, place))
     {
       return place;
     }
@@ -115,49 +116,47 @@ VaryingMedium::Place VaryingMedium::FindPlace(const Vector& position, const Vect
 //------------------------------------------------------------------------------
 // From cell to cell (J. Amanatides, A. Woo, Eurographics 1987). `depth` that is left, and the
 // distance in `place` where the path leaves the image.
-bool VaryingMedium::FindInImage(const Vector& index, const Vector& step, const Span& span,
-  double& depth, Place& place) const
+bool VaryingMedium::FindInImage(const Span& span, double& depth, Place& place) const
 {
-  int cell[3], turn[3];
-  double ends[3], lengths[3];
+  int cell[3];
+  int strides[3];
+  double ends[3];
   int cells = 1;
-  std::size_t at = 0;
+  std::ptrdiff_t at = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double width = this->VoxelsPerCell[axis];
-    const double start = (index[axis] + span.Begin * step[axis]) / width;
-    cell[axis] = std::min(std::max(static_cast<int>(start), 0), this->Cells[axis] - 1);
-    const bool isForward = step[axis] > 0.0;
-    turn[axis] = (isForward ? 1 : -1) * cells;
-    lengths[axis] = step[axis] != 0.0 ? width / std::abs(step[axis]) : Infinite;
-    ends[axis] = step[axis] != 0.0
-      ? ((cell[axis] + (isForward ? 1 : 0)) * width - index[axis]) / step[axis]
-      : Infinite;
-    at += std::size_t(cell[axis]) * cells;
+    const int width = this->VoxelsPerCell[axis];
+    const auto voxel = static_cast<int>(span.Start[axis] + span.Begin * span.Step[axis]);
+    cell[axis] = std::min(std::max(voxel / width, 0), this->Cells[axis] - 1);
+    const int next = (cell[axis] + (span.Step[axis] > 0.0 ? 1 : 0)) * width;
+    ends[axis] = span.Step[axis] != 0.0 ? (next - span.Start[axis]) * span.Inverse[axis] : Infinite;
+    strides[axis] = cells;
+    at += std::ptrdiff_t(cell[axis]) * cells;
     cells *= this->Cells[axis];
   }
-  while (place.Distance < span.End)
+  for (;;)
   {
-    const auto axis = static_cast<int>(std::min_element(ends, ends + 3) - ends);
+    const int lower = ends[0] < ends[1] ? 0 : 1;
+    const int axis = ends[lower] < ends[2] ? lower : 2;
     const double length = std::max(std::min(ends[axis], span.End) - place.Distance, 0.0);
     place.Majorant = this->Majorants[at];
     if (depth < place.Majorant * length)
     {
       place.Distance += depth / place.Majorant;
       place.IsInImage = true;
-      place.Index = index + place.Distance * step;
+      place.Index = span.Start + place.Distance * span.Step;
       return true;
     }
     depth -= place.Majorant * length;
     place.Distance += length;
-    ends[axis] += lengths[axis];
-    const int next = cell[axis] + (turn[axis] > 0 ? 1 : -1);
-    if (next < 0 || next >= this->Cells[axis])
+    const int turn = span.Step[axis] > 0.0 ? 1 : -1;
+    cell[axis] += turn;
+    if (place.Distance >= span.End || cell[axis] < 0 || cell[axis] >= this->Cells[axis])
     {
       break;
     }
-    cell[axis] = next;
-    at += turn[axis];
+    ends[axis] += this->VoxelsPerCell[axis] * std::abs(span.Inverse[axis]);
+    at += turn * strides[axis];
   }
   place.Distance = span.End;
   return false;

@@ -52,17 +52,19 @@ private:
   // Along each axis at most.
   static constexpr int MostCells = 32;
 
-  /// The part of a path in the image.
+  /// A path in indices: `Inverse` of its step for a unit of distance, and the part in the image.
   struct Span
   {
+    Vector Start;
+    Vector Step;
+    Vector Inverse;
     double Begin;
     double End;
   };
-  Span Clip(const Vector& index, const Vector& step) const;
+  Span Clip(const Vector& position, const Vector& direction) const;
   double GetLargest(const MediumImage::Field& field, double factor, double otherwise,
     const int first[3], const int last[3]) const;
-  bool FindInImage(const Vector& index, const Vector& step, const Span& span, double& depth,
-    Place& place) const;
+  bool FindInImage(const Span& span, double& depth, Place& place) const;
 
   const MediumImage& Image;
   PhotonMedium Outside;
