@@ -4,6 +4,7 @@
 
 #include "Common/MeshingRun.h"
 #include "Common/TriangleSoup.h"
+#include "Common/Watch.h"
 #include "Mesher/IsotropicRemesher.h"
 #include "Mesher/PatchOutput.h"
 #include "Mesher/RemeshToTarget.h"
@@ -250,8 +251,7 @@ int vtkPatchMesher::RequestData(vtkInformation*, vtkInformationVector** inputs,
   steps.Take([&]() { return this->CheckProperties(); });
   steps.Take([&]() { return this->FindBlocks(input, job); });
   steps.Take([&]() { return this->ReadBlocks(job); });
-  steps.Take([&]() { return this->RepairBlocks(job); });
-  steps.Take([&]() { return this->Remesh(job); });
+  steps.Take([&]() { return this->MakePatches(job); });
   steps.Take([&]() { return this->Write(job); });
   RepairCounts counts;
   for (const Block& block : job.Blocks)
@@ -443,8 +443,21 @@ Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& len
 }
 
 //------------------------------------------------------------------------------
+// Without gaps in the progress, however long a call of CGAL takes.
+Outcome vtkPatchMesher::MakePatches(Job& job) const
+{
+  return Watch::Run(job.Watcher,
+    [&](Watch& watch)
+    {
+      const Monitor monitor = watch.MakeMonitor();
+      Outcome repaired = this->RepairBlocks(job, monitor.GetStage(0.02, 0.1));
+      return repaired ? this->Remesh(job, monitor.GetStage(0.1, 0.85)) : repaired;
+    });
+}
+
+//------------------------------------------------------------------------------
 // Each surface by itself: what is in different blocks does not hang together.
-Outcome vtkPatchMesher::RepairBlocks(Job& job) const
+Outcome vtkPatchMesher::RepairBlocks(Job& job, const Monitor& monitor) const
 {
   SurfaceRepair::Settings settings = { this->Repair, this->FillHoles, this->HoleSize,
     this->WeldTolerance, static_cast<SurfaceRepair::Intersections>(this->SelfIntersections) };
@@ -456,7 +469,7 @@ Outcome vtkPatchMesher::RepairBlocks(Job& job) const
   {
     Block& block = job.Blocks[i];
     const double size = static_cast<double>(job.Blocks.size());
-    const Monitor stage = job.Watcher.GetStage(0.02, 0.1).GetStage(i / size, (i + 1) / size);
+    const Monitor stage = monitor.GetStage(i / size, (i + 1) / size);
     if (Outcome repaired = SurfaceRepair::Run(settings, stage, block.Soup, block.Counts); !repaired)
     {
       return repaired.HasFailed() ? Outcome::Failed(block.Name + repaired.GetMessage()) : repaired;
@@ -466,7 +479,7 @@ Outcome vtkPatchMesher::RepairBlocks(Job& job) const
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkPatchMesher::Remesh(Job& job) const
+Outcome vtkPatchMesher::Remesh(Job& job, const Monitor& monitor) const
 {
   job.Soup = job.Gather();
   for (const Block& block : job.Blocks)
@@ -488,8 +501,7 @@ Outcome vtkPatchMesher::Remesh(Job& job) const
   {
     return Outcome::Failed("The surface is not a manifold, even after the repair: split it first.");
   }
-  return RemeshToTarget::Run(remesher, job.Soup, target, job.Watcher.GetStage(0.1, 0.85),
-    job.Result);
+  return RemeshToTarget::Run(remesher, job.Soup, target, monitor, job.Result);
 }
 
 //------------------------------------------------------------------------------

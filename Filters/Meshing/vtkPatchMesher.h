@@ -248,7 +248,8 @@ public:
    * How far apart points may be, in the input's unit, that the repair takes for one; also how far a
    * corner may be from an edge that it lies on. Only points at borders are welded, where that joins
    * two edges, and never points more than a quarter of the edges there apart. Default 0: what the
-   * coordinates are worth by their type, size and number of digits.
+   * coordinates are worth by their type, size and number of digits, and more where points are just
+   * beyond it, as noise of arithmetic puts them.
    */
   vtkSetMacro(WeldTolerance, double);
   vtkGetMacro(WeldTolerance, double);
@@ -326,8 +327,9 @@ private:
   LightTransport::Outcome ReadRegions(vtkPolyData* input, std::vector<int>& regions);
   /// One length per input point if the size field is an array, else none.
   LightTransport::Outcome ReadLengths(vtkPolyData* input, std::vector<double>& lengths);
-  LightTransport::Outcome RepairBlocks(Job& job) const;
-  LightTransport::Outcome Remesh(Job& job) const;
+  LightTransport::Outcome MakePatches(Job& job) const;
+  LightTransport::Outcome RepairBlocks(Job& job, const LightTransport::Monitor& monitor) const;
+  LightTransport::Outcome Remesh(Job& job, const LightTransport::Monitor& monitor) const;
   LightTransport::Outcome ChooseTarget(const Job& job, LightTransport::PatchTarget& target) const;
   LightTransport::Outcome Write(Job& job);
   void CheckNumberOfPatches(vtkIdType number);

@@ -136,9 +136,8 @@ inline Outcome FileReplacement::CheckTarget()
   if (this->Older.st_nlink > 1)
   {
     return Outcome::Failed("the file has " + std::to_string(this->Older.st_nlink) +
-      " names (hard links), of which the others would keep the old content; choose another name, "
-      "or "
-      "remove the file first");
+      " names (hard links), of which the others would keep the old content; choose another "
+      "name, or remove the file first");
   }
   if (::faccessat(AT_FDCWD, this->Target.c_str(), W_OK, AT_EACCESS) != 0)
   {

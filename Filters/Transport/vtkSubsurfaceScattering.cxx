@@ -9,6 +9,7 @@
 #include "Photons/PhotonLinks.h"
 #include "Photons/PhotonScattering.h"
 #include "Run/TransportRun.h"
+#include "Scattering/BodyThickness.h"
 #include "Scattering/ScatteringLinks.h"
 #include "Scattering/ScatteringMaterials.h"
 #include "Scene/CellArrays.h"
@@ -54,6 +55,9 @@ constexpr double LostShareToTell = 1e-4;
 constexpr double LostShareToFail = 0.02;
 // More light than entered, beyond the error of the links, that is not worth a warning.
 constexpr double NegligibleExcess = 0.01;
+// Diffusion lengths below which a body is thin, and how much of it may be.
+constexpr double ThinBody = 2.0;
+constexpr double LargestThinShare = 0.1;
 
 //------------------------------------------------------------------------------
 /// A field data array of one of the data sets, or nullptr.
@@ -117,6 +121,7 @@ private:
   Outcome FollowPhotons();
   void WriteLinks() const;
   void WritePhotons(const SceneOutput& output) const;
+  void WriteThickness(const SceneOutput& output) const;
 
   vtkSubsurfaceScattering* Owner;
   std::vector<ScatteringMedium> Media; ///< of each band
@@ -128,6 +133,7 @@ private:
   std::vector<double> Errors; ///< where links are counts of photons
   ///@}
   PhotonScattering::Result Photons;
+  std::vector<double> Thickness; ///< of each patch, in scene units
   double ApplySeconds = 0.0;
   std::string DeviceUsed;
   std::string DeviceExplanation;
@@ -360,7 +366,9 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
   const double start = vtkTimerLog::GetUniversalTime();
   Outcome done = this->FollowsPhotons() ? this->FollowPhotons() : this->ApplyLinks();
   this->ApplySeconds = vtkTimerLog::GetUniversalTime() - start;
-  return done;
+  return done && this->Owner->ComputeThickness
+    ? this->AllRanks.Agree(BodyThickness::Measure(this->Scene, this->Thickness))
+    : done;
 }
 
 //------------------------------------------------------------------------------
@@ -421,7 +429,7 @@ Outcome vtkSubsurfaceScattering::Run::CheckLost(double share) const
   }
   if (share > LostShareToTell)
   {
-    this->Warn(text.str());
+    this->WarnOnce({ text.str() });
   }
   return Outcome::Done();
 }
@@ -505,10 +513,53 @@ void vtkSubsurfaceScattering::Run::CheckEnergy(const double entering[],
 }
 
 //------------------------------------------------------------------------------
+void vtkSubsurfaceScattering::Run::WriteThickness(const SceneOutput& output) const
+{
+  const double scale = this->Scene.GetScale() * this->Owner->MillimetersPerUnit;
+  const std::size_t patches = this->Thickness.size();
+  std::vector<double> millimeters(patches);
+  std::vector<double> lengths(patches * Bands);
+  double thin[Bands] = {};
+  double total = 0.0;
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    const double area = this->Scene.GetAreas()[patch];
+    millimeters[patch] = scale * this->Thickness[patch];
+    total += area;
+    for (int band = 0; band < Bands; ++band)
+    {
+      double& value = lengths[patch * Bands + band];
+      value = millimeters[patch] * BodyThickness::GetTransportCoefficient(this->Media[band]);
+      thin[band] += value < ThinBody ? area : 0.0;
+    }
+  }
+  for (double& share : thin)
+  {
+    share /= total;
+  }
+  output.AddArray("Thickness", millimeters, 1);
+  output.AddArray("DiffusionThickness", lengths, Bands);
+  FieldValues::Add(this->GetOutputFields(), "ThinShare", thin, Bands);
+  const double* worst = std::max_element(thin, thin + Bands);
+  if (*worst > LargestThinShare && !this->IsMonteCarlo())
+  {
+    std::ostringstream text;
+    text << "In component " << worst - thin << " " << 100.0 * *worst
+         << " % of the surface is thinner than two diffusion lengths (DiffusionThickness), where "
+            "models of a medium without end claim too much. Use Model MonteCarlo.";
+    this->WarnOnce({ text.str() });
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSubsurfaceScattering::Run::Write()
 {
   const SmoothPoints points(this->Scene, this->Owner->FeatureAngle);
   const SceneOutput output(this->Scene, &points, this->Input, this->Output);
+  if (this->Owner->ComputeThickness)
+  {
+    this->WriteThickness(output);
+  }
   double entering[Bands] = {};
   double leaving[Bands] = {};
   this->SumFlux(entering, leaving);
@@ -689,6 +740,7 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TargetError: " << this->TargetError << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "BurleyFit: " << this->BurleyFit << "\n";
+  os << indent << "ComputeThickness: " << this->ComputeThickness << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

@@ -272,6 +272,42 @@ std::vector<Bytes> LoadCorpus(const std::filesystem::path& path)
 }
 
 //------------------------------------------------------------------------------
+// An option of the command line; false for one that is unknown.
+bool Take(const std::string& option, std::uint64_t value, Settings& settings)
+{
+  if (option == "--runs")
+  {
+    settings.Runs = value;
+  }
+  else if (option == "--first")
+  {
+    settings.First = value;
+  }
+  else if (option == "--seed")
+  {
+    settings.Seed = value;
+  }
+  else if (option == "--seconds")
+  {
+    settings.Seconds = static_cast<long>(value);
+    settings.Runs = std::numeric_limits<std::uint64_t>::max() / 2;
+  }
+  else if (option == "--patience")
+  {
+    settings.Patience = static_cast<long>(value);
+  }
+  else if (option == "--megabytes")
+  {
+    AllowedBlock = static_cast<std::size_t>(value) << 20;
+  }
+  else
+  {
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 void CheckBlock(std::size_t bytes)
 {
@@ -289,26 +325,27 @@ void CheckBlock(std::size_t bytes)
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C"
 {
-  void* __libc_malloc(std::size_t bytes);
-  void* __libc_calloc(std::size_t count, std::size_t bytes);
-  void* __libc_realloc(void* block, std::size_t bytes);
+  // What the C library has beneath those that are replaced here.
+  void* AllocateBlock(std::size_t bytes) __asm__("__libc_malloc");
+  void* AllocateZeros(std::size_t count, std::size_t bytes) __asm__("__libc_calloc");
+  void* ResizeBlock(void* block, std::size_t bytes) __asm__("__libc_realloc");
 
   void* malloc(std::size_t bytes) noexcept
   {
     CheckBlock(bytes);
-    return __libc_malloc(bytes);
+    return AllocateBlock(bytes);
   }
 
   void* calloc(std::size_t count, std::size_t bytes) noexcept
   {
     CheckBlock(bytes == 0 ? 0 : count <= SIZE_MAX / bytes ? count * bytes : SIZE_MAX);
-    return __libc_calloc(count, bytes);
+    return AllocateZeros(count, bytes);
   }
 
   void* realloc(void* block, std::size_t bytes) noexcept
   {
     CheckBlock(bytes);
-    return __libc_realloc(block, bytes);
+    return ResizeBlock(block, bytes);
   }
 }
 #endif
@@ -318,41 +355,12 @@ int main(int argc, char* argv[])
 {
   Settings settings;
   settings.Name = std::filesystem::path(argv[0]).filename().string();
-  for (int i = 2; i + 1 < argc; i += 2)
+  bool understood = argc >= 2 && argc % 2 == 0;
+  for (int i = 2; i + 1 < argc && understood; i += 2)
   {
-    const std::string option = argv[i];
-    const std::uint64_t value = std::strtoull(argv[i + 1], nullptr, 10);
-    if (option == "--runs")
-    {
-      settings.Runs = value;
-    }
-    else if (option == "--first")
-    {
-      settings.First = value;
-    }
-    else if (option == "--seed")
-    {
-      settings.Seed = value;
-    }
-    else if (option == "--seconds")
-    {
-      settings.Seconds = static_cast<long>(value);
-      settings.Runs = std::numeric_limits<std::uint64_t>::max() / 2;
-    }
-    else if (option == "--patience")
-    {
-      settings.Patience = static_cast<long>(value);
-    }
-    else if (option == "--megabytes")
-    {
-      AllowedBlock = static_cast<std::size_t>(value) << 20;
-    }
-    else
-    {
-      argc = 0;
-    }
+    understood = Take(argv[i], std::strtoull(argv[i + 1], nullptr, 10), settings);
   }
-  if (argc < 2 || argc % 2 != 0)
+  if (!understood)
   {
     std::fprintf(stderr,
       "%s CORPUS [--runs N | --seconds S] [--seed N] [--first N] [--patience SECONDS] "

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// What the fuzz targets share: inputs as files, findings of their own, and quiet.
+/// What the fuzz targets share: inputs as files, findings of their own, quiet, and what was said.
 #ifndef FuzzFile_h
 #define FuzzFile_h
 
+#include "vtkCallbackCommand.h"
 #include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -52,6 +53,30 @@ inline void BeQuiet()
   vtkNew<SilentWindow> window;
   vtkOutputWindow::SetInstance(window);
 }
+
+//------------------------------------------------------------------------------
+/// How often an object has reported errors and warnings.
+struct Messages
+{
+  int Errors = 0;
+  int Warnings = 0;
+
+  explicit Messages(vtkObject* object)
+  {
+    vtkNew<vtkCallbackCommand> counter;
+    counter->SetClientData(this);
+    counter->SetCallback(
+      [](vtkObject*, unsigned long event, void* messages, void*)
+      {
+        auto* counts = static_cast<Messages*>(messages);
+        (event == vtkCommand::ErrorEvent ? counts->Errors : counts->Warnings) += 1;
+      });
+    object->AddObserver(vtkCommand::ErrorEvent, counter);
+    object->AddObserver(vtkCommand::WarningEvent, counter);
+  }
+  Messages(const Messages&) = delete;
+  Messages& operator=(const Messages&) = delete;
+};
 
 //------------------------------------------------------------------------------
 /// A file in memory.

@@ -11,7 +11,6 @@
 #include "FuzzFile.h"
 
 #include "vtkAtlasToSurface.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -320,20 +319,6 @@ void CheckResults(vtkDataObject* output, const std::set<std::string>& given, boo
     }
   }
 }
-
-//------------------------------------------------------------------------------
-struct Messages
-{
-  int Errors = 0;
-  int Warnings = 0;
-};
-
-//------------------------------------------------------------------------------
-void CountMessage(vtkObject*, unsigned long event, void* messages, void*)
-{
-  auto* counts = static_cast<Messages*>(messages);
-  (event == vtkCommand::ErrorEvent ? counts->Errors : counts->Warnings) += 1;
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -352,12 +337,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Kind& kind = kinds[choices.Index(static_cast<int>(std::size(kinds)))];
   vtkSmartPointer<vtkDataObject> input = MakeAnyInput(choices, kind.TakesComposite);
   const vtkSmartPointer<vtkAlgorithm> filter = kind.Make(choices, GetSize(input));
-  Messages messages;
-  vtkNew<vtkCallbackCommand> counter;
-  counter->SetClientData(&messages);
-  counter->SetCallback(CountMessage);
-  filter->AddObserver(vtkCommand::ErrorEvent, counter);
-  filter->AddObserver(vtkCommand::WarningEvent, counter);
+  const Messages messages(filter);
   if (kind.Make == MakeSurfaceToAtlas || kind.Make == MakeAtlasToSurface)
   {
     vtkNew<vtkSurfaceAtlas> atlas;

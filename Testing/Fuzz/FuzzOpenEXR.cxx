@@ -3,7 +3,6 @@
 // Any file gives an image whose arrays are whole, or an error and nothing.
 #include "FuzzFile.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -43,24 +42,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   BeQuiet();
   const MemoryFile file(data, size);
   vtkNew<vtkOpenEXRReader> reader;
-  int errors = 0;
-  vtkNew<vtkCallbackCommand> counter;
-  counter->SetClientData(&errors);
-  counter->SetCallback(
-    [](vtkObject*, unsigned long, void* count, void*) { *static_cast<int*>(count) += 1; });
-  reader->AddObserver(vtkCommand::ErrorEvent, counter);
+  Messages messages(reader);
   reader->SetFileName(file.GetName().c_str());
   reader->CanReadFile(reader->GetFileName());
   // Every mutation chooses anew, so that images beyond the first are read as well.
   Choose(reader, std::accumulate(data, data + size, 0u));
   // The first image may be one that cannot be read.
-  errors = 0;
+  messages.Errors = 0;
   reader->Modified();
   reader->Update();
   vtkImageData* image = reader->GetOutput();
   const vtkIdType points = image->GetNumberOfPoints();
   vtkPointData* arrays = image->GetPointData();
-  if (errors > 0)
+  if (messages.Errors > 0)
   {
     Require(points == 0 && arrays->GetNumberOfArrays() == 0, "an image in spite of an error");
     return 0;

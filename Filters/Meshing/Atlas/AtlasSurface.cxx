@@ -29,6 +29,10 @@ constexpr double LengthOfDiagonal = 1.05;
 // of the coordinates: its middle must differ from its ends.
 constexpr double LeastStepsOfEdge = 1024.0;
 
+// The height of a thin triangle is less than this part of its longest side.
+constexpr double HeightOfThin = 0.1;
+constexpr double CosineWithinBundle = 0.87;
+
 // Beyond this an atlas takes more than a few minutes and a few gigabytes.
 constexpr std::size_t MostTriangles = 20000000;
 
@@ -66,6 +70,7 @@ Outcome AtlasSurface::Build(const TriangleSoup& soup, const Watch& watch)
     this->FindNeighbors(watch);
   }
   this->FindGeometry();
+  this->FindBundles(watch);
   return Outcome::Done();
 }
 
@@ -158,6 +163,70 @@ void AtlasSurface::FindGeometry()
     this->Normals[i] = normal.normalized();
     this->Centers[i] = (a + b + c) / 3.0;
     this->Area += this->Areas[i];
+  }
+}
+
+//------------------------------------------------------------------------------
+double AtlasSurface::GetLongestEdge(int face) const
+{
+  return std::max(
+    { this->GetEdgeLength(face, 0), this->GetEdgeLength(face, 1), this->GetEdgeLength(face, 2) });
+}
+
+//------------------------------------------------------------------------------
+// Grow each bundle from one face to both sides, across long edges.
+void AtlasSurface::FindBundles(const Watch& watch)
+{
+  const int none = -1;
+  const int free = -2;
+  this->Bundles.assign(this->Triangles.size(), none);
+  for (int face = 0; face < this->GetNumberOfFaces(); ++face)
+  {
+    const double longest = this->GetLongestEdge(face);
+    this->Bundles[face] = 2.0 * this->Areas[face] < HeightOfThin * longest * longest ? free : none;
+  }
+  std::vector<int> bundle;
+  for (int first = 0; first < this->GetNumberOfFaces(); ++first)
+  {
+    if (this->Bundles[first] != free)
+    {
+      continue;
+    }
+    const double longest = this->GetLongestEdge(first);
+    bundle.assign(1, first);
+    this->Bundles[first] = first;
+    double area = this->Areas[first];
+    int beside = none;
+    for (std::size_t i = 0; i < bundle.size(); ++i)
+    {
+      watch.Check();
+      for (int edge = 0; edge < 3; ++edge)
+      {
+        const int neighbor = this->Neighbors[bundle[i]][edge];
+        if (neighbor < 0 || this->Bundles[neighbor] == none ||
+          this->GetEdgeLength(bundle[i], edge) < 0.5 * longest ||
+          this->Normals[neighbor].dot(this->Normals[bundle[i]]) < CosineWithinBundle)
+        {
+          continue;
+        }
+        if (this->Bundles[neighbor] != free)
+        {
+          beside = this->Bundles[neighbor] != first ? this->Bundles[neighbor] : beside;
+        }
+        else if (area < longest * longest)
+        {
+          this->Bundles[neighbor] = first;
+          area += this->Areas[neighbor];
+          bundle.push_back(neighbor);
+        }
+      }
+    }
+    // What is left over between others goes to one of them.
+    for (std::size_t i = 0; i < bundle.size() && beside != none && area < 0.5 * longest * longest;
+         ++i)
+    {
+      this->Bundles[bundle[i]] = beside;
+    }
   }
 }
 

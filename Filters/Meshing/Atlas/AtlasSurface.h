@@ -56,6 +56,11 @@ public:
   }
   double GetEdgeLength(int face, int edge) const;
   Vector GetEdgeMiddle(int face, int edge) const;
+  /// Whether a face is far longer than high.
+  bool IsThin(int face) const { return this->Bundles[face] >= 0; }
+  /// The bundle of thin faces, side by side and together about as wide as long, that a face belongs
+  /// to; -1 for one that is not thin. Charts had better not be cut between them.
+  int GetBundle(int face) const { return this->Bundles[face]; }
 
   /**
    * The neighbours of the faces of one piece, numbered as `faces` is; -1 across the border of the
@@ -67,12 +72,16 @@ public:
     const std::vector<int>& owners, std::vector<int>& local) const;
 
 private:
+  std::vector<int> Bundles;
+
   /// The point in the middle of each halved edge, by the two points of the edge.
   using Middles = std::unordered_map<std::uint64_t, std::size_t>;
   struct Diagonal;
 
   void FindNeighbors(const Watch& watch);
   void FindGeometry();
+  double GetLongestEdge(int face) const;
+  void FindBundles(const Watch& watch);
   Outcome CheckAreas(const TriangleSoup& soup) const;
   std::vector<double> FindLongestEdges(const Watch& watch) const;
   int FindOtherLongEdge(int face, int edge, double longest) const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Atlas/SurfaceBisection.h"
 
+#include "Atlas/PointDistances.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 namespace LightTransport
@@ -30,6 +33,9 @@ constexpr double CostOfCrease = 0.2;
 // How much a half that is e times too large or too small weighs against a longer cut: that much of
 // the square root of the area of the piece.
 constexpr double WeightOfBalance = 12.0;
+
+// So large a part of the faces must be thin for distances to be found over their points.
+constexpr double ManyThin = 0.5;
 
 // A half has at least so many faces of each component that it has a part of: a single triangle
 // has too few corners for a square.
@@ -96,21 +102,29 @@ std::vector<char> SurfaceBisection::DivideComponents() const
 //------------------------------------------------------------------------------
 std::vector<char> SurfaceBisection::CutBetweenCorners(double share, double density) const
 {
-  const std::array<std::vector<double>, 4> d = this->FindDistancesFromCorners();
   const std::array<std::array<double, 4>, 4> candidates = { { { 1, -1, 0, 0 }, { 0, 0, 1, -1 },
     { 1, -1, 1, -1 }, { 1, -1, -1, 1 } } };
   Cut best;
   std::vector<double> values(this->Faces.size());
-  for (const std::array<double, 4>& signs : candidates)
+  for (const bool overPoints : { false, true })
   {
-    for (std::size_t i = 0; i < values.size(); ++i)
+    if (overPoints && !this->IsThin)
     {
-      values[i] = signs[0] * d[0][i] + signs[1] * d[1][i] + signs[2] * d[2][i] + signs[3] * d[3][i];
+      continue;
     }
-    Cut cut = this->FindBestCut(values, share, density);
-    if (cut.Score < best.Score)
+    const std::array<std::vector<double>, 4> d = this->FindDistancesFromCorners(overPoints);
+    for (const std::array<double, 4>& signs : candidates)
     {
-      best = std::move(cut);
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        values[i] =
+          signs[0] * d[0][i] + signs[1] * d[1][i] + signs[2] * d[2][i] + signs[3] * d[3][i];
+      }
+      Cut cut = this->FindBestCut(values, share, density);
+      if (cut.Score < best.Score)
+      {
+        best = std::move(cut);
+      }
     }
   }
 
@@ -128,10 +142,13 @@ void SurfaceBisection::Gather(const std::vector<int>& faces)
   this->Faces = faces;
   this->Neighbors = this->Surface.GetNeighborsWithin(faces, this->Owners, this->Local);
   this->Area = 0.0;
+  std::size_t numberOfThin = 0;
   for (const int face : faces)
   {
     this->Area += this->Surface.Areas[face];
+    numberOfThin += this->Surface.IsThin(face);
   }
+  this->IsThin = static_cast<double>(numberOfThin) > ManyThin * static_cast<double>(faces.size());
   this->Crease = WidthOfCrease * std::sqrt(this->Area);
 }
 
@@ -202,6 +219,33 @@ double SurfaceBisection::GetDistanceAcross(int face, int edge, double distance) 
 }
 
 //------------------------------------------------------------------------------
+double SurfaceBisection::GetTie(int from, int to) const
+{
+  return (this->Surface.Centers[this->Faces[from]] - this->Surface.Centers[this->Faces[to]]).norm();
+}
+
+//------------------------------------------------------------------------------
+// Ties join faces of different components, in a chain; so the components are done in its order,
+// away from the first on both sides. Calls reach(face, face before or -1).
+template <typename Visitor>
+void SurfaceBisection::FollowTies(int start, const Visitor& reach) const
+{
+  const auto place = std::find_if(this->TiedFaces.begin(), this->TiedFaces.end(),
+    [&](int face) { return this->Components[face] == this->Components[start]; });
+  const auto follow = [&](auto first, auto last)
+  {
+    for (auto next = first; next != last; ++next)
+    {
+      reach(*next, *(next - 1));
+    }
+  };
+  reach(start, -1);
+  follow(place + 1, this->TiedFaces.end());
+  const auto back = std::make_reverse_iterator(place);
+  follow(back, this->TiedFaces.rend());
+}
+
+//------------------------------------------------------------------------------
 // Distances from one face to all others, from centre to centre through the middles of edges.
 std::vector<double> SurfaceBisection::FindDistances(int start) const
 {
@@ -216,10 +260,6 @@ std::vector<double> SurfaceBisection::FindDistances(int start) const
       queue.emplace(distance, face);
     }
   };
-  const auto place = std::find_if(this->TiedFaces.begin(), this->TiedFaces.end(),
-    [&](int face) { return this->Components[face] == this->Components[start]; });
-  // Ties join faces of different components, in a chain; so the components are done in its order,
-  // away from the first on both sides.
   const auto settle = [&]()
   {
     while (!queue.empty())
@@ -242,29 +282,78 @@ std::vector<double> SurfaceBisection::FindDistances(int start) const
       }
     }
   };
-  const auto follow = [&](auto first, auto last)
-  {
-    for (auto next = first; next != last; ++next)
+  this->FollowTies(start,
+    [&](int face, int from)
     {
-      const int from = *(next - 1);
-      reach(*next,
-        distances[from] +
-          (this->Surface.Centers[this->Faces[from]] - this->Surface.Centers[this->Faces[*next]])
-            .norm());
+      reach(face, from < 0 ? 0.0 : distances[from] + this->GetTie(from, face));
       settle();
-    }
-  };
-  reach(start, 0.0);
-  settle();
-  follow(place + 1, this->TiedFaces.end());
-  const auto back = std::make_reverse_iterator(place);
-  follow(back, this->TiedFaces.rend());
+    });
   return distances;
 }
 
 //------------------------------------------------------------------------------
+std::vector<std::array<double, 3>> SurfaceBisection::FindCostsOfCreases() const
+{
+  std::vector<std::array<double, 3>> costs(this->Faces.size(), { 0.0, 0.0, 0.0 });
+  for (std::size_t face = 0; face < costs.size(); ++face)
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const int neighbor = this->Neighbors[face][edge];
+      costs[face][edge] = neighbor < 0 ? 0.0
+                                       : this->Crease *
+          GetSharpness(this->Surface.Normals[this->Faces[face]],
+            this->Surface.Normals[this->Faces[neighbor]]);
+    }
+  }
+  return costs;
+}
+
+//------------------------------------------------------------------------------
+// As above, for pieces with thin faces.
+std::vector<double> SurfaceBisection::FindDistancesOverPoints(int start) const
+{
+  const std::vector<std::array<double, 3>> costs = this->FindCostsOfCreases();
+  PointDistances distances(this->Surface, this->Faces, this->Neighbors, costs, this->Watcher);
+  this->FollowTies(start,
+    [&](int face, int from)
+    {
+      distances.Reach(face,
+        from < 0 ? 0.0 : distances.GetDistance(from) + this->GetTie(from, face));
+    });
+  std::vector<double> result;
+  for (int face = 0; face < static_cast<int>(this->Faces.size()); ++face)
+  {
+    result.push_back(distances.GetDistance(face));
+  }
+  this->LevelBundles(result);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+// Give all faces of a bundle their mean value.
+void SurfaceBisection::LevelBundles(std::vector<double>& values) const
+{
+  std::unordered_map<int, std::pair<double, double>> sums;
+  for (std::size_t face = 0; face < values.size(); ++face)
+  {
+    std::pair<double, double>& sum = sums[this->Surface.GetBundle(this->Faces[face])];
+    sum.first += values[face];
+    sum.second += 1.0;
+  }
+  for (std::size_t face = 0; face < values.size(); ++face)
+  {
+    const int bundle = this->Surface.GetBundle(this->Faces[face]);
+    if (bundle >= 0)
+    {
+      values[face] = sums[bundle].first / sums[bundle].second;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // Each corner is the face that is farthest from those before.
-std::array<std::vector<double>, 4> SurfaceBisection::FindDistancesFromCorners() const
+std::array<std::vector<double>, 4> SurfaceBisection::FindDistancesFromCorners(bool overPoints) const
 {
   const auto findFarthest = [](const std::vector<double>& distances)
   {
@@ -272,11 +361,13 @@ std::array<std::vector<double>, 4> SurfaceBisection::FindDistancesFromCorners() 
       std::max_element(distances.begin(), distances.end()) - distances.begin());
   };
   std::array<std::vector<double>, 4> distances;
-  int corner = findFarthest(this->FindDistances(0));
+  const auto find = [this, overPoints](int start)
+  { return overPoints ? this->FindDistancesOverPoints(start) : this->FindDistances(start); };
+  int corner = findFarthest(find(0));
   std::vector<double> nearest(this->Faces.size(), Infinite);
   for (std::vector<double>& values : distances)
   {
-    values = this->FindDistances(corner);
+    values = find(corner);
     for (std::size_t i = 0; i < values.size(); ++i)
     {
       nearest[i] = std::min(nearest[i], values[i]);

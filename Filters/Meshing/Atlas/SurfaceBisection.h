@@ -50,8 +50,14 @@ private:
   std::vector<char> DivideComponents() const;
   std::vector<char> CutBetweenCorners(double share, double density) const;
   double GetDistanceAcross(int face, int edge, double distance) const;
+  double GetTie(int from, int to) const;
+  template <typename Visitor>
+  void FollowTies(int start, const Visitor& reach) const;
   std::vector<double> FindDistances(int start) const;
-  std::array<std::vector<double>, 4> FindDistancesFromCorners() const;
+  std::vector<std::array<double, 3>> FindCostsOfCreases() const;
+  std::vector<double> FindDistancesOverPoints(int start) const;
+  void LevelBundles(std::vector<double>& values) const;
+  std::array<std::vector<double>, 4> FindDistancesFromCorners(bool overPoints) const;
   Cut FindBestCut(const std::vector<double>& values, double share, double density) const;
   double GetCost(int face, int edge) const;
   std::vector<double> FindCosts(const std::vector<int>& ranks) const;
@@ -70,6 +76,7 @@ private:
   int NumberOfComponents = 0;
   std::vector<int> TiedFaces; ///< one of each component; neighbours in this list are tied
   double Area = 0.0;
+  bool IsThin = false; ///< whether many of the faces are
   double Crease = 0.0; ///< how far it is to cross one at a right angle
 };
 } // namespace LightTransport

@@ -17,10 +17,10 @@ using Points = std::vector<std::array<double, 3>>;
 constexpr double SinglePrecision = 1.5 * 0x1.0p-24;
 constexpr double DoublePrecision = 4.0 * 0x1.0p-53;
 // Significant digits that numbers are printed with, and that could be by chance.
-constexpr int FewestDigits = 7;
+constexpr int FewestDigits = 6;
 constexpr int MostDigits = 12;
-constexpr int DigitsOfSingle = 6;
-// Steps that are coarser than this part of the surface are those of a drawing.
+constexpr int MostDigitsOfSingle = 6;
+// Steps that are coarser than this part of the surface are those of a drawing, not of rounding.
 constexpr double CoarsestStep = 1e-4;
 
 //------------------------------------------------------------------------------
@@ -109,12 +109,12 @@ double CoordinateRounding::Find(const Points& points, bool isSingle)
   {
     return 0.0;
   }
-  const double precision = isSingle || WereSingle(points) ? SinglePrecision : DoublePrecision;
-  const int fewest = isSingle ? DigitsOfSingle : FewestDigits;
-  const int most = isSingle ? DigitsOfSingle : MostDigits;
+  const bool wereSingle = SinglePrecision * sum <= CoarsestStep * extent && WereSingle(points);
+  const double precision = isSingle || wereSingle ? SinglePrecision : DoublePrecision;
+  const int most = isSingle ? MostDigitsOfSingle : MostDigits;
   const int digits = FindDigits(points, most, isSingle);
   const double step = std::pow(10.0, GetExponent(largest) - digits + 1);
-  const bool isPrinted = digits >= fewest && digits <= most && step <= CoarsestStep * extent;
+  const bool isPrinted = digits >= FewestDigits && digits <= most && step <= CoarsestStep * extent;
   return std::max(precision * sum, isPrinted ? 0.5 * step : 0.0);
 }
 } // namespace LightTransport

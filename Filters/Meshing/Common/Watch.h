@@ -57,6 +57,17 @@ public:
     this->Check();
   }
 
+  /// For parts of the work that know a monitor alone: its reports are those of this, which throw.
+  Monitor MakeMonitor()
+  {
+    return Monitor(
+      [this](double fraction)
+      {
+        this->Report(fraction);
+        return true;
+      });
+  }
+
   /// All further checks throw.
   void Stop() { this->IsStopped = true; }
 

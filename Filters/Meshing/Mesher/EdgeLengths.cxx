@@ -3,9 +3,8 @@
 #include "Mesher/EdgeLengths.h"
 
 #include "Common/Heartbeat.h"
+#include "Common/LengthAcross.h"
 #include "Mesher/PointVectors.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -16,28 +15,6 @@
 
 namespace LightTransport
 {
-namespace
-{
-//------------------------------------------------------------------------------
-// The largest length at C that lengths at A and B, and on the line between them, allow.
-double LimitLength(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-  double lengthAtA, double lengthAtB, double grading)
-{
-  const double side = (b - a).norm();
-  double t = lengthAtA <= lengthAtB ? 0.0 : 1.0;
-  const double slope = side > 0.0 ? (lengthAtB - lengthAtA) / side : grading;
-  if (std::abs(slope) < grading)
-  {
-    // Minimum over x of lengthAtA + slope x + grading sqrt((foot - x)^2 + height^2).
-    const double foot = (c - a).dot(b - a) / side;
-    const double height = (c - a).cross(b - a).norm() / side;
-    const double x = foot - height * slope / std::sqrt(grading * grading - slope * slope);
-    t = std::min(std::max(x / side, 0.0), 1.0);
-  }
-  return lengthAtA + t * (lengthAtB - lengthAtA) + grading * (c - (a + t * (b - a))).norm();
-}
-} // namespace
-
 //------------------------------------------------------------------------------
 double EdgeLengths::GetLengthForCurvature(double curvature, double error, double shortest,
   double longest)
@@ -87,7 +64,7 @@ void EdgeLengths::Grade(const SourceSurface& surface, double grading, std::vecto
         const std::size_t other = a == from ? b : a;
         const std::size_t last = lengths[other] <= lengths[from] ? other : from;
         const double limit =
-          LimitLength(ToVector(surface.Points[from]), ToVector(surface.Points[last]),
+          GetLengthAcross(ToVector(surface.Points[from]), ToVector(surface.Points[last]),
             ToVector(surface.Points[to]), lengths[from], lengths[last], grading);
         if (limit < significant * lengths[to])
         {

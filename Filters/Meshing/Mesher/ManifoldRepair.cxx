@@ -170,11 +170,13 @@ bool HasDegenerateTriangle(const Mesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-void Extract(const RepairMesh& whole, const std::vector<Face>& faces, RepairMesh& part)
+void Extract(const RepairMesh& whole, const std::vector<Face>& faces, Heartbeat& heart,
+  RepairMesh& part)
 {
   std::map<Vertex, Vertex> known;
   for (const Face face : faces)
   {
+    heart.Beat();
     std::array<Vertex, 3> corners = GetCorners(whole.Triangles, face);
     for (Vertex& corner : corners)
     {
@@ -217,7 +219,7 @@ void Append(const RepairMesh& surface, const std::vector<Face>& faces, TriangleS
 
 //------------------------------------------------------------------------------
 // Gives new triangles and points the ids of the old surface where it is closest.
-void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
+void TakeNearestIds(RepairMesh& surface, const RepairMesh& old, Heartbeat& heart)
 {
   TriangleSoup soup;
   Append(old, GetFaces(old.Triangles), soup);
@@ -226,6 +228,7 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
   const Mesh& mesh = surface.Triangles;
   for (const Face face : mesh.faces())
   {
+    heart.Beat();
     if (surface.CellIds[face] == New)
     {
       const Point center = CGAL::centroid(GetTriangle(mesh, face));
@@ -234,6 +237,7 @@ void TakeNearestIds(RepairMesh& surface, const RepairMesh& old)
   }
   for (const Vertex vertex : mesh.vertices())
   {
+    heart.Beat();
     if (surface.PointIds[vertex] == New)
     {
       const auto place = locator.Find(FromKernel(mesh.point(vertex)), reach);
@@ -361,10 +365,9 @@ struct WatchedFilling : public PMP::Hole_filling::Default_visitor
 };
 
 //------------------------------------------------------------------------------
-bool Resolve(Mesh& mesh, double distance, const Monitor& monitor)
+bool Resolve(Mesh& mesh, double distance, Heartbeat& heart, const Monitor& monitor)
 {
   Mesh old = mesh;
-  Heartbeat heart(monitor);
   const auto getCorners = [&mesh](Face face)
   {
     const Kernel::Triangle_3 triangle = GetTriangle(mesh, face);
@@ -586,12 +589,13 @@ Outcome ManifoldRepair::ResolveSelfIntersections(double distance, const Monitor&
     {
       tried[component] = true;
       RepairMesh old;
-      Extract(*this->Surface, components.Faces[component], old);
+      Heartbeat heart(monitor);
+      Extract(*this->Surface, components.Faces[component], heart, old);
       auto part = std::make_unique<RepairMesh>();
-      Extract(*this->Surface, components.Faces[component], *part);
-      if (Resolve(part->Triangles, distance, monitor))
+      Extract(*this->Surface, components.Faces[component], heart, *part);
+      if (Resolve(part->Triangles, distance, heart, monitor))
       {
-        TakeNearestIds(*part, old);
+        TakeNearestIds(*part, old, heart);
         replaced[component] = true;
         this->Surface->Replacements.push_back(std::move(part));
       }

@@ -108,12 +108,13 @@ Outcome NearSides::Find(const Monitor& monitor)
   std::vector<double> sorted = lengths;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
+  this->TypicalLength = *middle;
   std::vector<Box> sides;
   for (std::size_t i = 0; i < lengths.size(); ++i)
   {
     const auto [from, to] = this->Joiner.GetEnds(this->Sides[i]);
-    const double pieces =
-      std::min(std::max(std::ceil(lengths[i] / (LengthsPerPiece * *middle)), 1.0), MostPieces);
+    const double pieces = std::min(
+      std::max(std::ceil(lengths[i] / (LengthsPerPiece * this->TypicalLength)), 1.0), MostPieces);
     for (double piece = 0.0; piece < pieces; ++piece)
     {
       sides.push_back(
@@ -151,6 +152,28 @@ Outcome NearSides::Find(const Monitor& monitor)
                         "WeldTolerance, or reduce the surface first.");
   }
   return monitor.Check(1.0);
+}
+
+//------------------------------------------------------------------------------
+double NearSides::FindLargestGap() const
+{
+  double largest = 0.0;
+  for (const auto& [distance, point, other] : this->Pairs)
+  {
+    largest = std::max(largest, distance);
+  }
+  for (const auto& [side, point, along] : this->Corners)
+  {
+    // What misses the end of a side by less is not meant to lie on it.
+    const double leastPart = 1e-5;
+    if (const double part = std::min(along, 1.0 - along); part < leastPart)
+    {
+      const auto [from, to] = this->Joiner.GetEnds(side);
+      largest =
+        std::max(largest, part * GetDistance(this->Soup.Points[from], this->Soup.Points[to]));
+    }
+  }
+  return largest;
 }
 
 //------------------------------------------------------------------------------

@@ -33,6 +33,12 @@ public:
   /// Fails where too many points are near each other.
   Outcome Find(const Monitor& monitor);
 
+  /// How far apart points are that may be one, at most: no further than the tolerance, or on a side
+  /// next to its end. 0 without any.
+  double FindLargestGap() const;
+  /// The median of the sides.
+  double GetTypicalLength() const { return this->TypicalLength; }
+
   /// Give points that are one the same place. Returns whether there were any.
   bool Weld();
 
@@ -56,6 +62,7 @@ private:
   /// Sides without a partner, and one point for each place at their ends.
   std::vector<std::size_t> Sides;
   std::vector<std::size_t> Points;
+  double TypicalLength = 0.0;
   /// Of the shortest of these sides at each point.
   std::vector<double> Shortest;
   /// Distance, and the points that may be one.

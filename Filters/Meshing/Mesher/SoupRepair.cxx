@@ -29,6 +29,11 @@ using Triangle = TriangleSoup::Triangle;
 constexpr std::size_t None = std::numeric_limits<std::size_t>::max();
 // Two points that coordinates put in one place are at most so many roundings apart, and some.
 constexpr double RoundingsPerWeld = 4.0;
+// Noise goes on where the next point is nearer than so many times its size, and is none above this
+// part of the sides.
+constexpr double NextGap = 4.0;
+constexpr double LargestNoise = 0.02;
+constexpr int MostWidenings = 30;
 // Splitting a side may bring others near; real surfaces need two rounds.
 constexpr int MostRounds = 10;
 
@@ -83,7 +88,8 @@ std::vector<std::size_t> CountUp(std::size_t size)
 //------------------------------------------------------------------------------
 SoupRepair::SoupRepair(TriangleSoup& soup, double weldTolerance, RepairCounts& counts)
   : Soup(soup), Counts(counts),
-    Tolerance(weldTolerance > 0.0 ? weldTolerance : RoundingsPerWeld * soup.Rounding)
+    Tolerance(weldTolerance > 0.0 ? weldTolerance : RoundingsPerWeld * soup.Rounding),
+    IsDefaultTolerance(!(weldTolerance > 0.0))
 {
 }
 
@@ -155,7 +161,11 @@ Outcome SoupRepair::Join(const Monitor& monitor)
   {
     return Outcome::Aborted();
   }
-  if (Outcome joined = this->JoinNearSides(monitor.GetStage(0.2, 0.8)); !joined)
+  if (Outcome widened = this->WidenTolerance(monitor.GetStage(0.2, 0.4)); !widened)
+  {
+    return widened;
+  }
+  if (Outcome joined = this->JoinNearSides(monitor.GetStage(0.4, 0.8)); !joined)
   {
     return joined;
   }
@@ -185,6 +195,40 @@ void SoupRepair::StartJoining()
   {
     this->Joiner->Join(this->Places, false);
   }
+}
+
+//------------------------------------------------------------------------------
+// Coordinates that went through arithmetic may be off by more than their type and digits say, and
+// what is welded in part only is torn. Where points are just beyond the default tolerance it is
+// widened, until none are for a while.
+Outcome SoupRepair::WidenTolerance(const Monitor& monitor)
+{
+  double tolerance = this->Tolerance;
+  for (int i = 0; i < MostWidenings && this->IsDefaultTolerance; ++i)
+  {
+    NearSides sides(this->Soup, *this->Joiner, this->Places, NextGap * tolerance);
+    if (const Outcome found = sides.Find(monitor); !found)
+    {
+      return found.HasFailed() ? Outcome::Done() : found;
+    }
+    const double gap = sides.FindLargestGap();
+    if (gap > LargestNoise * sides.GetTypicalLength())
+    {
+      break; // of a surface, not of its coordinates
+    }
+    if (gap <= tolerance)
+    {
+      const bool isWider = tolerance > this->Tolerance;
+      this->Tolerance = tolerance;
+      if (isWider)
+      {
+        this->StartJoining();
+      }
+      break;
+    }
+    tolerance = gap;
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

@@ -46,6 +46,7 @@ private:
   };
 
   void StartJoining();
+  Outcome WidenTolerance(const Monitor& monitor);
   Outcome JoinNearSides(const Monitor& monitor);
   void SplitSides(const std::map<std::size_t, std::vector<std::size_t>>& splits);
   void SplitTriangle(std::size_t triangle, std::array<std::vector<std::size_t>, 3> points);
@@ -67,6 +68,7 @@ private:
   TriangleSoup& Soup;
   RepairCounts& Counts;
   double Tolerance;
+  bool IsDefaultTolerance;
   /// Of the points of the soup: exactly, and after welding.
   std::vector<std::size_t> Exact;
   std::vector<std::size_t> Places;

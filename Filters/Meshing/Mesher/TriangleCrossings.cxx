@@ -3,6 +3,7 @@
 #include "Mesher/TriangleCrossings.h"
 
 #include "Common/Heartbeat.h"
+#include "Mesher/NearPairs.h"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -106,22 +107,21 @@ bool TriangleCrossings::OnlyTouch(const Corners& first, const Corners& second)
 std::vector<TriangleCrossings::Pair> TriangleCrossings::Find(const Points& points,
   const Triangles& triangles, const Monitor& monitor, std::size_t most)
 {
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
+  std::vector<std::size_t> used;
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     if (!ToKernel(points, triangles[i]).is_degenerate())
     {
-      boxes.emplace_back(GetBox(points, triangles[i]), i);
+      used.push_back(i);
     }
   }
   std::vector<Pair> pairs;
   Heartbeat heart(monitor);
-  const auto look = [&](const Box& a, const Box& b)
+  const auto look = [&](std::size_t a, std::size_t b)
   {
     heart.Beat();
-    const std::size_t i = std::min(a.info(), b.info());
-    const std::size_t j = std::max(a.info(), b.info());
+    const std::size_t i = std::min(a, b);
+    const std::size_t j = std::max(a, b);
     const Kernel::Triangle_3 t = ToKernel(points, triangles[i]);
     const Kernel::Triangle_3 u = ToKernel(points, triangles[j]);
     const auto shared = [&](int k, int l) { return triangles[i][k] == triangles[j][l]; };
@@ -135,7 +135,7 @@ std::vector<TriangleCrossings::Pair> TriangleCrossings::Find(const Points& point
       pairs.push_back({ i, j, !MeetBeyond(t, u) });
     }
   };
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), look);
+  NearPairs::ForEach(points, triangles, used, look);
   std::sort(pairs.begin(), pairs.end(),
     [](const Pair& a, const Pair& b)
     { return std::tie(a.First, a.Second) < std::tie(b.First, b.Second); });

@@ -14,7 +14,7 @@
  * a sum of exponentials over r by a fixed rule: it falls everywhere and goes like 1/r at 0. R.
  * Habel, P. H. Christensen, W. Jarosz, "Photon Beam Diffusion", EGSR 2013, section 5.
  *
- * Light that enters from all directions would be scattered once and leave 8 % (index 1.5) to 27 %
+ * Light that enters from all directions would be scattered once and leave 7 % (index 1.5) to 33 %
  * (index 1) more; that profile is not round for each direction, and models of diffusion assume
  * normal entry, too.
  */

@@ -368,6 +368,7 @@ void PatchScene::ComputeFingerprint(const GatheredPolygons& polygons, const Scen
   }
   for (const vtkIdType piece : order)
   {
+    Pulse::Beat(piece);
     for (vtkIdType k = pieces.Offsets[piece]; k < pieces.Offsets[piece + 1]; ++k)
     {
       std::uint64_t bits[3];

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/SceneFaces.h"
 
+#include "Shared/Pulse.h"
+
 #include <numeric>
 
 namespace LightTransport
@@ -15,6 +17,7 @@ SceneFaces::SceneFaces(vtkIdType numberOfPolygons, int numberOfSides,
 {
   for (std::size_t patch = 0; patch < faces.size(); ++patch)
   {
+    Pulse::Beat(patch);
     ++this->Offsets[faces[patch] + 1];
     this->Areas[faces[patch]] += areas[patch];
   }
@@ -22,6 +25,7 @@ SceneFaces::SceneFaces(vtkIdType numberOfPolygons, int numberOfSides,
   std::vector<vtkIdType> next(this->Offsets.begin(), this->Offsets.end() - 1);
   for (std::size_t patch = 0; patch < faces.size(); ++patch)
   {
+    Pulse::Beat(patch);
     this->Patches[next[faces[patch]]++] = static_cast<vtkIdType>(patch);
     this->Shares[patch] = areas[patch] / this->Areas[faces[patch]];
   }

@@ -6,8 +6,8 @@ from vtklighttransport.shell.files import (
     IMAGE_READERS, add_output, check_input, check_output, get_extension, read_file, write_patches)
 from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
 from vtklighttransport.shell.properties import (
-    Choice, Color, InputArray, Number, add_arrays, add_properties, check_properties, choose_array,
-    choose_arrays, make_filter)
+    Choice, Color, InputArray, Number, Switch, add_arrays, add_properties, check_properties,
+    choose_array, choose_arrays, make_filter)
 from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
 from vtklighttransport.shell.stages import Stage
 from vtklighttransport.summaries import get_summary
@@ -42,6 +42,8 @@ PROPERTIES = (
     Choice("--incidence", "Incidence", "INCIDENCE_",
            "without a light: whether the mesh's array is diffuse irradiance or has entered the "
            "surface"),
+    Switch("--thickness", "ComputeThickness", True,
+           "add the arrays Thickness (mm) and DiffusionThickness (diffusion lengths)"),
     Number("--link-tolerance", "LinkTolerance", float,
            "bound on the relative error of the links of a patch"),
     Choice("--device", "Device", "DEVICE_",

@@ -5,6 +5,11 @@
 // the origin, small and large.
 #include "MeshTestTools.h"
 
+#include "vtkCommand.h"
+#include "vtkTestErrorObserver.h"
+
+#include <random>
+
 namespace
 {
 using Points = std::vector<meshTest::Vector>;
@@ -118,11 +123,95 @@ void TestWelding(meshTest::Checker& check)
   check.True(meshTest::IsClosed(welded), "welded: closed");
   check.Equal(GetEulerNumber(welded), 2, 0, "welded: Euler number");
   check.True(meshTest::GetSummary(welded, "NumberOfWeldedPoints") > 0, "welded: told");
-  // Borders that differ by 1e-9 cross each other.
-  vtkSmartPointer<vtkPolyData> apart =
-    Mesh(MakeSoup(box, 1e-9), 0.3, 0.0, vtkPatchMesher::SELF_INTERSECTIONS_KEEP);
-  check.Equal(meshTest::GetArea(apart), 6.0, 1e-6, "all of it is there");
-  check.True(!meshTest::IsClosed(apart), "more apart than coordinates are worth");
+  // Noise of about the default tolerance is welded whole, not in part.
+  for (const double noise : { 1e-15, 3e-15, 1e-14 })
+  {
+    vtkSmartPointer<vtkPolyData> whole = Mesh(MakeSoup(box, noise), 0.3);
+    check.True(meshTest::IsClosed(whole), "some rounding: closed");
+    check.Equal(GetEulerNumber(whole), 2, 0, "some rounding: Euler number");
+  }
+}
+
+//------------------------------------------------------------------------------
+// Coordinates that are 0 have no relative error: corners lie on edges, next to their ends.
+void TestRelativeNoise(meshTest::Checker& check)
+{
+  vtkSmartPointer<vtkPolyData> box = MakeBoxes(1, { 0, 0, 0 }, 1.0, 0.0);
+  for (const double noise : { 1e-12, 1e-9, 1e-7 })
+  {
+    vtkSmartPointer<vtkPolyData> soup = MakeSoup(box, 0.0);
+    int turn = 0;
+    for (vtkIdType i = 0; i < soup->GetNumberOfPoints(); ++i)
+    {
+      meshTest::Vector point = meshTest::GetPoint(soup, i);
+      for (double& coordinate : point)
+      {
+        coordinate *= 1.0 + noise / 3.0 * (++turn * turn % 7 - 3);
+      }
+      soup->GetPoints()->SetPoint(i, point.data());
+    }
+    vtkSmartPointer<vtkPolyData> patches = Mesh(soup, 0.3);
+    check.True(meshTest::IsClosed(patches), "relative noise: closed");
+    check.Equal(GetEulerNumber(patches), 2, 0, "relative noise: Euler number");
+  }
+}
+
+//------------------------------------------------------------------------------
+// What is far apart beside the coordinates' digits stays, and is said to be loose.
+void TestLooseTriangles(meshTest::Checker& check)
+{
+  vtkSmartPointer<vtkPolyData> boxes = MakeBoxes(2, { 2, 0, 0 }, 1.0, 0.0);
+  vtkSmartPointer<vtkPolyData> soup = MakeSoup(boxes, 0.0);
+  std::mt19937 numbers(1);
+  for (vtkIdType i = 0; i < soup->GetNumberOfPoints(); ++i)
+  {
+    meshTest::Vector point = meshTest::GetPoint(soup, i);
+    for (double& coordinate : point)
+    {
+      coordinate += 1e-9 * (static_cast<double>(numbers()) / 4294967296.0 - 0.5);
+    }
+    soup->GetPoints()->SetPoint(i, point.data());
+  }
+  vtkNew<vtkPatchMesher> mesher;
+  vtkNew<vtkTest::ErrorObserver> warnings;
+  mesher->AddObserver(vtkCommand::WarningEvent, warnings);
+  mesher->SetInputData(soup);
+  mesher->SetTargetEdgeLength(0.3);
+  mesher->Update();
+  check.Equal(meshTest::GetArea(mesher->GetOutput()), 12.0, 1e-6, "all of it is there");
+  check.True(!meshTest::IsClosed(mesher->GetOutput()), "more apart than coordinates are worth");
+  check.True(warnings->GetWarningMessage().find("are loose") != std::string::npos, "told");
+}
+
+//------------------------------------------------------------------------------
+// Of two sheets in one plane with other triangles, each stays for itself; far from the origin, too,
+// where few digits are left that single precision has not.
+void TestSheetsInOnePlane(meshTest::Checker& check)
+{
+  for (const meshTest::Vector& offset :
+    { meshTest::Vector{ 0, 0, 0 }, meshTest::Vector{ 6e5, 0, 0 }, meshTest::Vector{ 6e5, 6e6, 0 } })
+  {
+    Points points;
+    Triangles triangles;
+    for (const int size : { 1, 2 })
+    {
+      const auto first = static_cast<vtkIdType>(points.size());
+      for (int i = 0; i < (size + 1) * (size + 1); ++i)
+      {
+        points.push_back({ offset[0] + static_cast<double>(i % (size + 1)) / size,
+          offset[1] + static_cast<double>(i / (size + 1)) / size, 0 });
+      }
+      for (int i = 0; i < size * size; ++i)
+      {
+        const vtkIdType a = first + i / size * (size + 1) + i % size;
+        triangles.push_back({ a, a + 1, a + size + 2 });
+        triangles.push_back({ a, a + size + 2, a + size + 1 });
+      }
+    }
+    vtkSmartPointer<vtkPolyData> patches = Mesh(meshTest::MakeSurface(points, triangles), 0.2);
+    check.Equal(meshTest::GetArea(patches), 2.0, 1e-6, "sheets in one plane: area");
+    check.Equal(GetEulerNumber(patches), 2, 0, "sheets in one plane: Euler number");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -234,6 +323,9 @@ int TestPatchMesherJoining(int, char*[])
   meshTest::Checker check;
   TestTouchingBoxes(check);
   TestWelding(check);
+  TestRelativeNoise(check);
+  TestLooseTriangles(check);
+  TestSheetsInOnePlane(check);
   TestSheets(check);
   TestMoebius(check);
   TestCornerOnEdge(check);

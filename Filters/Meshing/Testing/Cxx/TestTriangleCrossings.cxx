@@ -4,12 +4,14 @@
 // triangles touch, lie in one plane or have no area.
 #include "Common/Heartbeat.h"
 #include "MeshTestTools.h"
+#include "Mesher/NearPairs.h"
 #include "Mesher/TriangleCrossings.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -35,6 +37,20 @@ TriangleCrossings::Triangles MakeTorus(std::size_t rows, std::size_t columns)
       triangles.push_back({ get(i, j), get(i, j + 1), get(i + 1, j + 1) });
       triangles.push_back({ get(i, j), get(i + 1, j + 1), get(i + 1, j) });
     }
+  }
+  return triangles;
+}
+
+//------------------------------------------------------------------------------
+// Two hubs, which are the first points, with a ring of points between them.
+TriangleCrossings::Triangles MakeBicone(std::size_t ring)
+{
+  TriangleCrossings::Triangles triangles;
+  for (std::size_t i = 0; i < ring; ++i)
+  {
+    const std::size_t next = (i + 1) % ring;
+    triangles.push_back({ 0, i + 2, next + 2 });
+    triangles.push_back({ 1, next + 2, i + 2 });
   }
   return triangles;
 }
@@ -83,16 +99,16 @@ Pairs FindByLibrary(const TriangleCrossings::Points& points,
 }
 
 //------------------------------------------------------------------------------
-void CompareWithLibrary(meshTest::Checker& check)
+void CompareWithLibrary(const TriangleCrossings::Triangles& triangles, std::size_t size,
+  meshTest::Checker& check)
 {
   std::mt19937 numbers(1);
-  const TriangleCrossings::Triangles triangles = MakeTorus(6, 7);
   std::size_t all = 0;
   std::size_t touching = 0;
   for (int round = 0; round < 60; ++round)
   {
     const int steps[] = { 2, 3, 4, 8, 100, 0 };
-    const TriangleCrossings::Points points = MakePoints(42, steps[round % 6], numbers);
+    const TriangleCrossings::Points points = MakePoints(size, steps[round % 6], numbers);
     Pairs pairs;
     for (const auto& pair : TriangleCrossings::Find(points, triangles, Monitor()))
     {
@@ -105,6 +121,34 @@ void CompareWithLibrary(meshTest::Checker& check)
   }
   check.True(all > 10000, "no more than " + std::to_string(all) + " pairs were compared");
   check.True(touching > 100, "no more than " + std::to_string(touching) + " pairs touch");
+}
+
+//------------------------------------------------------------------------------
+// Around a hub only neighbours are looked at, and where the hub is no corner nothing changes.
+void CountLooks(meshTest::Checker& check)
+{
+  for (const std::size_t ring : { 50, 500, 5000 })
+  {
+    TriangleCrossings::Points points{ { 0, 0, 0 }, { 0, 0, 100 } };
+    for (std::size_t i = 0; i < ring; ++i)
+    {
+      const double angle = 2.0 * vtkMath::Pi() * static_cast<double>(i) / static_cast<double>(ring);
+      points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
+    }
+    TriangleCrossings::Triangles triangles = MakeBicone(ring);
+    for (std::size_t i = 0; 2 * i < triangles.size(); ++i)
+    {
+      triangles[i] = triangles[2 * i];
+    }
+    triangles.resize(ring);
+    std::vector<std::size_t> used(ring);
+    std::iota(used.begin(), used.end(), 0);
+    std::size_t looks = 0;
+    NearPairs::ForEach(points, triangles, used, [&](std::size_t, std::size_t) { ++looks; });
+    const std::size_t all = ring * (ring - 1) / 2;
+    check.True(ring < 64 ? looks == all : looks <= 3 * ring,
+      std::to_string(looks) + " pairs of " + std::to_string(ring) + " triangles around a point");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -155,7 +199,9 @@ void BoundNumber(meshTest::Checker& check)
 int TestTriangleCrossings(int, char*[])
 {
   meshTest::Checker check;
-  CompareWithLibrary(check);
+  CompareWithLibrary(MakeTorus(6, 7), 42, check);
+  CompareWithLibrary(MakeBicone(100), 102, check);
+  CountLooks(check);
   HearAbort(check);
   BoundNumber(check);
   return check.GetExitCode();

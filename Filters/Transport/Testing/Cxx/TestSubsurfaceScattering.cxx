@@ -11,6 +11,7 @@
 #include "vtkSMPTools.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkTable.h"
+#include "vtkTestErrorObserver.h"
 
 #include <algorithm>
 
@@ -339,6 +340,51 @@ void TestSummaries()
 }
 
 //------------------------------------------------------------------------------
+/// A slab of 2 x 2 x 0.1, and one side of it alone.
+void TestThickness()
+{
+  Surface slab, sheet;
+  slab.AddGrid({ 0, 0, 0 }, { 0, 2, 0 }, { 2, 0, 0 }, 4, 4);
+  slab.AddGrid({ 0, 0, 0.1 }, { 2, 0, 0 }, { 0, 2, 0 }, 4, 4);
+  sheet.AddGrid({ 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, 4, 4);
+  for (const bool closed : { true, false })
+  {
+    auto data = (closed ? slab : sheet).Get();
+    AddArray(data, "TransmittedIrradiance", { 1.0 });
+    auto filter = MakeFilter(data);
+    vtkNew<vtkTest::ErrorObserver> messages;
+    filter->AddObserver(vtkCommand::WarningEvent, messages);
+    filter->SetMillimetersPerUnit(100.0);
+    filter->Update();
+    vtkPolyData* output = filter->GetPolyDataOutput();
+    Check(!output->GetCellData()->HasArray("Thickness") && !messages->GetWarning(),
+      "no thickness unless asked for");
+    filter->ComputeThicknessOn();
+    filter->Update();
+    vtkDataArray* thickness = output->GetCellData()->GetArray("Thickness");
+    vtkDataArray* lengths = output->GetCellData()->GetArray("DiffusionThickness");
+    const double expected = closed ? 10.0 : 200.0 * std::sqrt(2.0);
+    for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+    {
+      CheckClose(thickness->GetComponent(cell, 0), expected, 1e-6, "thickness");
+      for (int band = 0; band < 3; ++band)
+      {
+        CheckClose(lengths->GetComponent(cell, band), expected * std::sqrt(3.0 * Absorption[band]),
+          1e-6, "thickness in diffusion lengths");
+      }
+    }
+    // Band 0 has a diffusion length of 5.8 mm.
+    vtkDataArray* thin = output->GetFieldData()->GetArray("ThinShare");
+    Check(thin && thin->GetComponent(0, 0) == (closed ? 1.0 : 0.0) &&
+        thin->GetComponent(0, 1) == 0.0 && thin->GetComponent(0, 2) == 0.0,
+      "share of what is thin");
+    Check((messages->GetWarningMessage().find("100 % of the surface") != std::string::npos) ==
+        closed,
+      "a warning where it is thin");
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Marble lit from one side and from the other: most of the light comes back out, and some of it on
 /// the dark side.
 void TestBunny(const char* fileName)
@@ -458,6 +504,7 @@ int TestSubsurfaceScattering(int, char*[])
   TestCuts();
   TestThreads();
   TestSummaries();
+  TestThickness();
   TestBunny(LIGHTTRANSPORT_DATA_DIRECTORY "/bunny.ply");
   return Result();
 }
