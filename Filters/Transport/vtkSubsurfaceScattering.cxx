@@ -249,10 +249,13 @@ Outcome vtkSubsurfaceScattering::Run::ReadMedium()
   {
     return Outcome::Done();
   }
-  auto* image = vtkImageData::SafeDownCast(this->Owner->GetInputDataObject(1, 0));
+  vtkDataObject* medium = this->Owner->GetInputDataObject(1, 0);
+  auto* image = vtkImageData::SafeDownCast(medium);
   if (!image)
   {
-    return Outcome::Failed("The medium (input port 1) is no vtkImageData.");
+    return Outcome::Failed(std::string("The medium (input port 1) is a ") +
+      (medium ? medium->GetClassName() : "connection without data") +
+      ": it must be one vtkImageData. Extract the block that has it.");
   }
   const double scale = this->Scene.GetScale();
   this->Image = std::make_unique<MediumImage>();
@@ -666,6 +669,8 @@ int vtkSubsurfaceScattering::FillInputPortInformation(int port, vtkInformation* 
     return this->Superclass::FillInputPortInformation(port, info);
   }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  // Refused, but here: the pipeline would run the filter for each block.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return 1;
 }

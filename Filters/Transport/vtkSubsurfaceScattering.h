@@ -297,9 +297,10 @@ public:
   /**
    * Tell how thick the body is: the way along the inward normal to its far side, in mm
    * ("Thickness") and in diffusion lengths of each band ("DiffusionThickness", 0 where nothing is
-   * absorbed); the diagonal of the bounding box where an open surface has no far side. Models stand
-   * for a medium without end: a warning tells where more than a tenth of the surface is thinner
-   * than two diffusion lengths. Default off.
+   * absorbed; by the filter's own coefficients, also where a medium varies); the diagonal of the
+   * bounding box where an open surface has no far side. Models stand for a medium without end: a
+   * warning tells where more than a tenth of the surface is thinner than two diffusion lengths.
+   * Default off.
    */
   vtkSetMacro(ComputeThickness, bool);
   vtkGetMacro(ComputeThickness, bool);

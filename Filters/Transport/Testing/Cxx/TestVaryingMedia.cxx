@@ -7,7 +7,9 @@
 #include "Photons/FlatBoundaries.h"
 #include "Photons/PhotonWalk.h"
 #include "Photons/VaryingPath.h"
+#include "RanksInThreads.h"
 #include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkSMPTools.h"
 #include "vtkStringArray.h"
 
@@ -449,6 +451,42 @@ void TestLinks()
 }
 
 //------------------------------------------------------------------------------
+/// Two ranks with a body each, and the whole image: as one rank with both.
+void TestRanks()
+{
+  const auto makeBody = [](bool hasFirst, bool hasSecond)
+  {
+    Surface surface;
+    if (hasFirst)
+    {
+      AddBox(surface, { 0, 0, 0 }, { 1, 1, 1 }, 2);
+    }
+    if (hasSecond)
+    {
+      AddBox(surface, { 0, 1.2, 0 }, { 1, 2, 2 }, 2);
+    }
+    auto data = surface.Get();
+    AddArray(data, "Irradiance", { 1.0 });
+    return data;
+  };
+  PhotonRun alone(makeBody(true, true));
+  alone.Filter->SetInputData(1, MakeContrasts(0.1));
+  CheckWorks(alone, "two bodies in a medium that varies");
+  const double share = alone.GetNumber("LeavingShare");
+  RunRanks(2,
+    [&](vtkMultiProcessController* controller, int rank)
+    {
+      PhotonRun run(makeBody(rank == 0, rank == 1));
+      run.Filter->SetController(controller);
+      run.Filter->SetInputData(1, MakeContrasts(0.1));
+      CheckWorks(run, "a medium that varies, on two ranks");
+      CheckClose(run.GetNumber("LeavingShare"), share, 1e-12, "two ranks give what one does");
+      run.Filter->SetInputData(1, MakeContrasts(0.1 * rank));
+      CheckFails(run, "The medium is not the same on all ranks", "another medium on each rank");
+    });
+}
+
+//------------------------------------------------------------------------------
 void TestRefusals()
 {
   const auto check = [](const std::function<void(vtkImageData*)>& change, const std::string& part)
@@ -496,6 +534,12 @@ void TestRefusals()
     "The medium is flat or empty: 3 x 1 x 3 points");
   check([](vtkImageData* image) { image->Initialize(); }, "The medium is flat or empty");
 
+  PhotonRun blocks(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  vtkNew<vtkMultiBlockDataSet> images;
+  images->SetBlock(0, MakeContrasts(0.0));
+  blocks.Filter->SetInputData(1, images);
+  CheckFails(blocks, "is a vtkMultiBlockDataSet: it must be one vtkImageData", "blocks of media");
+
   PhotonRun profile(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   profile.Filter->SetInputData(1, MakeContrasts(0.0));
   profile.Filter->SetModelToDipole();
@@ -514,5 +558,6 @@ int TestVaryingMedia(int, char*[])
   Check(GetResult(1) == GetResult(3), "the same bits on three threads");
   TestLinks();
   TestRefusals();
+  TestRanks();
   return Result();
 }
