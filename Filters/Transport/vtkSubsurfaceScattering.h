@@ -21,6 +21,14 @@
  * fronts outside; there may be several bodies, and cavities. All three components share their
  * photons where their Anisotropy is the same.
  *
+ * Port 1, optional, for MODEL_MONTE_CARLO: the medium where it varies, a vtkImageData placed in the
+ * unit of the surface (origin, spacing, direction matrix), with the arrays "Scattering" (the
+ * reduced coefficient, as the property is) and "Absorption", per mm, 1 component (the same in all
+ * bands) or 3. Cell arrays are constant in each voxel, and go before point arrays of the same name,
+ * which are trilinear. Around the image, and for an array that it does not have, the filter's own
+ * coefficients hold. Each band has photons of its own then. RefractiveIndex and Anisotropy do not
+ * vary.
+ *
  * Input arrays (cells, float or double, 1 component = the same in all bands or 3 = red, green,
  * blue; choose others with SetInputArrayToProcess(0, ...)):
  * - "Irradiance" when Incidence is Diffuse, incident flux per unit area;
@@ -51,7 +59,9 @@
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
  * finite, links that do not fit into memory. Monte Carlo: a surface that is open, inside out, has
- * no inside or crosses itself; irradiance below 0 without links; Anisotropy out of its range.
+ * no inside or crosses itself; irradiance below 0 without links; Anisotropy out of its range; a
+ * medium without any of its arrays, that is flat, or has values below 0 or not finite. A medium
+ * with another Model.
  *
  * H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model for Subsurface Light
  * Transport", SIGGRAPH 2001; H. W. Jensen, J. Buhler, "A Rapid Hierarchical Rendering Technique for
@@ -288,9 +298,10 @@ public:
   /**
    * Tell how thick the body is: the way along the inward normal to its far side, in mm
    * ("Thickness") and in diffusion lengths of each band ("DiffusionThickness", 0 where nothing is
-   * absorbed); the diagonal of the bounding box where an open surface has no far side. Models stand
-   * for a medium without end: a warning tells where more than a tenth of the surface is thinner
-   * than two diffusion lengths. Default off.
+   * absorbed; by the filter's own coefficients, also where a medium varies); the diagonal of the
+   * bounding box where an open surface has no far side. Models stand for a medium without end: a
+   * warning tells where more than a tenth of the surface is thinner than two diffusion lengths.
+   * Default off.
    */
   vtkSetMacro(ComputeThickness, bool);
   vtkGetMacro(ComputeThickness, bool);
@@ -330,6 +341,9 @@ protected:
   vtkSubsurfaceScattering();
   ~vtkSubsurfaceScattering() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
   std::unique_ptr<LightTransport::TransportRun> MakeRun(
     const LightTransport::RunPorts& ports) override;
 

@@ -16,6 +16,7 @@
 #include "Photons/PhotonBoundary.h"
 #include "Photons/PhotonInterface.h"
 #include "Photons/PhotonListener.h"
+#include "Photons/PhotonMedium.h"
 #include "Photons/PhotonRandom.h"
 
 #include <Eigen/Geometry>
@@ -48,8 +49,8 @@ public:
     }
   };
 
-  ///@{ Scatterings after which a photon is given up, and reflections inside without leaving: a
-  /// fifth of a second.
+  ///@{ Scatterings, and places that might have been some, after which a photon is given up, and
+  /// reflections inside without leaving: a fifth of a second.
   static constexpr long long MostScatterings = 4000000;
   static constexpr int MostReflections = 1000000;
   ///@}
@@ -60,7 +61,7 @@ public:
   }
 
   /// Follow a photon to its end, from its start on the surface, or from one outside. `Path` is
-  /// UniformPath or alike.
+  /// UniformPath or VaryingPath.
   template <typename Path>
   void Follow(const PhotonStart& start, bool isInside, Path& path, PhotonRandom& random,
     PhotonListener& listener, Counts& counts) const;
@@ -144,21 +145,29 @@ PhotonWalk::Fate PhotonWalk::WalkInside(State& photon, Path& path, PhotonRandom&
 {
   photon.Ball.SquaredRadius = 0.0;
   int reflections = 0;
-  while (path.GetNumberOfScatterings() < MostScatterings && reflections < MostReflections)
+  while (path.GetNumberOfEvents() < MostScatterings && reflections < MostReflections)
   {
-    const double step = path.ChooseStep(random);
+    const double step = path.ChooseStep(photon.Position, photon.Direction, random);
     const Vector target = photon.Position + step * photon.Direction;
     if (!this->MeetsSurface(photon, target, step, counts))
     {
+      if (step == PhotonBoundary::Unlimited)
+      {
+        return Fate::LOST;
+      }
       path.Advance(step);
       photon.Position = target;
       photon.From = -1;
       photon.HasJustEntered = false;
-      if (!path.Scatter(random))
+      const PhotonEvent event = path.Meet(random);
+      if (event == PhotonEvent::ENDED)
       {
         return Fate::ABSORBED;
       }
-      photon.Direction = this->Scatter(photon.Direction, random);
+      if (event == PhotonEvent::SCATTERED)
+      {
+        photon.Direction = this->Scatter(photon.Direction, random);
+      }
       continue;
     }
     const PhotonCrossing& crossing = photon.Crossing;
