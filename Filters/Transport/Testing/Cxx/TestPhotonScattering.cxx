@@ -93,7 +93,7 @@ void TestTotals()
 /// through the other for ever.
 void TestEdges()
 {
-  Run run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   run.SetMedium(1.0, 0.005, 1.0);
   run.Filter->SetMillimetersPerUnit(60.0);
   run.Filter->SetNumberOfPhotons(400000);
@@ -299,7 +299,7 @@ void TestRanks()
     Check(bool(scene.Build(body, Ranks())), "scene built");
     const std::size_t values = 3 * scene.GetNumberOfPatches();
     const PhotonScattering scattering(scene,
-      PhotonScattering::GetMedia(media, { 0.0, 0.0, 0.3 }, scene.GetScale()), 1.3);
+      PhotonScattering::GetMedia(media, { 0.0, 0.0, 0.3 }, scene.GetScale()), 1.3, nullptr);
     PhotonScattering::Result photons;
     Check(
       bool(scattering.Run(std::vector<double>(values, 1.0), settings, ranks, Monitor(), photons)),
@@ -307,7 +307,7 @@ void TestRanks()
     result = photons.Scattered;
     result.insert(result.end(), photons.Errors.begin(), photons.Errors.end());
     Links links;
-    const PhotonLinks builder(media, { 0.0, 0.0, 0.3 }, 1.0, settings);
+    const PhotonLinks builder(media, { 0.0, 0.0, 0.3 }, 1.0, settings, nullptr);
     Check(bool(builder.Build(scene, ranks, Monitor(), links)), "links built");
     std::vector<double> all;
     for (std::size_t k = 0; k < values * values / 3; ++k)
