@@ -10,9 +10,11 @@
 #include "RanksInThreads.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkStringArray.h"
 
+#include <array>
 #include <functional>
 
 using namespace LightTransport;
@@ -498,9 +500,9 @@ void TestRefusals()
     CheckFails(run, part, "a medium");
   };
   const std::vector<double> ones(8, 1.0);
-  check([](vtkImageData*) {}, "neither \"Scattering\" nor \"Absorption\"");
+  check([](vtkImageData*) {}, R"(neither "Scattering" nor "Absorption")");
   check([&](vtkImageData* image) { AddTo(image->GetCellData(), "scatterring", ones); },
-    "no \"Scattering\". There is \"scatterring\"");
+    R"(no "Scattering". There is "scatterring")");
   check(
     [&](vtkImageData* image) {
       AddTo(image->GetCellData(), "Scattering", { 1, 1, -1, 1, 1, 1, 1, 1 });
