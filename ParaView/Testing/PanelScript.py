@@ -39,6 +39,8 @@ CHOICES = (
     ("SubsurfaceScattering", "Model", "Monte Carlo",
      {"BurleyFit": False, "TargetError": True, "NumberOfPhotons": True, "Anisotropy": True,
       "LinkTolerance": False}),
+    ("SubsurfaceScattering", "Model", "Tabulated",
+     {"BurleyFit": False, "TargetError": False, "Anisotropy": True, "LinkTolerance": True}),
 )
 # What is chosen at first, where it is the name of an array.
 ARRAYS = (("PatchMesher", "RegionArray", "Region"), ("ViewFactors", "GroupArray", "Group"),
