@@ -100,7 +100,7 @@ protected:
 
 private:
   Outcome CheckMedia() const;
-  Outcome CheckPhotons() const;
+  Outcome CheckAnisotropy() const;
   Outcome ReadIrradiance();
   Outcome ReadMedium();
   void CompareIndices() const;
@@ -108,6 +108,7 @@ private:
   double GetEntering() const;
   void SumFlux(double entering[], double leaving[]) const;
   bool IsMonteCarlo() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
+  bool IsTabulated() const { return this->Owner->Model == MODEL_TABULATED; }
   /// Without links.
   bool FollowsPhotons() const
   {
@@ -159,7 +160,14 @@ Outcome vtkSubsurfaceScattering::Run::Check()
   }
   for (int band = 0; band < Bands; ++band)
   {
-    this->Media.push_back({ scattering[band], absorption[band], index });
+    // Links of other profiles do not depend on it.
+    const double anisotropy = this->IsTabulated() ? this->Owner->Anisotropy[band] : 0.0;
+    this->Media.push_back({ scattering[band], absorption[band], index, anisotropy });
+  }
+  if (this->IsMonteCarlo() && this->Owner->Device == DEVICE_OPENGL)
+  {
+    return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "
+                           "CPU. Set Device to Auto.");
   }
   if (this->Owner->GetNumberOfInputConnections(1) > 0 && !this->IsMonteCarlo())
   {
@@ -167,7 +175,8 @@ Outcome vtkSubsurfaceScattering::Run::Check()
                            "profile of uniform media: set Model to MonteCarlo, or disconnect it.");
   }
   Outcome checked = this->CheckMedia();
-  return checked && this->IsMonteCarlo() ? this->CheckPhotons() : checked;
+  const bool isAnisotropic = this->IsMonteCarlo() || this->IsTabulated();
+  return checked && isAnisotropic ? this->CheckAnisotropy() : checked;
 }
 
 //------------------------------------------------------------------------------
@@ -210,7 +219,7 @@ Outcome vtkSubsurfaceScattering::Run::CheckMedia() const
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkSubsurfaceScattering::Run::CheckPhotons() const
+Outcome vtkSubsurfaceScattering::Run::CheckAnisotropy() const
 {
   for (int band = 0; band < Bands; ++band)
   {
@@ -222,11 +231,6 @@ Outcome vtkSubsurfaceScattering::Run::CheckPhotons() const
            << -MostAnisotropy << " and " << MostAnisotropy << ".";
       return Outcome::Failed(text.str());
     }
-  }
-  if (this->Owner->Device == DEVICE_OPENGL)
-  {
-    return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "
-                           "CPU. Set Device to Auto.");
   }
   return Outcome::Done();
 }
@@ -350,9 +354,15 @@ std::unique_ptr<LinkBuilder> vtkSubsurfaceScattering::Run::MakeBuilder() const
     return std::make_unique<PhotonLinks>(this->Media, this->GetAnisotropies(),
       this->Owner->MillimetersPerUnit, this->GetPhotonSettings(), this->Image.get());
   }
-  return std::make_unique<ScatteringLinks>(this->Owner->Model,
-    ScatteringOptions{ this->Owner->BurleyFit }, this->Media, this->Owner->MillimetersPerUnit,
-    this->Owner->LinkTolerance);
+  ScatteringOptions options;
+  options.BurleyFit = this->Owner->BurleyFit;
+  if (this->IsTabulated())
+  {
+    options.NumberOfPhotons = this->Owner->NumberOfPhotons;
+    options.Seed = static_cast<std::uint64_t>(this->Owner->Seed);
+  }
+  return std::make_unique<ScatteringLinks>(this->Owner->Model, options, this->Media,
+    this->Owner->MillimetersPerUnit, this->Owner->LinkTolerance);
 }
 
 //------------------------------------------------------------------------------
@@ -615,6 +625,10 @@ void vtkSubsurfaceScattering::Run::WriteLinks() const
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
+  if (this->IsTabulated())
+  {
+    FieldValues::Add(fields, "ProfileError", links.ProfileErrors.data(), Bands);
+  }
   FieldValues::Add(fields, "LinksReused", this->Owner->Links->WereMade() ? 0.0 : 1.0);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
 

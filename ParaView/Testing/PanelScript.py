@@ -45,6 +45,8 @@ CHOICES = (
       "LinkTolerance": False}),
     ("SubsurfaceScattering", "Incidence", "Transmitted",
      {"IrradianceArray": False, "TransmittedIrradianceArray": True}),
+    ("SubsurfaceScattering", "Model", "Tabulated",
+     {"BurleyFit": False, "TargetError": False, "Anisotropy": True, "LinkTolerance": True}),
 )
 POINTS, CELLS = 0, 1  # associations of arrays
 

@@ -261,12 +261,13 @@ class TestCommandLine(FolderTestCase):
         results = set()
         for options in (("--model", "dipole"), ("--model", "better-dipole"),
                         ("--model", "photon-beam-diffusion"), ("--model", "christensen-burley"),
-                        ("--model", "christensen-burley", "--burley-fit", "searchlight")):
+                        ("--model", "christensen-burley", "--burley-fit", "searchlight"),
+                        ("--model", "tabulated", "--photons", "10000")):
             result = self.run_command(
                 "scatter", source, self.path("out.vtp"), "--irradiance", "Light", *options)
             self.assertEqual(result.returncode, 0, result.stderr)
             results.add(round(get_values(self.load("out.vtp"), "ScatteredIrradiance")[0][0], 6))
-        self.assertEqual(len(results), 5, results)
+        self.assertEqual(len(results), 6, results)
 
     def test_scatter_medium(self):
         cube = add_array(make_cube(outside=True), "Light", [1.0] * 6)

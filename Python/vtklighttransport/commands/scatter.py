@@ -35,10 +35,12 @@ PROPERTIES = (
     Number("--target-error", "TargetError", float,
            "standard error of the result of monte-carlo, relative"),
     Number("--photons", "NumberOfPhotons", int,
-           "photons of monte-carlo; 0 for as many as --target-error asks"),
+           "photons of monte-carlo, 0 for as many as --target-error asks; of tabulated, 0 for as "
+           "many as a second or two allow"),
     Color("--anisotropy", "Anisotropy",
-          "mean cosine of the angle of scattering of red, green and blue, for monte-carlo"),
-    Number("--seed", "Seed", int, "of the random numbers of monte-carlo"),
+          "mean cosine of the angle of scattering of red, green and blue, for monte-carlo and "
+          "tabulated"),
+    Number("--seed", "Seed", int, "of the random numbers of monte-carlo and tabulated"),
     Choice("--incidence", "Incidence", "INCIDENCE_",
            "without a light: whether the mesh's array is diffuse irradiance or has entered the "
            "surface"),
