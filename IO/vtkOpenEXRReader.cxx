@@ -9,6 +9,7 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
 #include "Shared/FilterMonitor.h"
+#include "Shared/TransportMemory.h"
 #include "Shared/ZeroedArray.h"
 
 #include "vtkDataArray.h"
@@ -428,6 +429,7 @@ Outcome vtkOpenEXRReader::ReadLevel(vtkImageData* output)
   {
     pixels.Convert(static_cast<float*>(arrays[index]->GetVoidPointer(0)));
   }
+  TransportMemory::RequireMargin();
   output->SetExtent(GetExtent(window).data());
   output->SetOrigin(this->DataOrigin);
   output->SetSpacing(this->DataSpacing);

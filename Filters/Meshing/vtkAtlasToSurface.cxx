@@ -7,6 +7,7 @@
 #include "Common/MeshingRun.h"
 #include "Shared/FilterMonitor.h"
 #include "Shared/InputArrays.h"
+#include "Shared/TransportMemory.h"
 #include "Shared/ZeroedArray.h"
 
 #include "vtkCellArray.h"
@@ -104,6 +105,7 @@ std::vector<vtkDataArray*> GetArrays(vtkImageData* image)
 Outcome Transfer(vtkImageData* image, int resolution, vtkPolyData* surface, vtkPolyData* output,
   const Monitor& monitor)
 {
+  TransportMemory::RequireMargin();
   output->ShallowCopy(surface);
   std::vector<Means> ofCells;
   std::vector<Means> ofPoints;

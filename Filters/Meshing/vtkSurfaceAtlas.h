@@ -61,9 +61,10 @@
  *
  * Errors, each with empty outputs: no polygons, coordinates that are not finite, a surface that is
  * no oriented manifold or has degenerate triangles (named and counted), areas whose squares no
- * double holds, more than 20 million triangles once long edges are halved, a Resolution that is no
- * power of two or too small for the number of parts, texel maps that do not fit into memory, a
- * MaximumStretch that is not above 1. A run that is aborted has empty outputs, too, and no error.
+ * double holds, more than 20 million triangles once long edges are halved (or 256 times those of
+ * the input, but a million for any), a Resolution that is no power of two or too small for the
+ * number of parts, texel maps that do not fit into memory, a MaximumStretch that is not above 1. A
+ * run that is aborted has empty outputs, too, and no error.
  */
 #ifndef vtkSurfaceAtlas_h
 #define vtkSurfaceAtlas_h

@@ -27,10 +27,12 @@ struct Advice
 template <typename Step>
 Outcome Attempt(const Step& step, const Advice& advice)
 {
-  const auto failWithoutMemory = [&advice]()
-  { return Outcome::Failed(std::string("Not enough memory: ") + advice.WithoutMemory + "."); };
+  // Made before, since there is none for a message when memory has run out.
+  Outcome withoutMemory = Outcome::Failed("No memory left.");
   try
   {
+    withoutMemory =
+      Outcome::Failed(std::string("Not enough memory: ") + advice.WithoutMemory + ".");
     return step();
   }
   catch (const Stopped&)
@@ -39,11 +41,11 @@ Outcome Attempt(const Step& step, const Advice& advice)
   }
   catch (const std::bad_alloc&)
   {
-    return failWithoutMemory();
+    return withoutMemory;
   }
   catch (const std::length_error&)
   {
-    return failWithoutMemory();
+    return withoutMemory;
   }
   catch (const std::exception& problem)
   {

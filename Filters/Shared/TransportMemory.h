@@ -19,6 +19,10 @@ namespace LightTransport
 {
 namespace TransportMemory
 {
+/// Bytes for all the small things of an output: names, attributes, tables. VTK's containers are not
+/// fit for use any more where one of those is refused.
+constexpr double Margin = 1048576.0;
+
 /// Bytes of main memory that nobody uses.
 inline double GetAvailableBytes()
 {
@@ -48,12 +52,16 @@ inline bool CanAllocate(double bytes)
 /// builds end the process where they get nothing, so that it is asked for here just before.
 inline void Require(double bytes)
 {
-  // What all the small things beside it take.
-  constexpr double margin = 1048576.0;
-  if (!CanAllocate(bytes + margin))
+  if (!CanAllocate(bytes + Margin))
   {
     throw std::bad_alloc();
   }
+}
+
+/// The same where nothing large is to come.
+inline void RequireMargin()
+{
+  Require(0.0);
 }
 
 /// A number of bytes for messages.

@@ -90,10 +90,10 @@ Outcome vtkDirectIrradiance::Run::Read()
   {
     this->Sources.push_back(light.MakeSource(this->GetEffort(), this->Owner->LightAngularDiameter));
   }
-  if (read && this->Owner->Environment)
+  if (vtkImageData* picture = this->Owner->GetEnvironment(); read && picture)
   {
-    auto environment = std::make_unique<LightTransport::Environment>(this->GetEffort());
-    read = environment->Read(this->Owner->Environment);
+    auto environment = std::make_unique<Environment>(this->GetEffort());
+    read = environment->Read(picture);
     this->Sources.push_back(std::move(environment));
   }
   return read;
@@ -110,8 +110,8 @@ LightEffort vtkDirectIrradiance::Run::GetEffort() const
 double vtkDirectIrradiance::Run::GetMostRays() const
 {
   // A direction of a light costs about as much as ten rays.
-  return this->Owner->Environment
-    ? 2.0 * this->Owner->EnvironmentSamples * LightTransport::Environment::MostRefined
+  return this->Owner->GetEnvironment()
+    ? 2.0 * this->Owner->EnvironmentSamples * Environment::MostRefined
     : (this->Owner->LightAngularDiameter > 0.0 ? 10.0 : 1.0) * this->Owner->ShadowSamples *
       LitParts::MostRefined;
 }
@@ -201,7 +201,7 @@ void vtkDirectIrradiance::Run::WriteErrors()
   FieldValues::Add(fields, ArrayNames::DirectIrradianceError, errors.GetTotal());
   FieldValues::Add(fields, "LargestDirectIrradianceError", errors.GetLargest());
   const std::string warning = errors.Describe(this->Owner->Tolerance,
-    this->Owner->Environment ? "EnvironmentSamples" : "ShadowSamples");
+    this->Owner->GetEnvironment() ? "EnvironmentSamples" : "ShadowSamples");
   if (!warning.empty())
   {
     this->Warn(warning);

@@ -3,9 +3,12 @@
 #include "vtkLightingAlgorithm.h"
 
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkLight.h"
 #include "vtkMatrix4x4.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <vector>
@@ -17,16 +20,56 @@ struct vtkLightingAlgorithm::LightList
 };
 
 //------------------------------------------------------------------------------
-vtkLightingAlgorithm::vtkLightingAlgorithm() : Lights(new LightList) {}
-
-//------------------------------------------------------------------------------
-vtkLightingAlgorithm::~vtkLightingAlgorithm()
+vtkLightingAlgorithm::vtkLightingAlgorithm() : Lights(new LightList)
 {
-  this->SetEnvironment(nullptr);
+  this->SetNumberOfInputPorts(2);
 }
 
 //------------------------------------------------------------------------------
-vtkCxxSetObjectMacro(vtkLightingAlgorithm, Environment, vtkImageData);
+vtkLightingAlgorithm::~vtkLightingAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkLightingAlgorithm::SetEnvironment(vtkImageData* environment)
+{
+  this->SetInputDataObject(1, environment);
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkLightingAlgorithm::GetEnvironment()
+{
+  return vtkImageData::SafeDownCast(this->GetInputDataObject(1, 0));
+}
+
+//------------------------------------------------------------------------------
+int vtkLightingAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Every rank needs the whole picture for its piece of the surface.
+int vtkLightingAlgorithm::RequestUpdateExtent(vtkInformation* request,
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (vtkInformation* picture = inputs[1]->GetInformationObject(0))
+  {
+    picture->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    picture->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    picture->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    if (picture->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      picture->Set(Pipeline::UPDATE_EXTENT(), picture->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
 
 //------------------------------------------------------------------------------
 void vtkLightingAlgorithm::AddLight(vtkLight* light)
@@ -86,7 +129,7 @@ vtkMTimeType vtkLightingAlgorithm::GetMTime()
       time = std::max(time, matrix->GetMTime());
     }
   }
-  return this->Environment ? std::max(time, this->Environment->GetMTime()) : time;
+  return time;
 }
 
 //------------------------------------------------------------------------------
@@ -94,7 +137,7 @@ void vtkLightingAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfLights: " << this->GetNumberOfLights() << "\n";
-  os << indent << "Environment: " << this->Environment << "\n";
+  os << indent << "Environment: " << this->GetEnvironment() << "\n";
   os << indent << "LightAngularDiameter: " << this->LightAngularDiameter << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
 }

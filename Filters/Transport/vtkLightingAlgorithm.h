@@ -46,10 +46,11 @@ public:
   /**
    * Radiance from afar in all directions, or nullptr (the default). A picture in longitude and
    * latitude with +z up, 1 or 3 components in its point scalars: the columns start at longitude 0
-   * (+x) and go counter-clockwise seen from +z (through +y); the rows go from -z (first) to +z.
+   * (+x) and go counter-clockwise seen from +z (through +y); the rows go from -z (first) to +z. It
+   * is input port 1, which a reader may be connected to as well.
    */
-  virtual void SetEnvironment(vtkImageData* environment);
-  vtkGetObjectMacro(Environment, vtkImageData);
+  void SetEnvironment(vtkImageData* environment);
+  vtkImageData* GetEnvironment();
   ///@}
 
   ///@{
@@ -69,14 +70,17 @@ public:
   vtkBooleanMacro(Shadows, bool);
   ///@}
 
-  /// Includes the lights and the environment.
+  /// Includes the lights.
   vtkMTimeType GetMTime() override;
 
 protected:
   vtkLightingAlgorithm();
   ~vtkLightingAlgorithm() override;
 
-  vtkImageData* Environment = nullptr;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+
   double LightAngularDiameter = 0.0;
   bool Shadows = true;
 

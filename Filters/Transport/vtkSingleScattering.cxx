@@ -87,9 +87,9 @@ Outcome vtkSingleScattering::Run::Check()
 Outcome vtkSingleScattering::Run::Read()
 {
   Outcome read = this->ReadLights(this->Lights.Punctual);
-  if (read && this->Owner->Environment)
+  if (vtkImageData* picture = this->Owner->GetEnvironment(); read && picture)
   {
-    read = this->Environment.Read(this->Owner->Environment);
+    read = this->Environment.Read(picture);
     this->Lights.Environment = &this->Environment;
   }
   this->Lights.Radius = 0.5 * vtkMath::RadiansFromDegrees(this->Owner->LightAngularDiameter);

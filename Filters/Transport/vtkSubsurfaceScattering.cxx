@@ -5,6 +5,7 @@
 #include "Links/LinkCache.h"
 #include "Links/LinkOperators.h"
 #include "Photons/ClosedSurface.h"
+#include "Photons/MediumImage.h"
 #include "Photons/PhotonLinks.h"
 #include "Photons/PhotonScattering.h"
 #include "Run/TransportRun.h"
@@ -23,13 +24,18 @@
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkLinkOperator.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <string>
 
@@ -93,13 +99,14 @@ protected:
   void Write() override;
 
 private:
-  Outcome CheckPhotons() const;
   Outcome ReadIrradiance();
+  Outcome ReadMedium();
   void CompareIndices() const;
   void CheckEnergy(const double entering[], const double leaving[]) const;
   double GetEntering() const;
   void SumFlux(double entering[], double leaving[]) const;
   bool IsMonteCarlo() const { return this->Owner->Model == MODEL_MONTE_CARLO; }
+  bool IsTabulated() const { return this->Owner->Model == MODEL_TABULATED; }
   /// Without links.
   bool FollowsPhotons() const
   {
@@ -117,6 +124,8 @@ private:
 
   vtkSubsurfaceScattering* Owner;
   std::vector<ScatteringMedium> Media; ///< of each band
+  /// Where the medium varies; else nullptr.
+  std::unique_ptr<MediumImage> Image;
   ///@{ patches x bands
   std::vector<double> Irradiance;
   std::vector<double> Scattered;
@@ -138,26 +147,28 @@ Outcome vtkSubsurfaceScattering::Run::Check()
   {
     return device;
   }
-  const MediumProperties properties{ this->Owner->Material, this->Owner->ScatteringCoefficient,
-    this->Owner->AbsorptionCoefficient, this->Owner->RefractiveIndex,
-    this->Owner->MillimetersPerUnit };
-  Outcome checked = properties.MakeMedia(this->Media);
-  return checked && this->IsMonteCarlo() ? this->CheckPhotons() : checked;
-}
-
-//------------------------------------------------------------------------------
-Outcome vtkSubsurfaceScattering::Run::CheckPhotons() const
-{
-  if (Outcome checked = MediumProperties::CheckAnisotropy(this->Owner->Anisotropy); !checked)
-  {
-    return checked;
-  }
-  if (this->Owner->Device == DEVICE_OPENGL)
+  if (this->IsMonteCarlo() && this->Owner->Device == DEVICE_OPENGL)
   {
     return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "
                            "CPU. Set Device to Auto.");
   }
-  return Outcome::Done();
+  if (this->Owner->GetNumberOfInputConnections(1) > 0 && !this->IsMonteCarlo())
+  {
+    return Outcome::Failed("A medium that varies is connected (input port 1), and Model is a "
+                           "profile of uniform media: set Model to MonteCarlo, or disconnect it.");
+  }
+  const MediumProperties properties{ this->Owner->Material, this->Owner->ScatteringCoefficient,
+    this->Owner->AbsorptionCoefficient, this->Owner->RefractiveIndex,
+    this->Owner->MillimetersPerUnit };
+  Outcome checked = properties.MakeMedia(this->Media);
+  // Links of other profiles do not depend on it.
+  for (int band = 0; checked && this->IsTabulated() && band < Bands; ++band)
+  {
+    this->Media[band].Anisotropy = this->Owner->Anisotropy[band];
+  }
+  const bool isAnisotropic = this->IsMonteCarlo() || this->IsTabulated();
+  return checked && isAnisotropic ? MediumProperties::CheckAnisotropy(this->Owner->Anisotropy)
+                                  : checked;
 }
 
 //------------------------------------------------------------------------------
@@ -168,15 +179,46 @@ Outcome vtkSubsurfaceScattering::Run::Read()
   {
     this->CompareIndices();
   }
-  return read;
+  return read ? this->ReadMedium() : read;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkSubsurfaceScattering::Run::ReadMedium()
+{
+  if (this->Owner->GetNumberOfInputConnections(1) == 0)
+  {
+    return Outcome::Done();
+  }
+  vtkDataObject* medium = this->Owner->GetInputDataObject(1, 0);
+  auto* image = vtkImageData::SafeDownCast(medium);
+  if (!image)
+  {
+    return Outcome::Failed(std::string("The medium (input port 1) is a ") +
+      (medium ? medium->GetClassName() : "connection without data") +
+      ": it must be one vtkImageData. Extract the block that has it.");
+  }
+  const double scale = this->Scene.GetScale();
+  this->Image = std::make_unique<MediumImage>();
+  Outcome read = this->Image->Read(image,
+    { this->Scene.GetCenter(), scale, scale * this->Owner->MillimetersPerUnit });
+  if (!read)
+  {
+    return read;
+  }
+  const std::vector<std::uint64_t> all =
+    this->AllRanks.Gather(std::vector<std::uint64_t>{ this->Image->GetFingerprint() });
+  return std::equal(all.begin() + 1, all.end(), all.begin())
+    ? Outcome::Done()
+    : Outcome::Failed("The medium is not the same on all ranks: each of them needs all of it.");
 }
 
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::ReadIrradiance()
 {
-  const std::string name = this->GetArrayName(0,
-    this->Owner->Incidence == INCIDENCE_DIFFUSE ? ArrayNames::Irradiance
-                                                : ArrayNames::TransmittedIrradiance);
+  const bool isDiffuse = this->Owner->Incidence == INCIDENCE_DIFFUSE;
+  const std::string first =
+    this->GetArrayName(0, isDiffuse ? ArrayNames::Irradiance : ArrayNames::TransmittedIrradiance);
+  const std::string name = isDiffuse ? first : this->GetArrayName(1, first.c_str());
   std::vector<double> values;
   int components = 0;
   const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
@@ -246,11 +288,17 @@ std::unique_ptr<LinkBuilder> vtkSubsurfaceScattering::Run::MakeBuilder() const
   if (this->IsMonteCarlo())
   {
     return std::make_unique<PhotonLinks>(this->Media, this->GetAnisotropies(),
-      this->Owner->MillimetersPerUnit, this->GetPhotonSettings());
+      this->Owner->MillimetersPerUnit, this->GetPhotonSettings(), this->Image.get());
   }
-  return std::make_unique<ScatteringLinks>(this->Owner->Model,
-    ScatteringOptions{ this->Owner->BurleyFit }, this->Media, this->Owner->MillimetersPerUnit,
-    this->Owner->LinkTolerance);
+  ScatteringOptions options;
+  options.BurleyFit = this->Owner->BurleyFit;
+  if (this->IsTabulated())
+  {
+    options.NumberOfPhotons = this->Owner->NumberOfPhotons;
+    options.Seed = static_cast<std::uint64_t>(this->Owner->Seed);
+  }
+  return std::make_unique<ScatteringLinks>(this->Owner->Model, options, this->Media,
+    this->Owner->MillimetersPerUnit, this->Owner->LinkTolerance);
 }
 
 //------------------------------------------------------------------------------
@@ -304,7 +352,7 @@ Outcome vtkSubsurfaceScattering::Run::FollowPhotons()
   const PhotonScattering scattering(this->Scene,
     PhotonScattering::GetMedia(this->Media, this->GetAnisotropies(),
       this->Scene.GetScale() * this->Owner->MillimetersPerUnit),
-    this->Media[0].RefractiveIndex);
+    this->Media[0].RefractiveIndex, this->Image.get());
   Outcome done = scattering.Run(entering, this->GetPhotonSettings(), this->AllRanks,
     this->Progress.GetMonitor().GetStage(0.0, LinksDone), this->Photons);
   this->DeviceUsed = "CPU";
@@ -513,6 +561,10 @@ void vtkSubsurfaceScattering::Run::WriteLinks() const
   const LightTransport::Links& links = this->Owner->Links->Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
+  if (this->IsTabulated())
+  {
+    FieldValues::Add(fields, "ProfileError", links.ProfileErrors.data(), Bands);
+  }
   FieldValues::Add(fields, "LinksReused", this->Owner->Links->WereMade() ? 0.0 : 1.0);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
 
@@ -553,11 +605,45 @@ void vtkSubsurfaceScattering::Run::WritePhotons(const SceneOutput& output) const
 //------------------------------------------------------------------------------
 vtkSubsurfaceScattering::vtkSubsurfaceScattering() : Links(new LinkCache)
 {
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
 }
 
 //------------------------------------------------------------------------------
 vtkSubsurfaceScattering::~vtkSubsurfaceScattering() = default;
+
+//------------------------------------------------------------------------------
+int vtkSubsurfaceScattering::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  // Refused, but here: the pipeline would run the filter for each block.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// All ranks need all of the medium.
+int vtkSubsurfaceScattering::RequestUpdateExtent(vtkInformation* request,
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (vtkInformation* medium = inputs[1]->GetInformationObject(0))
+  {
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    medium->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    medium->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    medium->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    if (medium->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      medium->Set(Pipeline::UPDATE_EXTENT(), medium->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
 
 //------------------------------------------------------------------------------
 std::unique_ptr<TransportRun> vtkSubsurfaceScattering::MakeRun(const RunPorts& ports)

@@ -4,7 +4,9 @@
 
 #include "Run/TransportRun.h"
 #include "Shared/AbortCheck.h"
+#include "Shared/Outcome.h"
 #include "Shared/OutputLikeInput.h"
+#include "Support/Ranks.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -80,7 +82,7 @@ int vtkTransportAlgorithm::RequestData(vtkInformation*, vtkInformationVector** i
   ports.Output = vtkDataObject::GetData(outputs, 0);
   ports.Table = this->GetNumberOfOutputPorts() > 1 ? vtkTable::GetData(outputs, 1) : nullptr;
   ports.ProgressInterval = this->ProgressInterval;
-  const Outcome outcome = this->MakeRun(ports)->Go();
+  const Outcome outcome = this->Run(ports);
   if (!outcome)
   {
     ports.Output->Initialize();
@@ -95,6 +97,20 @@ int vtkTransportAlgorithm::RequestData(vtkInformation*, vtkInformationVector** i
   }
   // VTK tells a failure as an error of its own; an abort is none.
   return outcome.HasFailed() ? 0 : 1;
+}
+
+//------------------------------------------------------------------------------
+// All that the run holds is given back before its outcome is reported.
+Outcome vtkTransportAlgorithm::Run(const RunPorts& ports)
+{
+  std::unique_ptr<TransportRun> run;
+  const auto make = [&]()
+  {
+    run = this->MakeRun(ports);
+    return Outcome::Done();
+  };
+  const Outcome made = Ranks(this->Controller).Attempt(make, TransportRun::GetAdvice());
+  return made ? run->Go() : made;
 }
 
 //------------------------------------------------------------------------------

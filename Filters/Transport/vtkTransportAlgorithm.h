@@ -47,6 +47,7 @@ class vtkMultiProcessController;
 
 namespace LightTransport
 {
+class Outcome;
 class TransportRun;
 struct RunPorts;
 } // namespace LightTransport
@@ -137,6 +138,8 @@ protected:
 private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
+
+  LightTransport::Outcome Run(const LightTransport::RunPorts& ports);
 };
 
 #endif

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run by ParaView's window at its start, before it plays events (see CMakeLists.txt).
 
-Makes a filter, so that its panel is shown, and writes the events: every property has a widget,
-which is seen if the property applies.
+Makes a filter or a reader, so that its panel is shown, and writes the events: every property has a
+widget, which is seen if the property applies, and the choice of an array shows the default, once.
 """
 
 import os
 from xml.sax.saxutils import quoteattr
 
 from paraview import simple
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 WINDOW = "pqClientMainWindow/"
 PANEL = WINDOW + "propertiesDock/propertiesPanel/"
@@ -24,8 +27,9 @@ HIDDEN = {
     "DirectIrradiance": set(),
     "Radiosity": set(),
     "SingleScattering": set(),
-    "SubsurfaceScattering": {"BurleyFit", "LinkMethod", "TargetError", "NumberOfPhotons",
-                             "Anisotropy", "Seed"},
+    "SubsurfaceScattering": {"TransmittedIrradianceArray", "BurleyFit", "LinkMethod", "TargetError",
+                             "NumberOfPhotons", "Anisotropy", "Seed"},
+    "OpenEXRReader": set(),
 }
 # What is chosen in a panel, and who is seen then.
 CHOICES = (
@@ -41,10 +45,12 @@ CHOICES = (
     ("SubsurfaceScattering", "Model", "Monte Carlo",
      {"BurleyFit": False, "TargetError": True, "NumberOfPhotons": True, "Anisotropy": True,
       "LinkTolerance": False}),
+    ("SubsurfaceScattering", "Incidence", "Transmitted",
+     {"IrradianceArray": False, "TransmittedIrradianceArray": True}),
+    ("SubsurfaceScattering", "Model", "Tabulated",
+     {"BurleyFit": False, "TargetError": False, "Anisotropy": True, "LinkTolerance": True}),
 )
-# What is chosen at first, where it is the name of an array.
-ARRAYS = (("PatchMesher", "RegionArray", "Region"), ("ViewFactors", "GroupArray", "Group"),
-          ("Radiosity", "EmissionArray", "Emission"))
+POINTS, CELLS = 0, 1  # associations of arrays
 
 
 def make_event(name, command, arguments):
@@ -73,13 +79,47 @@ def list_shown_properties(proxy):
         iterator.Next()
 
 
-def check_panel(name, proxy):
+def list_array_choices(proxy):
+    """Property, association and default of each."""
+    for key in list_shown_properties(proxy):
+        prop = proxy.GetProperty(key)
+        if prop.IsA("vtkSMStringVectorProperty") and prop.GetNumberOfElements() == 5:
+            yield key, int(prop.GetDefaultValue(3)), prop.GetDefaultValue(4)
+
+
+def make_surface(choices):
+    """With all arrays that are chosen from, and another one."""
+    sphere = vtkSphereSource()
+    sphere.Update()
+    surface = vtkPolyData()
+    surface.ShallowCopy(sphere.GetOutput())
+    surface.GetPointData().Initialize()
+    for association, data in ((POINTS, surface.GetPointData()), (CELLS, surface.GetCellData())):
+        for name in ["Another"] + [default for _, kind, default in choices if kind == association]:
+            array = vtkDoubleArray()
+            array.SetName(name)
+            array.SetNumberOfTuples(surface.GetNumberOfElements(association))
+            array.Fill(0.5)
+            data.AddArray(array)
+    return surface
+
+
+def make_source(data):
+    source = simple.PVTrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def check_panel(name, proxy, surface):
     yield make_event(PANEL + "SearchBox/AdvancedButton", "set_boolean", "true")
     for prop in list_shown_properties(proxy):
         yield check_visibility(prop, prop not in HIDDEN[name])
-    for owner, prop, text in ARRAYS:
-        if owner == name:
-            yield make_check(PROXY_PANEL + prop + "/ComboBox", "currentText", text)
+    for prop, association, default in list_array_choices(proxy):
+        box = PROXY_PANEL + prop + "/ComboBox"
+        data = surface.GetCellData() if association == CELLS else surface.GetPointData()
+        yield make_check(box, "currentText", default)
+        yield make_check(box, "count", str(data.GetNumberOfArrays()))
     for owner, prop, choice, states in CHOICES:
         if owner == name:
             yield make_event(PROXY_PANEL + prop + "/ComboBox", "set_string", choice)
@@ -87,10 +127,20 @@ def check_panel(name, proxy):
                 yield check_visibility(other, visible)
 
 
+def make_proxy(kind):
+    """With its surface, where it has one."""
+    if kind == "OpenEXRReader":
+        return globals()[kind](FileName=os.environ["LIGHT_TRANSPORT_IMAGE"]), None
+    pattern = simple.servermanager.ProxyManager().SMProxyManager.GetPrototypeProxy(
+        "filters", "LightTransport" + kind)
+    surface = make_surface(list(list_array_choices(pattern)))
+    return globals()[kind](registrationName=kind, Input=make_source(surface)), surface
+
+
 simple.LoadPlugin(os.environ["LIGHT_TRANSPORT_PLUGIN"], remote=False, ns=globals())
-kind = os.environ["LIGHT_TRANSPORT_FILTER"]
-made = globals()[kind](registrationName=kind, Input=simple.Sphere())
+shown = os.environ["LIGHT_TRANSPORT_FILTER"]
+made, with_arrays = make_proxy(shown)
 simple.SetActiveSource(made)
-events = check_panel(kind, made.SMProxy)
+events = check_panel(shown, made.SMProxy, with_arrays)
 with open(os.environ["LIGHT_TRANSPORT_EVENTS"], "w", encoding="utf-8") as stream:
     stream.write("\n".join(["<?xml version=\"1.0\" ?>", "<pqevents>", *events, "</pqevents>", ""]))

@@ -6,6 +6,8 @@ The room is a cube seen from inside with a bright ceiling and a block standing i
 rank does not have throws shadows on what it has.
 """
 
+import resource
+
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -13,6 +15,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from TestingTools import make_box
 
 GHOSTS_ON_EACH_SIDE = 7
+MEGABYTE = 1 << 20
 
 
 def make_patches():
@@ -31,6 +34,13 @@ def choose_patches(case, rank, ranks, count):
         after = range(end, min(end + GHOSTS_ON_EACH_SIDE, count))
         chosen = ([(patch, True) for patch in before] + chosen + [(patch, True) for patch in after])
     return chosen
+
+
+def leave_memory(count):
+    """From here on this process gets no more than so many bytes."""
+    with open("/proc/self/status", encoding="ascii") as status:
+        used = next(int(line.split()[1]) for line in status if line.startswith("VmSize"))
+    resource.setrlimit(resource.RLIMIT_AS, (used * 1024 + count, resource.RLIM_INFINITY))
 
 
 def make_piece(case, output):
@@ -55,8 +65,13 @@ def make_piece(case, output):
             array.InsertNextValue(value)
     if case == "error" and rank == ranks - 1:
         points.SetPoint(0, float("nan"), 0.0, 0.0)
+    if case == "array" and rank == ranks - 1:
+        arrays["Wrong"] = vtkDoubleArray()
+        arrays["Wrong"].SetNumberOfTuples(cells.GetNumberOfCells() + 1)
     output.SetPoints(points)
     output.SetPolys(cells)
     for name, array in arrays.items():
         array.SetName(name)
         output.GetCellData().AddArray(array)
+    if case == "memory" and rank == ranks - 1:
+        leave_memory(MEGABYTE)

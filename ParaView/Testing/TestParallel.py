@@ -8,6 +8,8 @@ run. CASE is
   empty   the first rank has everything, the others nothing
   ghosts  as split, with ghost cells
   error   as split, with a coordinate on the last rank that is no number
+  array   as split, with an array on the last rank that has one value too many
+  memory  as split, with too little memory on the last rank
 """
 
 import os
@@ -21,6 +23,9 @@ ARRAYS = {
     "radiosity": ("Radiosity", "Irradiance", "NetFlux"),
     "scattering": ("DirectIrradiance", "TransmittedIrradiance", "ScatteredIrradiance",
                    "ViewFactorSum", "SkyFraction", "BackFaceFraction")}
+# What all ranks say where the last one fails.
+ERRORS = {"error": "The input has point coordinates that are not finite",
+          "array": "In the input the cell array \"Wrong\"", "memory": ""}
 # Room for sums over patches in another order, in a solution to 1e-10.
 TOLERANCE = 1e-9
 
@@ -77,13 +82,14 @@ def test_answer(case, ranks, serial_command, command, folder):
     return problems
 
 
-def test_error(ranks, command, folder):
+def test_error(case, ranks, command, folder):
     place = os.path.join(folder, "parallel")
-    result = run(command, "error", place)
+    result = run(command, case, place)
     problems = []
+    words = f"On rank {ranks - 1} of {ranks}: " + ERRORS[case]
     for reporter in ("vtkRadiosity", "vtkDirectIrradiance"):
         reports = [line for line in result.stdout.splitlines()
-                   if reporter + " (" in line and "finite" in line]
+                   if reporter + " (" in line and words in line]
         if len(reports) != ranks:
             problems.append(f"{len(reports)} of {ranks} ranks reported the error of {reporter}")
     if "the script came to its end" not in result.stdout:
@@ -100,8 +106,8 @@ def main(case, ranks, *command):
     end = command.index("--", begin + 1)
     parallel_command = command[:begin] + command[begin + 1:end] + command[end + 1:]
     with tempfile.TemporaryDirectory() as folder:
-        if case == "error":
-            problems = test_error(int(ranks), parallel_command, folder)
+        if case in ERRORS:
+            problems = test_error(case, int(ranks), parallel_command, folder)
         else:
             serial_command = command[:begin] + command[end + 1:]
             problems = test_answer(case, int(ranks), serial_command, parallel_command, folder)

@@ -193,6 +193,30 @@ def test_groups():
     return problems + test_table("blocks", simple.ViewFactors(Input=blocks), "floor", "ceiling")
 
 
+def test_medium():
+    """An image on the second input of scattering, connected and not."""
+    box = simple.Calculator(Input=simple.Box(), AttributeType="Cell Data",
+                            ResultArrayName="Irradiance", Function="1")
+    scattering = simple.SubsurfaceScattering(Input=box, Model="Monte Carlo", NumberOfPhotons=3000)
+
+    def get_share():
+        fields = simple.servermanager.Fetch(scattering).GetFieldData()
+        return fields.GetArray("LeavingShare").GetTuple(0)
+
+    without = get_share()
+    image = simple.Wavelet(WholeExtent=[-1, 1, -1, 1, -1, 1])
+    scattering.Medium = simple.Calculator(Input=image, AttributeType="Point Data",
+                                          ResultArrayName="Absorption", Function="5")
+    within = get_share()
+    scattering.Medium = None
+    problems = []
+    if not within[0] < 0.5 * without[0]:
+        problems.append(f"a medium that absorbs gives back {within}, and without {without}")
+    if get_share() != without:
+        problems.append(f"a medium that is taken away still counts: {get_share()}")
+    return problems
+
+
 expected_results = run_classes()
 found_results, irradiance_proxy, scattering_proxy = run_proxies()
 all_problems = []
@@ -204,4 +228,5 @@ for key, array_name in (
         all_problems.append(f"{array_name} is zero everywhere: nothing was compared")
 all_problems += test_lights(irradiance_proxy, scattering_proxy)
 all_problems += test_groups()
+all_problems += test_medium()
 tools.finish(all_problems)

@@ -12,8 +12,8 @@ from paraview import servermanager
 from vtkmodules import vtkRenderingCore
 
 # What cannot be, or need not be, a property of a proxy.
-WITHOUT_PROPERTY = {
-    "Brightness", "Controller", "Environment", "EnvironmentSamples", "ViewFactors"}
+WITHOUT_PROPERTY = {"Brightness", "Controller", "ViewFactors"}
+INPUTS = {"Environment"}  # ports
 FILTERS = ("vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas", "vtkAtlasToSurface",
            "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering",
            "vtkSingleScattering")
@@ -97,7 +97,7 @@ def check_filter(name):
                 "vtkImageAlgorithm", "vtkPassInputTypeAlgorithm", "vtkPolyDataAlgorithm"):
             break
         own |= {key[3:] for key in vars(kind) if key.startswith("Set") and "To" not in key[3:]}
-    for missing in sorted(own - commands - WITHOUT_PROPERTY):
+    for missing in sorted(own - commands - WITHOUT_PROPERTY - INPUTS):
         problems.append(f"{name} has Set{missing}, and its proxy no such property")
     categories = proxy.GetHints().FindNestedElementByName("ShowInMenu")
     if not categories or categories.GetAttribute("category") != "Light Transport":

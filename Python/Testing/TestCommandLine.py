@@ -14,6 +14,9 @@ import unittest
 
 import vtklighttransport as lt
 from vtklighttransport import commands
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from TestingTools import (
     CUBE_CORNERS, CUBE_FACES, FolderTestCase, add_array, get_tuples, join_points, make_surface,
@@ -258,12 +261,47 @@ class TestCommandLine(FolderTestCase):
         results = set()
         for options in (("--model", "dipole"), ("--model", "better-dipole"),
                         ("--model", "photon-beam-diffusion"), ("--model", "christensen-burley"),
-                        ("--model", "christensen-burley", "--burley-fit", "searchlight")):
+                        ("--model", "christensen-burley", "--burley-fit", "searchlight"),
+                        ("--model", "tabulated", "--photons", "10000")):
             result = self.run_command(
                 "scatter", source, self.path("out.vtp"), "--irradiance", "Light", *options)
             self.assertEqual(result.returncode, 0, result.stderr)
             results.add(round(get_values(self.load("out.vtp"), "ScatteredIrradiance")[0][0], 6))
-        self.assertEqual(len(results), 5, results)
+        self.assertEqual(len(results), 6, results)
+
+    def test_scatter_medium(self):
+        cube = add_array(make_cube(outside=True), "Light", [1.0] * 6)
+        source = self.save("in.vtp", cube)
+        image = vtkImageData()
+        image.SetDimensions(2, 2, 3)
+        image.SetSpacing(1.0, 1.0, 0.5)
+        scattering = vtkDoubleArray()
+        scattering.SetName("Scattering")
+        scattering.InsertNextValue(3.0)
+        scattering.InsertNextValue(0.0)
+        image.GetCellData().AddArray(scattering)
+        writer = vtkXMLImageDataWriter()
+        writer.SetInputData(image)
+        writer.SetFileName(self.path("medium.vti"))
+        writer.SetDataModeToAscii()
+        self.assertEqual(writer.Write(), 1)
+        shares = []
+        for options in ((), ("--medium", self.path("medium.vti"))):
+            result = self.run_command(
+                "scatter", source, self.path("out.vtp"), "--irradiance", "Light",
+                "--model", "monte-carlo", "--photons", "2000", "--refractive-index", "1", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            values = get_values(self.load("out.vtp"), "ScatteredIrradiance")
+            shares.append(values[1][0] / values[0][0])
+        # The top is clear in the image, and like the bottom without it.
+        self.assertLess(min(shares), 0.7)
+        self.assertGreater(max(shares), 0.8)
+        out = self.path("out.vtp")
+        self.check_failure(
+            self.run_command("scatter", source, out, "--medium", "x.obj"), 2, "not a .vti file")
+        self.check_failure(
+            self.run_command("scatter", source, out, "--medium", self.path("no.vti")), 1,
+            "no such file")
 
     def test_usage(self):
         source = self.make_lit_cube()

@@ -35,6 +35,12 @@ constexpr double CosineWithinBundle = 0.87;
 
 // Beyond this an atlas takes more than a few minutes and a few gigabytes.
 constexpr std::size_t MostTriangles = 20000000;
+// Small inputs must not take minutes to hear that they are refused: so many for each of theirs, but
+// a few seconds' worth for any.
+constexpr std::size_t MostPerTriangle = 256;
+constexpr std::size_t TrianglesForAny = 1000000;
+// Each pass looks at all triangles, and may halve few of them: so many times the most, in all.
+constexpr std::size_t MostPasses = 20;
 
 //------------------------------------------------------------------------------
 std::uint64_t MakeKey(std::size_t a, std::size_t b)
@@ -58,13 +64,18 @@ Outcome AtlasSurface::Build(const TriangleSoup& soup, const Watch& watch)
   }
   this->FindNeighbors(watch);
   std::vector<double> longest = this->FindLongestEdges(watch);
+  const std::size_t most =
+    std::clamp(MostPerTriangle * soup.Triangles.size(), TrianglesForAny, MostTriangles);
+  std::size_t looks = 0;
   while (this->HalveLongEdges(longest, watch))
   {
-    if (this->Triangles.size() > MostTriangles)
+    looks += this->Triangles.size();
+    if (this->Triangles.size() > most || looks > MostPasses * most)
     {
       return Outcome::Failed("The surface has " + std::to_string(soup.Triangles.size()) +
-        " triangles, and more than " + std::to_string(MostTriangles) +
-        " once the edges are halved that are long beside it or beside its parts: pass it through "
+        " triangles, and too many (" + std::to_string(this->Triangles.size()) +
+        " so far) once the edges are halved that are long beside it or beside its parts: pass it "
+        "through "
         "vtkPatchMesher first, or remove small parts.");
     }
     this->FindNeighbors(watch);

@@ -434,6 +434,12 @@ double IsotropicRemesher::Prepare(double factor, double grading, const Monitor& 
     {
       work.Lengths[vertex] = this->Lengths[vertex];
     }
+    // A short edge and a small grading may ask for any number.
+    const double number = EdgeLengths::EstimateNumberOfTriangles(this->Sources, this->Lengths);
+    if (number > MostTriangles)
+    {
+      return number;
+    }
   }
   for (const Vertex vertex : work.Mesh.vertices())
   {

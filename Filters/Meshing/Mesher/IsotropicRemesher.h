@@ -58,8 +58,9 @@ public:
   /**
    * Multiply all lengths by `factor`, split the edges to keep, limit the lengths to what these
    * allow and to the `grading`, and tell the parts apart. Returns how many triangles will come out,
-   * about.
+   * about; where that is more than MostTriangles the mesh is not to be remeshed.
    */
+  static constexpr double MostTriangles = 2e7;
   double Prepare(double factor, double grading, const Monitor& monitor);
 
   /// The fractions that the monitor hears are estimates.

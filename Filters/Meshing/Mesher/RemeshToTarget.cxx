@@ -16,7 +16,7 @@ namespace LightTransport
 {
 namespace
 {
-constexpr double MaximumNumberOfTriangles = 2e7;
+constexpr double MaximumNumberOfTriangles = IsotropicRemesher::MostTriangles;
 
 //------------------------------------------------------------------------------
 Outcome CheckNumberOfTriangles(double number, const PatchTarget& target)
@@ -62,10 +62,29 @@ Outcome CheckTargetNumber(const PatchTarget& target, double estimate)
 }
 
 //------------------------------------------------------------------------------
+// Once lengths are limited to the edges to keep, and graded from these.
+Outcome CheckPrepared(double number, const PatchTarget& target)
+{
+  if (number <= MaximumNumberOfTriangles)
+  {
+    return Outcome::Done();
+  }
+  std::ostringstream text;
+  text << "Short edges that are kept, and Grading " << target.Grading << ", would give about "
+       << number << " triangles, more than " << MaximumNumberOfTriangles
+       << " are refused: raise Grading, or FeatureAngle.";
+  return Outcome::Failed(text.str());
+}
+
+//------------------------------------------------------------------------------
 Outcome RemeshToLengths(IsotropicRemesher& remesher, const PatchTarget& target,
   const Monitor& monitor)
 {
-  remesher.Prepare(1.0, target.Grading, monitor);
+  const double number = remesher.Prepare(1.0, target.Grading, monitor);
+  if (Outcome checked = CheckPrepared(number, target); !checked)
+  {
+    return checked;
+  }
   return remesher.Remesh(target.NumberOfIterations, monitor.GetStage(0.1, 1.0));
 }
 
@@ -154,6 +173,10 @@ Outcome RemeshToNumber(IsotropicRemesher& remesher, const SourceSurface& surface
     const double begin = 1.0 - std::pow(0.5, i);
     const Monitor stage = monitor.GetStage(begin, begin + 0.5 * (1.0 - begin));
     search.Prepare(number / excess, stage);
+    if (Outcome checked = CheckPrepared(search.GetExpected(), target); !checked)
+    {
+      return checked;
+    }
     if (Outcome remeshed = remesher.Remesh(target.NumberOfIterations, stage.GetStage(0.1, 1.0));
         !remeshed)
     {

@@ -54,6 +54,8 @@ struct Links
 
   /// Where links are counts of photons: what one of them adds, of each band.
   std::vector<double> PhotonSizes;
+  /// Where links are those of a profile: standard error of its total, relative, of each band.
+  std::vector<double> ProfileErrors;
 
   /// Names and values of the field data arrays that summarise how the links were made.
   std::vector<std::pair<std::string, double>> Summaries;

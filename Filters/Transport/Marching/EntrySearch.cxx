@@ -55,7 +55,7 @@ bool EntrySearch::CanReach(const PatchTree::Node& node, const Vector& point, con
   {
     return true;
   }
-  const Vector direction = this->Interface.GoIn(incident.normalized(), node.ConeAxis);
+  const Vector direction = this->Interface.RefractInwards(incident.normalized(), node.ConeAxis);
   const double allowed = spread + width / this->Index + std::asin(radius / distance);
   return GetAngle(direction, path) <= allowed;
 }
@@ -120,7 +120,7 @@ void EntrySearch::EnterFromAfar(const Vector& normal, double depth, const Vector
   const Vector& towards, Entry& entry) const
 {
   entry.Towards = towards;
-  entry.Direction = this->Interface.GoIn(-towards, normal);
+  entry.Direction = this->Interface.RefractInwards(-towards, normal);
   const double cosine = towards.dot(normal);
   const double inside = -entry.Direction.dot(normal);
   entry.Distance = depth / inside;

@@ -42,7 +42,7 @@ RayMarcher::RayMarcher(const PatchScene& scene, const std::vector<PhotonMedium>&
 void RayMarcher::March(const Sample& sample, double radiance[LightBands]) const
 {
   const Vector& normal = this->Scene.GetNormal(sample.Patch);
-  const Vector inwards = this->Interface.GoIn(-sample.Outwards, normal);
+  const Vector inwards = this->Interface.RefractInwards(-sample.Outwards, normal);
   const InsidePath path(this->Boundary, this->Interface, this->Media, sample.Point, inwards,
     sample.Patch);
   if (path.GetNumberOfLegs() == 0)
@@ -151,7 +151,7 @@ void RayMarcher::AddBackground(const Sample& sample, const Scattering& place,
     const InsidePath::Leg& leg = path.GetLeg(k);
     const double reflected = this->Interface.GetInternalReflectance(leg.Direction.dot(leg.Normal));
     const Vector end = leg.Origin + (leg.End - leg.Begin) * leg.Direction;
-    const Vector towards = this->Interface.GoOut(leg.Direction, leg.Normal);
+    const Vector towards = this->Interface.RefractOutwards(leg.Direction, leg.Normal);
     if (reflected == 1.0 || !this->IsLit(end, towards, PhotonBoundary::Unlimited, leg.Patch))
     {
       continue;

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <vector>
 
 namespace LightTransport
@@ -31,6 +32,8 @@ public:
 
 private:
   static constexpr float Unknown = -2.0f;
+  // Size of a body across, relative to its length, below which it counts as this.
+  static constexpr double Thinnest = 0.01;
 
   Vector Low = Vector::Zero();
   double CellSize = 1.0;
@@ -41,7 +44,8 @@ private:
 //------------------------------------------------------------------------------
 inline void BallGrid::Build(const std::vector<Vector>& points)
 {
-  constexpr int cellsAlong = 32;
+  // As many as a processor keeps near at hand.
+  constexpr double mostCells = 1 << 15;
   this->Low = Vector::Constant(PhotonBoundary::Unlimited);
   Vector high = -this->Low;
   for (const Vector& point : points)
@@ -49,12 +53,13 @@ inline void BallGrid::Build(const std::vector<Vector>& points)
     this->Low = this->Low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  this->CellSize = (high - this->Low).maxCoeff() / cellsAlong;
+  // Of a needle or a sheet all along the long sides.
+  const Vector size = (high - this->Low).cwiseMax(Thinnest * (high - this->Low).maxCoeff());
+  this->CellSize = std::cbrt(size.prod() / mostCells);
   std::size_t cells = 1;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double cellsHere = (high[axis] - this->Low[axis]) / this->CellSize;
-    this->Counts[axis] = std::min(static_cast<int>(cellsHere) + 1, cellsAlong);
+    this->Counts[axis] = static_cast<int>((high[axis] - this->Low[axis]) / this->CellSize) + 1;
     cells *= this->Counts[axis];
   }
   this->Radii = std::vector<std::atomic<float>>(cells);

@@ -34,11 +34,11 @@ public:
   }
 
   ///@{ The direction behind the surface, for one that is not totally reflected.
-  Vector GoOut(const Vector& direction, const Vector& outward) const
+  Vector RefractOutwards(const Vector& direction, const Vector& outward) const
   {
     return Bend(direction, outward, this->Index);
   }
-  Vector GoIn(const Vector& direction, const Vector& outward) const
+  Vector RefractInwards(const Vector& direction, const Vector& outward) const
   {
     return Bend(direction, -outward, 1.0 / this->Index);
   }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -154,9 +155,9 @@ double ScaleTiles(vtkExchangeMatrix* matrix, const std::vector<double>& factors)
 
 //------------------------------------------------------------------------------
 PhotonLinks::PhotonLinks(std::vector<ScatteringMedium> bands, std::vector<double> anisotropies,
-  double millimetersPerUnit, const PhotonScattering::Settings& settings)
+  double millimetersPerUnit, const PhotonScattering::Settings& settings, const MediumImage* image)
   : Bands(std::move(bands)), Anisotropies(std::move(anisotropies)),
-    MillimetersPerUnit(millimetersPerUnit), Settings(settings)
+    MillimetersPerUnit(millimetersPerUnit), Settings(settings), Image(image)
 {
 }
 
@@ -174,6 +175,13 @@ LinkKey PhotonLinks::GetKey() const
       { band.Scattering, band.Absorption, band.RefractiveIndex });
   }
   key.Parameters.insert(key.Parameters.end(), this->Anisotropies.begin(), this->Anisotropies.end());
+  if (this->Image)
+  {
+    // Halves of it are exact as numbers.
+    const std::uint64_t fingerprint = this->Image->GetFingerprint();
+    key.Parameters.push_back(static_cast<double>(fingerprint >> 32));
+    key.Parameters.push_back(static_cast<double>(fingerprint & 0xFFFFFFFFu));
+  }
   return key;
 }
 
@@ -201,7 +209,7 @@ Outcome PhotonLinks::Build(const PatchScene& scene, const Ranks& ranks, const Mo
   TileRecorder recorder(links.Matrix, ranks);
   const PhotonScattering scattering(scene,
     PhotonScattering::GetMedia(this->Bands, this->Anisotropies, scale),
-    this->Bands[0].RefractiveIndex);
+    this->Bands[0].RefractiveIndex, this->Image);
   PhotonScattering::Result photons;
   done = scattering.Run(std::vector<double>(areas.size() * bands, 1.0), this->Settings, ranks,
     monitor, photons, &recorder);

@@ -19,8 +19,10 @@ namespace LightTransport
 class PhotonLinks : public LinkBuilder
 {
 public:
+  /// `image` of a medium that varies, or nullptr.
   PhotonLinks(std::vector<ScatteringMedium> bands, std::vector<double> anisotropies,
-    double millimetersPerUnit, const PhotonScattering::Settings& settings);
+    double millimetersPerUnit, const PhotonScattering::Settings& settings,
+    const MediumImage* image);
 
   LinkKey GetKey() const override;
   Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
@@ -39,6 +41,7 @@ private:
   std::vector<double> Anisotropies;
   double MillimetersPerUnit;
   PhotonScattering::Settings Settings;
+  const MediumImage* Image;
 };
 } // namespace LightTransport
 

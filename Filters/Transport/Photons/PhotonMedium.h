@@ -14,6 +14,14 @@ struct PhotonMedium
 
   double GetExtinction() const { return this->Scattering + this->Absorption; }
 };
+
+/// What happens to a photon at the end of a step that does not meet the surface.
+enum class PhotonEvent
+{
+  SCATTERED,
+  PASSED, ///< it walks on as before
+  ENDED
+};
 } // namespace LightTransport
 
 #endif

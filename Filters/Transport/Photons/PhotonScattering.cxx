@@ -5,6 +5,7 @@
 #include "Photons/MeshBoundary.h"
 #include "Photons/PhotonSource.h"
 #include "Photons/UniformPath.h"
+#include "Photons/VaryingPath.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 
@@ -37,20 +38,22 @@ constexpr long long FirstTurn = 256;
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Bands that share their photons, and these.
+/// Bands that share their photons, and these; a single one where the medium varies.
 class PhotonScattering::Group
 {
 public:
   Group(const PhotonScattering& owner, const std::vector<int>& bands,
-    const PhotonBoundary& boundary, const std::vector<double>& entering)
+    const PhotonBoundary& boundary, const std::vector<double>& entering,
+    const VaryingMedium* varying)
     : Owner(owner), Scene(owner.Scene), Bands(bands), Paths(owner.ChooseMedia(bands)),
-      Walk(boundary, owner.RefractiveIndex, owner.Media[bands[0]].Anisotropy),
+      Varying(varying), Walk(boundary, owner.RefractiveIndex, owner.Media[bands[0]].Anisotropy),
       Source(owner.Scene, owner.GetFlux(bands, entering), static_cast<int>(bands.size())),
       Tally(owner.Scene.GetFaces(), static_cast<int>(bands.size()))
   {
     for (const int band : bands)
     {
-      this->CanScatter.push_back(owner.Media[band].Scattering > 0.0);
+      this->CanScatter.push_back(
+        varying ? varying->CanScatter() : owner.Media[band].Scattering > 0.0);
     }
   }
 
@@ -60,12 +63,15 @@ public:
 
 private:
   void Trace(long long count, std::uint64_t seed, const Ranks& ranks, PhotonRecorder* recorder);
+  void Follow(const PhotonStart& start, int leader, PhotonRandom& random, PhotonListener& listener,
+    PhotonWalk::Counts& counts) const;
 
   const PhotonScattering& Owner;
   const PatchScene& Scene;
   std::vector<int> Bands;
   std::vector<bool> CanScatter;
   UniformBands Paths;
+  const VaryingMedium* Varying; ///< nullptr where the medium does not
   PhotonWalk Walk;
   PhotonSource Source;
   PhotonTally Tally;
@@ -91,8 +97,9 @@ std::vector<std::vector<int>> PhotonScattering::GroupBands(
       continue;
     }
     const auto group = std::find_if(groups.begin(), groups.end(),
-      [&](const auto& others)
-      { return this->Media[others[0]].Anisotropy == this->Media[band].Anisotropy; });
+      [&](const auto& others) {
+        return !this->Image && this->Media[others[0]].Anisotropy == this->Media[band].Anisotropy;
+      });
     if (group != groups.end())
     {
       group->push_back(band);
@@ -146,22 +153,38 @@ std::vector<double> PhotonScattering::GetFlux(const std::vector<int>& bands,
 }
 
 //------------------------------------------------------------------------------
-Outcome PhotonScattering::Run(const std::vector<double>& entering, const Settings& settings,
-  const Ranks& ranks, const Monitor& monitor, Result& result, PhotonRecorder* recorder) const
+double PhotonScattering::GetBallSize(const std::vector<VaryingMedium>& varying) const
 {
-  result = this->MakeResult();
   double extinction = std::numeric_limits<double>::infinity();
   for (const PhotonMedium& medium : this->Media)
   {
     extinction = std::min(extinction, medium.GetExtinction());
   }
+  for (const VaryingMedium& medium : varying)
+  {
+    extinction = std::min(extinction, medium.GetMeanMajorant());
+  }
+  return std::min(FreePathsPerBall / extinction, 1.0);
+}
+
+//------------------------------------------------------------------------------
+Outcome PhotonScattering::Run(const std::vector<double>& entering, const Settings& settings,
+  const Ranks& ranks, const Monitor& monitor, Result& result, PhotonRecorder* recorder) const
+{
+  result = this->MakeResult();
+  std::vector<VaryingMedium> varying;
+  for (std::size_t band = 0; band < this->Media.size() && this->Image; ++band)
+  {
+    varying.emplace_back(*this->Image, this->Media[band], static_cast<int>(band));
+  }
   MeshBoundary boundary;
-  Outcome done = boundary.Build(this->Scene, std::min(FreePathsPerBall / extinction, 1.0));
+  Outcome done = boundary.Build(this->Scene, this->GetBallSize(varying));
   const std::vector<std::vector<int>> groups = this->GroupBands(entering);
   const auto count = static_cast<double>(groups.size());
   for (std::size_t k = 0; k < groups.size() && done; ++k)
   {
-    Group group(*this, groups[k], boundary, entering);
+    Group group(*this, groups[k], boundary, entering,
+      this->Image ? &varying[groups[k][0]] : nullptr);
     Settings share = settings;
     share.NumberOfPhotons = (settings.NumberOfPhotons + groups.size() - 1) / groups.size();
     done = group.Run(share, ranks, monitor.GetStage(k / count, (k + 1) / count), recorder);
@@ -223,9 +246,8 @@ void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const R
       const PhotonSource::Photon photon =
         this->Source.Start((k + random.Get()) / count, this->Walk, random);
       const auto leader = static_cast<int>((this->Photons + k) % this->Paths.GetNumber());
-      UniformPath path(this->Paths, leader);
       PhotonTally::Listener listener(this->Tally, photon, recorder ? &events : nullptr);
-      this->Walk.Follow(photon.Start, true, path, random, listener, counts);
+      this->Follow(photon.Start, leader, random, listener, counts);
     }
     const std::lock_guard<std::mutex> lock(mutex);
     all.Add(counts);
@@ -241,6 +263,20 @@ void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const R
   this->Counts.Add({ static_cast<long long>(sums[0]), static_cast<long long>(sums[1]),
     static_cast<long long>(sums[2]) });
   this->Photons += count;
+}
+
+//------------------------------------------------------------------------------
+void PhotonScattering::Group::Follow(const PhotonStart& start, int leader, PhotonRandom& random,
+  PhotonListener& listener, PhotonWalk::Counts& counts) const
+{
+  if (this->Varying)
+  {
+    VaryingPath path(*this->Varying);
+    this->Walk.Follow(start, true, path, random, listener, counts);
+    return;
+  }
+  UniformPath path(this->Paths, leader);
+  this->Walk.Follow(start, true, path, random, listener, counts);
 }
 
 //------------------------------------------------------------------------------

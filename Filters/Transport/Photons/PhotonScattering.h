@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * What leaves each face of a body when the light that enters it walks inside as photons, with its
- * standard error. Bands of equal anisotropy share their photons. The same seed gives the same
- * result on any number of threads and ranks.
+ * standard error. Bands of equal anisotropy share their photons, unless the medium varies. The same
+ * seed gives the same result on any number of threads and ranks.
  */
 #ifndef PhotonScattering_h
 #define PhotonScattering_h
 
+#include "Photons/MediumImage.h"
 #include "Photons/PhotonMedium.h"
 #include "Photons/PhotonRecorder.h"
 #include "Photons/PhotonTally.h"
 #include "Photons/PhotonWalk.h"
+#include "Photons/VaryingMedium.h"
 #include "Scattering/ScatteringMedium.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Monitor.h"
@@ -56,9 +58,11 @@ public:
     PhotonWalk::Counts Counts;
   };
 
-  /// `media` in scene units, one for each band. Fails where Embree does.
-  PhotonScattering(const PatchScene& scene, std::vector<PhotonMedium> media, double refractiveIndex)
-    : Scene(scene), Media(std::move(media)), RefractiveIndex(refractiveIndex)
+  /// `media` in scene units, one for each band. Where the medium varies `image` has it, and `media`
+  /// what is around it; else nullptr.
+  PhotonScattering(const PatchScene& scene, std::vector<PhotonMedium> media, double refractiveIndex,
+    const MediumImage* image)
+    : Scene(scene), Media(std::move(media)), RefractiveIndex(refractiveIndex), Image(image)
   {
   }
 
@@ -77,11 +81,13 @@ private:
   std::vector<PhotonMedium> ChooseMedia(const std::vector<int>& bands) const;
   std::vector<double> GetFlux(const std::vector<int>& bands,
     const std::vector<double>& entering) const;
+  double GetBallSize(const std::vector<VaryingMedium>& varying) const;
   Result MakeResult() const;
 
   const PatchScene& Scene;
   std::vector<PhotonMedium> Media;
   double RefractiveIndex;
+  const MediumImage* Image;
 };
 } // namespace LightTransport
 

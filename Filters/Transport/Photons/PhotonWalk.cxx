@@ -44,12 +44,13 @@ PhotonWalk::Fate PhotonWalk::WalkOutside(State& photon, PhotonRandom& random, Co
     {
       return Fate::LOST;
     }
+    photon.HasJustEntered = crossing.Distance < SamePlace;
     photon.Position += crossing.Distance * photon.Direction;
     photon.From = crossing.Patch;
     const double cosine = -photon.Direction.dot(crossing.Normal);
     if (random.Get() >= this->Interface.GetExternalReflectance(cosine))
     {
-      photon.Direction = this->Interface.GoIn(photon.Direction, crossing.Normal);
+      photon.Direction = this->Interface.RefractInwards(photon.Direction, crossing.Normal);
       return Fate::CROSSED;
     }
     photon.Direction = PhotonInterface::Reflect(photon.Direction, crossing.Normal);
@@ -83,7 +84,7 @@ Eigen::Vector3d PhotonWalk::Enter(const Vector& outward, PhotonRandom& random) c
     if (random.Get() >= this->Interface.GetExternalReflectance(cosine))
     {
       const Vector direction = x * tangent + y * outward.cross(tangent) - cosine * outward;
-      return this->Interface.GoIn(direction, outward);
+      return this->Interface.RefractInwards(direction, outward);
     }
   }
 }

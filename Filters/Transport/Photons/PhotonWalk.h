@@ -16,6 +16,7 @@
 #include "Photons/PhotonBoundary.h"
 #include "Photons/PhotonInterface.h"
 #include "Photons/PhotonListener.h"
+#include "Photons/PhotonMedium.h"
 #include "Photons/PhotonRandom.h"
 
 #include <Eigen/Geometry>
@@ -48,8 +49,8 @@ public:
     }
   };
 
-  ///@{ Scatterings after which a photon is given up, and reflections inside without leaving: a
-  /// fifth of a second.
+  ///@{ Scatterings, and places that might have been some, after which a photon is given up, and
+  /// reflections inside without leaving: a fifth of a second.
   static constexpr long long MostScatterings = 4000000;
   static constexpr int MostReflections = 1000000;
   ///@}
@@ -60,7 +61,7 @@ public:
   }
 
   /// Follow a photon to its end, from its start on the surface, or from one outside. `Path` is
-  /// UniformPath or alike.
+  /// UniformPath or VaryingPath.
   template <typename Path>
   void Follow(const PhotonStart& start, bool isInside, Path& path, PhotonRandom& random,
     PhotonListener& listener, Counts& counts) const;
@@ -70,6 +71,9 @@ public:
 
 private:
   static constexpr int MostBands = 3;
+  // Between surfaces in one place, in the unit of the walk.
+  static constexpr double SamePlace = 1e-6;
+
   struct State
   {
     Vector Position;
@@ -77,6 +81,7 @@ private:
     vtkIdType From;  ///< the patch that the photon is on, or -1
     PhotonBall Ball; ///< that the photon is in, or an empty one
     PhotonCrossing Crossing;
+    bool HasJustEntered; ///< where it had left before
     double Weights[MostBands];
   };
   enum class Fate
@@ -104,7 +109,7 @@ template <typename Path>
 void PhotonWalk::Follow(const PhotonStart& start, bool isInside, Path& path, PhotonRandom& random,
   PhotonListener& listener, Counts& counts) const
 {
-  State photon{ start.Position, start.Direction, start.Patch, {}, {}, {} };
+  State photon{ start.Position, start.Direction, start.Patch, {}, {}, false, {} };
   path.GetWeights(photon.Weights);
   Fate fate = isInside ? Fate::CROSSED : this->WalkOutside(photon, random, counts);
   while (fate == Fate::CROSSED)
@@ -140,20 +145,29 @@ PhotonWalk::Fate PhotonWalk::WalkInside(State& photon, Path& path, PhotonRandom&
 {
   photon.Ball.SquaredRadius = 0.0;
   int reflections = 0;
-  while (path.GetNumberOfScatterings() < MostScatterings && reflections < MostReflections)
+  while (path.GetNumberOfEvents() < MostScatterings && reflections < MostReflections)
   {
-    const double step = path.ChooseStep(random);
+    const double step = path.ChooseStep(photon.Position, photon.Direction, random);
     const Vector target = photon.Position + step * photon.Direction;
     if (!this->MeetsSurface(photon, target, step, counts))
     {
+      if (step == PhotonBoundary::Unlimited)
+      {
+        return Fate::LOST;
+      }
       path.Advance(step);
       photon.Position = target;
       photon.From = -1;
-      if (!path.Scatter(random))
+      photon.HasJustEntered = false;
+      const PhotonEvent event = path.Meet(random);
+      if (event == PhotonEvent::ENDED)
       {
         return Fate::ABSORBED;
       }
-      photon.Direction = this->Scatter(photon.Direction, random);
+      if (event == PhotonEvent::SCATTERED)
+      {
+        photon.Direction = this->Scatter(photon.Direction, random);
+      }
       continue;
     }
     const PhotonCrossing& crossing = photon.Crossing;
@@ -161,13 +175,19 @@ PhotonWalk::Fate PhotonWalk::WalkInside(State& photon, Path& path, PhotonRandom&
     {
       return Fate::LOST;
     }
+    // At an edge that rounding has taken for two surfaces: it would turn there for ever.
+    if (photon.HasJustEntered && crossing.Distance < SamePlace)
+    {
+      return Fate::ESCAPED;
+    }
+    photon.HasJustEntered = false;
     path.Advance(crossing.Distance);
     photon.Position += crossing.Distance * photon.Direction;
     photon.From = crossing.Patch;
     const double cosine = photon.Direction.dot(crossing.Normal);
     if (random.Get() >= this->Interface.GetInternalReflectance(cosine))
     {
-      photon.Direction = this->Interface.GoOut(photon.Direction, crossing.Normal);
+      photon.Direction = this->Interface.RefractOutwards(photon.Direction, crossing.Normal);
       return Fate::CROSSED;
     }
     photon.Direction = PhotonInterface::Reflect(photon.Direction, crossing.Normal);

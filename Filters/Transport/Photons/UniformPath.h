@@ -69,16 +69,22 @@ public:
   }
 
   /// How far to the next event.
-  double ChooseStep(PhotonRandom& random) const { return random.GetExponential() * this->FreePath; }
+  double ChooseStep(const Eigen::Vector3d&, const Eigen::Vector3d&, PhotonRandom& random) const
+  {
+    return random.GetExponential() * this->FreePath;
+  }
   void Advance(double distance) { this->Length += distance; }
 
-  /// The photon is scattered at the end of a step; false where it ends there.
-  bool Scatter(PhotonRandom& random)
+  /// What happens at the end of a step.
+  PhotonEvent Meet(PhotonRandom& random)
   {
     ++this->Scatterings;
-    return this->Scatterings % this->Bands.RoulettePeriod != 0 || this->Survives(random);
+    const bool goesOn =
+      this->Scatterings % this->Bands.RoulettePeriod != 0 || this->Survives(random);
+    return goesOn ? PhotonEvent::SCATTERED : PhotonEvent::ENDED;
   }
 
+  long long GetNumberOfEvents() const { return this->Scatterings; }
   long long GetNumberOfScatterings() const { return this->Scatterings; }
 
   void GetWeights(double* weights) const

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Radiosity/ConvergenceTable.h"
 
+#include "Shared/TransportMemory.h"
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 
@@ -25,6 +26,7 @@ vtkSmartPointer<Array> AddColumn(vtkTable* table, const char* name)
 //------------------------------------------------------------------------------
 ConvergenceTable::ConvergenceTable(vtkTable* table, double begin) : Begin(begin)
 {
+  TransportMemory::RequireMargin();
   table->Initialize();
   this->Iterations = AddColumn<vtkIntArray>(table, "Iteration");
   this->Seconds = AddColumn<vtkDoubleArray>(table, "Seconds");

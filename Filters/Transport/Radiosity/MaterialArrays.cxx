@@ -9,6 +9,7 @@
 #include "vtkMath.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace LightTransport
 {
@@ -17,6 +18,15 @@ namespace
 constexpr const char* DefaultNames[MaterialArrays::NUMBER_OF_ARRAYS] = { "Emission", "Reflectance",
   "Temperature", "Emissivity", ArrayNames::DirectIrradiance, "BoundaryCondition",
   "PrescribedNetFlux" };
+
+//------------------------------------------------------------------------------
+// As short as it may be: values may be 1e300.
+std::string Format(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 // Values of the boundary condition.
 constexpr double GivenTemperature = 0.0;
@@ -49,7 +59,7 @@ Outcome MaterialArrays::BandArray::CheckRange(const PatchScene& scene, double lo
       const double value = this->Get(patch, component);
       if (!(value >= low && value <= high))
       {
-        return Outcome::Failed("The cell array \"" + this->Name + "\" is " + std::to_string(value) +
+        return Outcome::Failed("The cell array \"" + this->Name + "\" is " + Format(value) +
           " at " + scene.GetFaces().Describe(face) + ": it must be " + range + ".");
       }
     }
@@ -304,7 +314,7 @@ Outcome MaterialArrays::CheckGivenFluxes(const PatchScene& scene) const
     if (condition != GivenTemperature && condition != GivenNetFlux)
     {
       return Outcome::Failed("The cell array " + this->Quote(BOUNDARY_CONDITION) + " is " +
-        std::to_string(condition) + place +
+        Format(condition) + place +
         ": it must be 0 (the temperature is given) or 1 (the net flux is given).");
     }
     if (condition == GivenTemperature)

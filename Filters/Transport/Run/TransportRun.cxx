@@ -4,6 +4,7 @@
 
 #include "Scene/Leaves.h"
 #include "Shared/Pulse.h"
+#include "Shared/TransportMemory.h"
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -45,8 +46,10 @@ Outcome TransportRun::Go()
   for (const auto step : { &TransportRun::Check, &TransportRun::Gather, &TransportRun::WarnOfScene,
          &TransportRun::Read, &TransportRun::Link, &TransportRun::Compute, &TransportRun::Finish })
   {
-    outcome =
-      outcome ? this->AllRanks.Attempt([&]() { return (this->*step)(); }, GetAdvice()) : outcome;
+    if (outcome)
+    {
+      outcome = this->AllRanks.Attempt([&]() { return (this->*step)(); }, GetAdvice());
+    }
   }
   return outcome;
 }
@@ -61,6 +64,7 @@ Outcome TransportRun::WarnOfScene()
 //------------------------------------------------------------------------------
 Outcome TransportRun::Finish()
 {
+  TransportMemory::RequireMargin();
   this->Write();
   if (this->Filter->GetProgress() < 1.0)
   {

@@ -22,7 +22,7 @@ Outcome MediumProperties::MakeMedia(std::vector<ScatteringMedium>& media) const
   {
     media.push_back({ preset ? preset->Scattering[band] : this->Scattering[band],
       preset ? preset->Absorption[band] : this->Absorption[band],
-      preset ? preset->RefractiveIndex : this->RefractiveIndex });
+      preset ? preset->RefractiveIndex : this->RefractiveIndex, 0.0 });
   }
   std::ostringstream text;
   for (int band = 0; band < Bands; ++band)

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 namespace LightTransport
@@ -29,8 +30,8 @@ constexpr int PlaceBits = MantissaBits - PieceBits;
 /// Cuts after which the rules have the last word: sides are 2^-6 of what they were. Patches wider
 /// than some 60 mean free paths then get a worse error estimate, but never endless work.
 constexpr int MaximumDepth = 12;
-/// Towards a peak of 1/r: pairs folded along an edge, which nothing else takes, are little but
-/// that.
+/// Towards a peak of 1/r, of pairs folded along an edge, which nothing else takes: they are little
+/// but that. (Of any pair near another it would be endless work where polygons cross.)
 constexpr int MaximumDepthAtPeak = 16;
 
 /// A common edge, or an extent across, of more than this many of the profile's smallest scales
@@ -355,6 +356,17 @@ void ScatteringIntegrals::AddParts(const Triangle& a, const Triangle& b, const G
 }
 
 //------------------------------------------------------------------------------
+bool ScatteringIntegrals::HaveEdge(const Triangle& a, const Triangle& b)
+{
+  int common = 0;
+  for (const Vector& corner : a.Corners)
+  {
+    common += static_cast<int>(std::count(std::begin(b.Corners), std::end(b.Corners), corner));
+  }
+  return common == 2;
+}
+
+//------------------------------------------------------------------------------
 void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double tolerance,
   Result& result) const
 {
@@ -369,7 +381,7 @@ void ScatteringIntegrals::AddPair(const Triangle& a, const Triangle& b, double t
     // e sqrt(s).
     goal.Relative = RoughTolerance;
     goal.Absolute = NegligiblePart * tolerance;
-    const int depth = this->Singular ? MaximumDepthAtPeak : MaximumDepth;
+    const int depth = this->Singular && HaveEdge(a, b) ? MaximumDepthAtPeak : MaximumDepth;
     Sum rough;
     this->AddParts(a, b, goal, depth, rough);
     const Bands allowed = this->RelativeTolerance * rough.Value + tolerance;

@@ -113,6 +113,8 @@ private:
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
   /// For what cannot be cut at a bounded price; false for all else.
+  /// Whether two corners are the same.
+  static bool HaveEdge(const Triangle& a, const Triangle& b);
   bool AddWidePair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
   static void RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
     double relativeTolerance, double tolerance, Sum& sum);

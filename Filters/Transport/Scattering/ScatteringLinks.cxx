@@ -72,12 +72,13 @@ LinkKey ScatteringLinks::GetKey() const
 {
   LinkKey key{ "ScatteringLinks",
     { static_cast<double>(this->Model), static_cast<double>(this->Options.BurleyFit),
+      static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
       this->MillimetersPerUnit, this->Tolerance },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
     key.Parameters.insert(key.Parameters.end(),
-      { band.Scattering, band.Absorption, band.RefractiveIndex });
+      { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
   return key;
 }
@@ -110,6 +111,10 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   if (!built)
   {
     return built;
+  }
+  for (const auto& profile : profiles)
+  {
+    links.ProfileErrors.push_back(profile->GetError());
   }
   Summarize(summary, ranks, this->Tolerance, links);
   links.Summaries.emplace_back("LinkSeconds", vtkTimerLog::GetUniversalTime() - begin);

@@ -14,6 +14,8 @@ struct ScatteringMedium
   ///@}
   /// Relative to the outside, at least 1.
   double RefractiveIndex;
+  /// Mean cosine of the angle of scattering, for models that look at more than the reduced one.
+  double Anisotropy = 0.0;
 };
 } // namespace LightTransport
 

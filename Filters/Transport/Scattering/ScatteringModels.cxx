@@ -6,6 +6,7 @@
 #include "Scattering/ChristensenBurleyProfile.h"
 #include "Scattering/DipoleProfile.h"
 #include "Scattering/PhotonBeamProfile.h"
+#include "Scattering/TabulatedProfile.h"
 #include "vtkSubsurfaceScattering.h"
 
 #include <algorithm>
@@ -29,6 +30,13 @@ std::unique_ptr<const ScatteringProfile> MakeChristensenBurley(const ScatteringM
   const ScatteringOptions& options)
 {
   return std::make_unique<const ChristensenBurleyProfile>(medium, options.BurleyFit);
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<const ScatteringProfile> MakeTabulated(const ScatteringMedium& medium,
+  const ScatteringOptions& options)
+{
+  return std::make_unique<const TabulatedProfile>(medium, options.NumberOfPhotons, options.Seed);
 }
 
 //------------------------------------------------------------------------------
@@ -64,6 +72,7 @@ const std::vector<ScatteringModel>& ScatteringModels::GetAll()
       Make<PhotonBeamProfile> },
     { vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY, "ChristensenBurley",
       MakeChristensenBurley },
+    { vtkSubsurfaceScattering::MODEL_TABULATED, "Tabulated", MakeTabulated },
   };
   return models;
 }

@@ -12,6 +12,7 @@
 #include "Scattering/ScatteringProfile.h"
 #include "Shared/Outcome.h"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct ScatteringOptions
 {
   /// In vtkSubsurfaceScattering::BurleyFitType.
   int BurleyFit = 1;
+  ///@{ Of the walk behind a tabulated profile; photons 0 for as many as is reasonable.
+  long long NumberOfPhotons = 0;
+  std::uint64_t Seed = 1;
+  ///@}
 };
 
 struct ScatteringModel

@@ -33,6 +33,9 @@ public:
   /// Integral of R_d over the whole plane. A model may claim more than 1, by its error.
   double GetTotal() const { return this->GetTail(0.0); }
 
+  /// Standard error of the total, relative, of a model that is not a formula.
+  virtual double GetError() const { return 0.0; }
+
   /**
    * moments[k] = integral from 0 to `radius` of R_d(r) r^(k + 1) dr, k = 0, 1, 2: what a polygon
    * gives back of the light that enters it needs no more. 2 pi moments[0] is the integral over a

@@ -27,7 +27,9 @@ Outcome FindArray(vtkPolyData* data, const std::string& name, vtkDataArray*& num
   numbers = vtkDataArray::SafeDownCast(array);
   if (array && !numbers)
   {
-    return Outcome::Failed("The cell array \"" + name + "\" is not numeric.");
+    return Outcome::Failed("The cell array \"" + name +
+      "\" is not numeric: it holds no numbers but a " + array->GetClassName() +
+      ". Give one of floats or doubles.");
   }
   if (!array && data->GetPointData()->HasArray(name.c_str()))
   {

@@ -59,7 +59,8 @@ public:
   template <typename T>
   std::vector<T> Gather(const std::vector<T>& mine) const;
 
-  /// Done where all ranks are; else the failure of the lowest rank that has one, or the abort.
+  /// Done where all ranks are; else the failure of the lowest rank that has one, with its number
+  /// where not all fail, or the abort.
   Outcome Agree(const Outcome& mine) const;
 
   /// Take a step, as LightTransport::Attempt does, on all ranks alike. Where it fails or throws on
@@ -73,6 +74,7 @@ private:
   {
   };
   void Meet(bool canGoOn = true) const;
+  Outcome Describe(int rank, bool isOfAll, const char* message) const;
 
   template <typename T>
   bool Reduce(T* values, std::size_t count, int operation) const;
@@ -128,7 +130,12 @@ Outcome Ranks::Attempt(const Step& step, const Advice& advice) const
   {
     return this->Agree(Outcome::Done());
   }
-  return mine ? mine : this->Agree(mine);
+  // Moved: a copy of the message would need memory.
+  if (mine || !this->AreSeveral())
+  {
+    return mine;
+  }
+  return this->Agree(mine);
 }
 } // namespace LightTransport
 

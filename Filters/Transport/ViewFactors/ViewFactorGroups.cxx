@@ -6,6 +6,7 @@
 #include "Links/Links.h"
 #include "Scene/CellArrays.h"
 #include "Shared/Threads.h"
+#include "Shared/TransportMemory.h"
 #include "Shared/ZeroedArray.h"
 #include "Support/Ranks.h"
 #include "vtkCPULinkOperator.h"
@@ -313,6 +314,7 @@ Outcome ViewFactorGroups::FillTable(const Links& links, const Groups& groups, do
   const std::vector<double>& areas = links.GetExchange()->GetAreas();
   const std::vector<double> groupAreas =
     SumPatches(groups, [&](std::size_t patch) { return areas[patch]; });
+  TransportMemory::RequireMargin();
   table->Initialize();
   vtkNew<vtkStringArray> names;
   names->SetName(GroupColumn);

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scatter IN OUT: diffuse subsurface scattering."""
 
-from vtklighttransport.shell.files import add_output, check_input, check_output, write_patches
+from vtklighttransport.shell.files import (
+    IMAGE_READERS, add_output, check_input, check_output, get_extension, read_file, write_patches)
 from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
 from vtklighttransport.shell.properties import (
     Choice, Color, InputArray, Number, Switch, add_arrays, add_properties, check_properties,
@@ -34,10 +35,12 @@ PROPERTIES = (
     Number("--target-error", "TargetError", float,
            "standard error of the result of monte-carlo, relative"),
     Number("--photons", "NumberOfPhotons", int,
-           "photons of monte-carlo; 0 for as many as --target-error asks"),
+           "photons of monte-carlo, 0 for as many as --target-error asks; of tabulated, 0 for as "
+           "many as a second or two allow"),
     Color("--anisotropy", "Anisotropy",
-          "mean cosine of the angle of scattering of red, green and blue, for monte-carlo"),
-    Number("--seed", "Seed", int, "of the random numbers of monte-carlo"),
+          "mean cosine of the angle of scattering of red, green and blue, for monte-carlo and "
+          "tabulated"),
+    Number("--seed", "Seed", int, "of the random numbers of monte-carlo and tabulated"),
     Choice("--incidence", "Incidence", "INCIDENCE_",
            "without a light: whether the mesh's array is diffuse irradiance or has entered the "
            "surface"),
@@ -61,6 +64,11 @@ def add_options(parser):
     add_lights(parser)
     add_properties(parser, "vtkSubsurfaceScattering", PROPERTIES)
     add_arrays(parser, [IRRADIANCE])
+    parser.add_argument(
+        "--medium", metavar="FILE",
+        help="for monte-carlo, a medium that varies: image (.vti) in the mesh's unit with the "
+             "arrays Scattering (reduced) and Absorption, per mm; around it, and for one that it "
+             "does not have, the options above hold")
 
 
 def check(options):
@@ -68,11 +76,15 @@ def check(options):
     check_output(options)
     check_mesh(options)
     check_properties(options, "vtkSubsurfaceScattering", PROPERTIES)
+    if options.medium and get_extension(options.medium) not in IMAGE_READERS:
+        options.parser.error(f"argument --medium: '{options.medium}' is not a .vti file")
 
 
 def run(options, messages):
     scattering = make_filter(options, "vtkSubsurfaceScattering", PROPERTIES)
     choose_arrays(options, scattering, [IRRADIANCE])
+    if options.medium:
+        scattering.SetInputData(1, read_file(options.medium, "image", options, messages))
     index = find_refractive_index(scattering)
     surface = light_scene(options, messages, read_scene(options, messages), index)
     if has_lights(options):

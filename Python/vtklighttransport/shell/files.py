@@ -18,6 +18,7 @@ READERS = {
     ".stl": ("vtkIOGeometry", "vtkSTLReader"),
     ".obj": ("vtkIOGeometry", "vtkOBJReader"),
 }
+IMAGE_READERS = {".vti": ("vtkIOXML", "vtkXMLImageDataReader")}
 
 
 def add_input(parser):
@@ -35,21 +36,26 @@ def get_extension(file):
 
 def make_reader(file):
     """The reader for the file's extension."""
-    module, name = READERS[get_extension(file)]
+    module, name = (READERS | IMAGE_READERS)[get_extension(file)]
     reader = getattr(importlib.import_module("vtkmodules." + module), name)()
     reader.SetFileName(file)
     return reader
 
 
 def read(options, messages):
-    if not os.path.isfile(options.input):
-        raise Failure(f"cannot read {options.input}: no such file")
+    return read_file(options.input, "surface", options, messages)
+
+
+def read_file(file, kind, options, messages):
+    """What is in the file, which must not be empty."""
+    if not os.path.isfile(file):
+        raise Failure(f"cannot read {file}: no such file")
     try:
-        data = Stage("read", make_reader(options.input), options.quiet).run(messages)
+        data = Stage("read", make_reader(file), options.quiet).run(messages)
     except Failure as failure:
-        raise Failure(f"cannot read {options.input}") from failure
+        raise Failure(f"cannot read {file}") from failure
     if data.GetNumberOfPoints() == 0:
-        raise Failure(f"cannot read {options.input}: no surface in it")
+        raise Failure(f"cannot read {file}: no {kind} in it")
     return data
 
 

@@ -53,6 +53,13 @@ private:
 class ThreadCommunicator : public vtkCommunicator
 {
 public:
+  /// Whether this thread is in a call, whose memory is none of what is tested.
+  static bool& IsCalled()
+  {
+    thread_local bool called = false;
+    return called;
+  }
+
   static ThreadCommunicator* New() { VTK_STANDARD_NEW_BODY(ThreadCommunicator); }
   vtkTypeMacro(ThreadCommunicator, vtkCommunicator);
 
@@ -80,6 +87,29 @@ public:
     return this->Count <= length ? 1 : 0;
   }
 
+  int AllReduceVoidArray(const void* mine, void* all, vtkIdType length, int type,
+    int operation) override
+  {
+    const Call call;
+    return this->Superclass::AllReduceVoidArray(mine, all, length, type, operation);
+  }
+  int AllGatherVoidArray(const void* mine, void* all, vtkIdType length, int type) override
+  {
+    const Call call;
+    return this->Superclass::AllGatherVoidArray(mine, all, length, type);
+  }
+  int AllGatherVVoidArray(const void* mine, void* all, vtkIdType length, vtkIdType* lengths,
+    vtkIdType* offsets, int type) override
+  {
+    const Call call;
+    return this->Superclass::AllGatherVVoidArray(mine, all, length, lengths, offsets, type);
+  }
+  int BroadcastVoidArray(void* data, vtkIdType length, int type, int from) override
+  {
+    const Call call;
+    return this->Superclass::BroadcastVoidArray(data, length, type, from);
+  }
+
 protected:
   ThreadCommunicator() = default;
   ~ThreadCommunicator() override = default;
@@ -87,6 +117,14 @@ protected:
 private:
   ThreadCommunicator(const ThreadCommunicator&) = delete;
   void operator=(const ThreadCommunicator&) = delete;
+
+  struct Call
+  {
+    Call() { IsCalled() = true; }
+    ~Call() { IsCalled() = false; }
+    Call(const Call&) = delete;
+    void operator=(const Call&) = delete;
+  };
 
   Mailbox* Box = nullptr;
 };

@@ -9,6 +9,7 @@
 #include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkTransform.h"
+#include "vtkTrivialProducer.h"
 
 #include <algorithm>
 
@@ -283,6 +284,15 @@ void TestEnvironment()
     CheckClose(GetValue(filter, k) - quarter[k], 0.0, 3e-2,
       "quarter sky, square " + std::to_string(k));
   }
+  // From a pipeline that changes, as readers do, and from nothing again.
+  vtkNew<vtkTrivialProducer> reader;
+  reader->SetOutput(MakeEnvironment(1, [](double, double latitude) { return latitude > 0.5; }));
+  filter->SetInputConnection(1, reader->GetOutputPort());
+  CheckClose(GetValue(filter, 0), pi, 3e-2, "upper half sky from a reader");
+  reader->SetOutput(MakeEnvironment(1, [](double, double latitude) { return latitude < 0.5; }));
+  CheckClose(GetValue(filter, 1), pi, 3e-2, "lower half sky from a reader");
+  filter->SetEnvironment(nullptr);
+  Check(!filter->GetEnvironment() && filter->GetNumberOfInputConnections(1) == 0, "no sky");
 }
 
 //------------------------------------------------------------------------------

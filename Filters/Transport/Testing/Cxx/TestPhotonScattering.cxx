@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Monte Carlo in meshes, through the filter: its errors, its totals, and bodies of every kind.
-#include "LightTransportTesting.h"
-#include "MessageLog.h"
-#include "vtkExecutive.h"
+#include "Links/Links.h"
+#include "PhotonScatteringTesting.h"
+#include "Photons/PhotonLinks.h"
+#include "RanksInThreads.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkReverseSense.h"
 #include "vtkSMPTools.h"
-#include "vtkSubsurfaceScattering.h"
 
 #include <algorithm>
 #include <functional>
@@ -16,29 +16,6 @@ using namespace LightTransportTesting;
 
 namespace
 {
-// Of a box with these corners, faces cut into as many quadrilaterals a side as the axis says.
-void AddBox(Surface& surface, const Point& low, const Point& high, int cuts = 1)
-{
-  const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-  surface.AddGrid(low, { 0, y, 0 }, { x, 0, 0 }, cuts, cuts);
-  surface.AddGrid({ low[0], low[1], high[2] }, { x, 0, 0 }, { 0, y, 0 }, cuts, cuts);
-  surface.AddGrid(low, { x, 0, 0 }, { 0, 0, z }, cuts, cuts);
-  surface.AddGrid({ low[0], high[1], low[2] }, { 0, 0, z }, { x, 0, 0 }, cuts, cuts);
-  surface.AddGrid(low, { 0, 0, z }, { 0, y, 0 }, cuts, cuts);
-  surface.AddGrid({ high[0], low[1], low[2] }, { 0, y, 0 }, { 0, 0, z }, cuts, cuts);
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> MakeBox(const Point& low, const Point& high, int cuts = 1,
-  bool single = false)
-{
-  Surface surface(single);
-  AddBox(surface, low, high, cuts);
-  auto data = surface.Get();
-  AddArray(data, "Irradiance", { 1.0 });
-  return data;
-}
-
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MakeSphere(int levels)
 {
@@ -50,69 +27,10 @@ vtkSmartPointer<vtkPolyData> MakeSphere(int levels)
 }
 
 //------------------------------------------------------------------------------
-struct Run
-{
-  vtkNew<vtkSubsurfaceScattering> Filter;
-  vtkNew<MessageLog> Errors;
-  vtkNew<MessageLog> Warnings;
-
-  explicit Run(vtkDataObject* data)
-  {
-    this->Filter->SetInputDataObject(data);
-    this->Filter->SetModelToMonteCarlo();
-    this->Filter->SetNumberOfPhotons(20000);
-    this->Filter->AddObserver(vtkCommand::ErrorEvent, this->Errors);
-    this->Filter->AddObserver(vtkCommand::WarningEvent, this->Warnings);
-    this->Filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Errors);
-  }
-
-  void SetMedium(double scattering, double absorption, double index)
-  {
-    this->Filter->SetScatteringCoefficient(scattering, scattering, scattering);
-    this->Filter->SetAbsorptionCoefficient(absorption, absorption, absorption);
-    this->Filter->SetRefractiveIndex(index);
-  }
-
-  vtkDataArray* Get(const char* name) const
-  {
-    auto* output = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
-    vtkDataArray* array = output ? output->GetCellData()->GetArray(name) : nullptr;
-    Check(array != nullptr, std::string("the output has ") + name);
-    return array;
-  }
-  double GetNumber(const char* name) const
-  {
-    return GetSummary(this->Filter->GetOutputDataObject(0), name);
-  }
-  // What entered and is told of.
-  double GetAccounted() const
-  {
-    return this->GetNumber("LeavingShare") + this->GetNumber("UnscatteredShare") +
-      this->GetNumber("LostShare");
-  }
-};
-
-//------------------------------------------------------------------------------
-void CheckFails(Run& run, const std::string& part, const std::string& what)
-{
-  run.Filter->Update();
-  Check(run.Errors->GetAll().find(part) != std::string::npos,
-    what + " is refused with \"" + part + "\", not \"" + run.Errors->GetAll() + "\"");
-}
-
-//------------------------------------------------------------------------------
-void CheckWorks(Run& run, const std::string& what)
-{
-  run.Filter->Update();
-  Check(run.Errors->GetAll().empty() && run.Warnings->GetAll().empty(),
-    what + " says: " + run.Errors->GetAll() + run.Warnings->GetAll());
-}
-
-//------------------------------------------------------------------------------
 /// A sphere in even light: all patches get the same, and differ as their errors say.
 void TestErrorsOfPatches()
 {
-  Run run(MakeSphere(3));
+  PhotonRun run(MakeSphere(3));
   run.Filter->SetMaterialToMarble();
   run.Filter->SetMillimetersPerUnit(3.77);
   run.Filter->SetNumberOfPhotons(300000);
@@ -157,7 +75,7 @@ void TestTotals()
   for (const Case& test :
     { Case{ 0.9, 1.5, 0.216112, 0.0917779 }, Case{ 0.8, 1.0, 0.341867, 0.0 } })
   {
-    Run run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2));
+    PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2));
     run.SetMedium(test.Albedo, 1.0 - test.Albedo, test.Index);
     run.Filter->SetMillimetersPerUnit(2e4);
     run.Filter->SetNumberOfPhotons(100000);
@@ -171,9 +89,22 @@ void TestTotals()
 }
 
 //------------------------------------------------------------------------------
+/// Nothing bends the light at an index of 1: near edges it could leave through one face and enter
+/// through the other for ever.
+void TestEdges()
+{
+  PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  run.SetMedium(1.0, 0.005, 1.0);
+  run.Filter->SetMillimetersPerUnit(60.0);
+  run.Filter->SetNumberOfPhotons(400000);
+  CheckWorks(run, "edges at an index of 1");
+  CheckClose(run.GetNumber("EntriesPerPhoton"), 1.0, 1e-5, "a box is entered once");
+}
+
+//------------------------------------------------------------------------------
 void TestTarget()
 {
-  Run run(MakeSphere(1));
+  PhotonRun run(MakeSphere(1));
   run.Filter->SetNumberOfPhotons(0);
   run.Filter->SetTargetError(0.02);
   CheckWorks(run, "a target of 2 %");
@@ -191,7 +122,7 @@ std::vector<double> GetResult(int threads, int seed)
   std::vector<double> result;
   const auto work = [&]()
   {
-    Run run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
+    PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
     run.Filter->SetSeed(seed);
     run.Filter->SetAnisotropy(0.0, 0.5, 0.5);
     run.Filter->Update();
@@ -220,7 +151,7 @@ void TestBodies()
   const auto check = [](vtkDataObject* data, const std::string& what,
                        const std::function<void(vtkSubsurfaceScattering*)>& change = {})
   {
-    Run run(data);
+    PhotonRun run(data);
     run.SetMedium(1.0, 0.0, 1.4);
     if (change)
     {
@@ -283,7 +214,7 @@ void TestLinks()
   };
   auto even = makeBody();
   AddArray(even, "Irradiance", { 1.0, 1.0, 1.0 });
-  Run links(even);
+  PhotonRun links(even);
   links.Filter->SetLinkMethodToDense();
   links.Filter->SetNumberOfPhotons(1000000);
   links.Filter->SetScatteringCoefficient(2.0, 1.0, 0.5);
@@ -299,7 +230,7 @@ void TestLinks()
   CheckWorks(links, "links of photons in other light");
   CheckClose(links.GetNumber("LinksReused"), 1.0, 0.0, "links are kept");
 
-  Run photons(uneven);
+  PhotonRun photons(uneven);
   photons.Filter->SetNumberOfPhotons(1000000);
   photons.Filter->SetSeed(2);
   photons.Filter->SetScatteringCoefficient(2.0, 1.0, 0.5);
@@ -309,7 +240,7 @@ void TestLinks()
   const vtkIdType values = 3 * uneven->GetNumberOfCells();
   for (vtkIdType k = 0; k < values; ++k)
   {
-    const auto get = [k](const Run& run, const char* name)
+    const auto get = [k](const PhotonRun& run, const char* name)
     { return run.Get(name)->GetComponent(k / 3, k % 3); };
     const double deviation =
       (get(links, "ScatteredIrradiance") - get(photons, "ScatteredIrradiance")) /
@@ -324,7 +255,7 @@ void TestLinks()
 //------------------------------------------------------------------------------
 void TestMedia()
 {
-  Run nothing(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  PhotonRun nothing(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   nothing.SetMedium(0.0, 0.5, 1.3);
   CheckWorks(nothing, "a medium that does not scatter");
   double range[2];
@@ -334,13 +265,13 @@ void TestMedia()
   CheckClose(range[1], 0.0, 0.0, "and that is certain");
   Check(nothing.GetNumber("UnscatteredShare") > 0.1, "but some runs through");
 
-  Run dark(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  PhotonRun dark(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   AddArray(vtkPolyData::SafeDownCast(dark.Filter->GetInputDataObject(0, 0)), "Irradiance", { 0.0 });
   CheckWorks(dark, "no light");
   CheckClose(dark.GetNumber("PhotonsTraced"), 0.0, 0.0, "no photons without light");
 
   // Only what is lit starts photons, and the far side has the error of one where none arrives.
-  Run lit(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  PhotonRun lit(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   lit.SetMedium(1.0, 0.1, 1.3);
   lit.Filter->SetMillimetersPerUnit(200.0);
   auto* light = vtkPolyData::SafeDownCast(lit.Filter->GetInputDataObject(0, 0));
@@ -353,6 +284,54 @@ void TestMedia()
 }
 
 //------------------------------------------------------------------------------
+/// Photons and links are the same to the last bit on one rank and on three.
+void TestRanks()
+{
+  using namespace LightTransport;
+  auto body = MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3);
+  const std::vector<ScatteringMedium> media = { { 1.0, 0.1, 1.3 }, { 2.0, 0.1, 1.3 },
+    { 1.0, 0.2, 1.3 } };
+  PhotonScattering::Settings settings;
+  settings.NumberOfPhotons = 20000;
+  const auto compute = [&](const Ranks& ranks, std::vector<double>& result)
+  {
+    PatchScene scene;
+    Check(bool(scene.Build(body, Ranks())), "scene built");
+    const std::size_t values = 3 * scene.GetNumberOfPatches();
+    const PhotonScattering scattering(scene,
+      PhotonScattering::GetMedia(media, { 0.0, 0.0, 0.3 }, scene.GetScale()), 1.3, nullptr);
+    PhotonScattering::Result photons;
+    Check(
+      bool(scattering.Run(std::vector<double>(values, 1.0), settings, ranks, Monitor(), photons)),
+      "photons followed");
+    result = photons.Scattered;
+    result.insert(result.end(), photons.Errors.begin(), photons.Errors.end());
+    Links links;
+    const PhotonLinks builder(media, { 0.0, 0.0, 0.3 }, 1.0, settings, nullptr);
+    Check(bool(builder.Build(scene, ranks, Monitor(), links)), "links built");
+    std::vector<double> all;
+    for (std::size_t k = 0; k < values * values / 3; ++k)
+    {
+      const auto patches = static_cast<vtkIdType>(values / 3);
+      const auto pair = static_cast<vtkIdType>(k / 3);
+      all.push_back(
+        links.Matrix->GetValue(pair / patches, pair % patches, static_cast<int>(k % 3)));
+    }
+    ranks.Sum(all);
+    result.insert(result.end(), all.begin(), all.end());
+  };
+  std::vector<double> one, three[3];
+  compute(Ranks(), one);
+  RunRanks(3,
+    [&](vtkMultiProcessController* controller, int rank)
+    { compute(Ranks(controller), three[rank]); });
+  for (const std::vector<double>& result : three)
+  {
+    Check(result == one, "three ranks get the bits of one");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestRefusals()
 {
   Surface lid;
@@ -362,13 +341,13 @@ void TestRefusals()
   open.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 2, 2);
   auto sheet = open.Get();
   AddArray(sheet, "Irradiance", { 1.0 });
-  Run hole(sheet);
+  PhotonRun hole(sheet);
   CheckFails(hole, "The surface is open: 8 edges", "a sheet of one side");
 
   vtkNew<vtkReverseSense> turn;
   turn->SetInputData(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   turn->Update();
-  Run inside(turn->GetOutput());
+  PhotonRun inside(turn->GetOutput());
   CheckFails(inside, "The surface around (0.5, 0.5, 0.5) is inside out", "an inside-out box");
 
   // A sheet of two sides in one place.
@@ -377,7 +356,7 @@ void TestRefusals()
   both.AddGrid({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, 2, 2);
   auto sides = both.Get();
   AddArray(sides, "Irradiance", { 1.0 });
-  Run flat(sides);
+  PhotonRun flat(sides);
   CheckFails(flat, "has no inside", "a sheet of two sides");
 
   Surface crossing;
@@ -385,18 +364,18 @@ void TestRefusals()
   AddBox(crossing, { 0.5, 0.3, 0.3 }, { 1.7, 0.8, 0.8 }, 2);
   auto crossed = crossing.Get();
   AddArray(crossed, "Irradiance", { 1.0 });
-  Run across(crossed);
+  PhotonRun across(crossed);
   CheckFails(across, "the surface crosses itself", "bodies that cross");
 
   AddArray(box, "Irradiance", { -1.0 });
-  Run negative(box);
+  PhotonRun negative(box);
   CheckFails(negative, "negative", "negative light");
 
-  Run strange(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  PhotonRun strange(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   strange.Filter->SetAnisotropy(0.0, 1.0, 0.0);
   CheckFails(strange, "Component 1 of Anisotropy is 1", "an anisotropy of 1");
 
-  Run device(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
+  PhotonRun device(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }));
   device.Filter->SetDeviceToOpenGL();
   device.Filter->Update();
   Check(!device.Errors->GetAll().empty(), "OpenGL is refused");
@@ -408,11 +387,13 @@ int TestPhotonScattering(int, char*[])
 {
   TestErrorsOfPatches();
   TestTotals();
+  TestEdges();
   TestTarget();
   TestSameBits();
   TestBodies();
   TestLinks();
   TestMedia();
   TestRefusals();
+  TestRanks();
   return Result();
 }

@@ -18,6 +18,9 @@ namespace
 // What ScatteringProfile::GetDecay promises of the logarithm's slope, and by how much it may be
 // off.
 constexpr double MostSlope = 1.1;
+// A table of few photons keeps what a table promises.
+const ScatteringOptions Options{ 1, 4096 };
+
 // By its error the total of a model may exceed 1 where nothing is absorbed (index 1).
 constexpr double LargestTotal = 1.154;
 
@@ -63,7 +66,7 @@ void TestUnknown()
   for (const ScatteringModel& model : ScatteringModels::GetAll())
   {
     ScatteringProfiles profiles;
-    const Outcome made = ScatteringModels::MakeProfiles(model.Number, {}, bands, profiles);
+    const Outcome made = ScatteringModels::MakeProfiles(model.Number, Options, bands, profiles);
     Check(made && profiles.size() == bands.size(), std::string("three bands of ") + model.Name);
   }
 }
@@ -165,7 +168,7 @@ void TestValues()
     {
       for (const double index : { 1.0, 1.3, 1.5 })
       {
-        const auto profile = model.MakeProfile({ albedo, 1.0 - albedo, index }, {});
+        const auto profile = model.MakeProfile({ albedo, 1.0 - albedo, index }, Options);
         CheckValues(*profile,
           std::string(model.Name) + ", albedo " + std::to_string(albedo) + ", index " +
             std::to_string(index) + ": ");
@@ -186,7 +189,7 @@ void TestContract()
         for (const double extinction : { 1e-3, 1.0, 1e3 })
         {
           const auto profile =
-            model.MakeProfile({ albedo * extinction, (1.0 - albedo) * extinction, index }, {});
+            model.MakeProfile({ albedo * extinction, (1.0 - albedo) * extinction, index }, Options);
           CheckProfile(*profile,
             std::string(model.Name) + ", albedo " + std::to_string(albedo) + ", index " +
               std::to_string(index) + ", " + std::to_string(extinction) + " per mm, ");

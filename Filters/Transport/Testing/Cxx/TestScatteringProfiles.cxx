@@ -382,27 +382,28 @@ void TestInternalMoments()
 /// No scattering, nothing leaves; hardly any absorption is none; lengths scale.
 void TestLimits()
 {
+  const ScatteringOptions options{ 1, 4096 };
   for (const ScatteringModel& model : ScatteringModels::GetAll())
   {
     const std::string what = std::string(model.Name) + ": ";
-    const auto dark = model.MakeProfile({ 0.0, 1.0, 1.3 }, {});
+    const auto dark = model.MakeProfile({ 0.0, 1.0, 1.3 }, options);
     double moments[3];
     dark->GetMoments(1.0, moments);
     Check(dark->GetTotal() == 0.0 && dark->GetTail(1.0) == 0.0 && moments[0] == 0.0 &&
         dark->Evaluate(0.3) == 0.0,
       what + "no scattering");
-    const auto clear = model.MakeProfile({ 1.0, 0.0, 1.3 }, {});
-    const auto almost = model.MakeProfile({ 1.0 - 1e-9, 1e-9, 1.3 }, {});
+    const auto clear = model.MakeProfile({ 1.0, 0.0, 1.3 }, options);
+    const auto almost = model.MakeProfile({ 1.0 - 1e-9, 1e-9, 1.3 }, options);
     CheckClose(almost->GetTotal(), clear->GetTotal(), 3e-4, what + "total at 1 - 1e-9");
     CheckClose(almost->Evaluate(1.0), clear->Evaluate(1.0), 3e-4, what + "profile at 1 - 1e-9");
-    const auto small = model.MakeProfile({ 900.0, 100.0, 1.3 }, {});
-    const auto large = model.MakeProfile({ 0.0009, 0.0001, 1.3 }, {});
+    const auto small = model.MakeProfile({ 900.0, 100.0, 1.3 }, options);
+    const auto large = model.MakeProfile({ 0.0009, 0.0001, 1.3 }, options);
     CheckClose(small->GetTotal(), large->GetTotal(), 1e-9, what + "total at any length");
     CheckClose(small->GetTail(2e-3), large->GetTail(2e3), 1e-9, what + "tail at any length");
     CheckClose(1e-6 * small->Evaluate(2e-3), 1e6 * large->Evaluate(2e3), 1e-9,
       what + "profile at any length");
-    const auto matched = model.MakeProfile({ 0.9, 0.1, 1.0 }, {});
-    const auto nearly = model.MakeProfile({ 0.9, 0.1, 1.0 + 1e-7 }, {});
+    const auto matched = model.MakeProfile({ 0.9, 0.1, 1.0 }, options);
+    const auto nearly = model.MakeProfile({ 0.9, 0.1, 1.0 + 1e-7 }, options);
     // The classical dipole's polynomial jumps at an index of 1, by 0.0017.
     CheckClose(nearly->GetTotal(), matched->GetTotal(), model.Number == 0 ? 2e-3 : 1e-5,
       what + "index 1");

@@ -141,9 +141,10 @@ class OncePath : public UniformPath
 {
 public:
   using UniformPath::UniformPath;
-  bool Scatter(PhotonRandom& random)
+  PhotonEvent Meet(PhotonRandom& random)
   {
-    return UniformPath::Scatter(random) && this->GetNumberOfScatterings() < 2;
+    const PhotonEvent event = UniformPath::Meet(random);
+    return this->GetNumberOfScatterings() < 2 ? event : PhotonEvent::ENDED;
   }
 };
 

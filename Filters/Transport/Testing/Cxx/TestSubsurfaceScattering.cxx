@@ -490,9 +490,10 @@ int TestSubsurfaceScattering(int, char*[])
   TestSphere(0.1, 3, 1e-4);
   TestSphere(1.0, 3, 1e-4);
   TestExtrapolatedSphere(10.0);
-  for (const int model : { vtkSubsurfaceScattering::MODEL_BETTER_DIPOLE,
-         vtkSubsurfaceScattering::MODEL_PHOTON_BEAM_DIFFUSION,
-         vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY })
+  for (const int model :
+    { vtkSubsurfaceScattering::MODEL_BETTER_DIPOLE,
+      vtkSubsurfaceScattering::MODEL_PHOTON_BEAM_DIFFUSION,
+      vtkSubsurfaceScattering::MODEL_CHRISTENSEN_BURLEY, vtkSubsurfaceScattering::MODEL_TABULATED })
   {
     TestExtrapolatedSphere(2.0, model);
   }

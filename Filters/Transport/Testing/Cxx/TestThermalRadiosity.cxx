@@ -683,7 +683,7 @@ void TestRanks()
     });
   for (const std::string& error : errors)
   {
-    Check(error.find("is 3.000000 at polygon 4") != std::string::npos, "all know: " + error);
+    Check(error.find("is 3 at polygon 4") != std::string::npos, "all know: " + error);
   }
 }
 } // namespace

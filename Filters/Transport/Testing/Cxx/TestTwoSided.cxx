@@ -486,7 +486,7 @@ void TestMessages()
   Expect(radiosity, "\"EmissionBack\" has 2 components where \"Emission\" has 1");
   AddArray(data, "EmissionBack", { -1.0 });
   data->Modified();
-  Expect(radiosity, "\"Emission\" is -1.000000 at the back of polygon 0");
+  Expect(radiosity, "\"Emission\" is -1 at the back of polygon 0");
   AddArray(data, "EmissionBack", { 0.0 });
   AddArray(data, "DirectIrradiance", { 1.0 });
   data->Modified();

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What leaves a flat, semi-infinite medium over the distance from where it entered, by photons that
+ * walk in it (PhotonWalk). Lengths are reduced mean free paths, 1 / (sigma_s' + sigma_a), so that a
+ * table serves media of any size.
+ *
+ * Photons are counted in rings whose radii grow by a factor. Of what these hold the shape
+ *
+ *   M(r) = g(kappa r) / (r (1 + r^2 / 9)),   g(x) = (1 + x) exp(-x)
+ *
+ * is taken off, which is how every such profile begins (single scattering) and ends (diffusion,
+ * whose decay kappa is exact here), and a smooth spline is drawn through the logarithm of the rest,
+ * by the weights of the rings' standard errors (P. Eilers, B. Marx, "Flexible smoothing with
+ * B-splines and penalties", Statistical Science 11, 1996). Beyond the first and the last ring that
+ * enough photons have reached the spline goes on as a constant, so that the profile goes on as M.
+ * It is made to fall everywhere, and its total is that of the walk.
+ *
+ * Where less than 1e-4 is absorbed the walk is that of 1e-4, which ends in bounded time, and g that
+ * of the medium: what the walk lacks leaves so far away that diffusion is exact.
+ */
+#ifndef HalfSpaceTable_h
+#define HalfSpaceTable_h
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace LightTransport
+{
+class HalfSpaceTable
+{
+public:
+  struct Settings
+  {
+    double Albedo; ///< sigma_s' / (sigma_s' + sigma_a), above 0
+    double RefractiveIndex;
+    double Anisotropy;
+    /// 0: as many as about a second of CPU time allows.
+    long long NumberOfPhotons = 0;
+    std::uint64_t Seed = 1;
+    /// Light that enters along the normal instead of diffuse light, as published tables have it.
+    bool IsNormal = false;
+  };
+
+  explicit HalfSpaceTable(const Settings& settings);
+
+  /// The same table where it is kept from before, by this process: the last few are. Thread-safe.
+  static std::shared_ptr<const HalfSpaceTable> Get(const Settings& settings);
+
+  /// kappa. `absorption` is 1 - albedo, which that difference may not hold to all digits.
+  static double GetDecay(double absorption, double anisotropy);
+
+  /// Of what entered, per unit area. `decay` is that of the medium.
+  double Evaluate(double radius, double decay) const;
+
+  /// Standard error of what leaves in all, relative.
+  double GetError() const { return this->Error; }
+  long long GetNumberOfPhotons() const { return this->Photons; }
+
+private:
+  class Rings;
+
+  static double GetShape(double radius, double decay);
+  double Interpolate(double position) const;
+  double SumRing(int ring, double decay) const;
+  void Fit(const Rings& rings, double extinction, double decay);
+  void Smooth(const std::vector<double>& logarithms, const std::vector<double>& weights,
+    double extinction);
+  void LimitRise();
+
+  std::vector<double> Controls; ///< of a uniform cubic spline over the logarithm of the radius
+  double Error = 0.0;
+  long long Photons = 0;
+};
+} // namespace LightTransport
+
+#endif
