@@ -147,10 +147,10 @@ Outcome vtkSubsurfaceScattering::Run::Check()
   {
     return device;
   }
-  if (this->IsMonteCarlo() && this->Owner->Device == DEVICE_OPENGL)
+  if (this->FollowsPhotons() && this->Owner->Device == DEVICE_OPENGL)
   {
     return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "
-                           "CPU. Set Device to Auto.");
+                           "CPU. Set Device to Auto, or LinkMethod to Dense.");
   }
   if (this->Owner->GetNumberOfInputConnections(1) > 0 && !this->IsMonteCarlo())
   {
