@@ -308,6 +308,10 @@ struct WatchedPoints
   friend Point& get(const WatchedPoints& points, Vertex vertex)
   {
     points.Heart->Beat();
+    if ((*points.ReadsLeft)-- == 0)
+    {
+      throw TooMuchWork();
+    }
     return get(points.Points, vertex);
   }
   friend void put(const WatchedPoints& points, Vertex vertex, const Point& point)
@@ -317,6 +321,11 @@ struct WatchedPoints
 
   Mesh::Property_map<Vertex, Point> Points;
   Heartbeat* Heart;
+  std::size_t* ReadsLeft;
+
+  struct TooMuchWork
+  {
+  };
 };
 
 // Where algorithms take no such points: predicates that hear it.
@@ -365,6 +374,29 @@ struct WatchedFilling : public PMP::Hole_filling::Default_visitor
 };
 
 //------------------------------------------------------------------------------
+// Whether two meshes are within a distance of each other; false also where that takes too much
+// work.
+bool IsNear(const Mesh& a, const Mesh& b, double distance, Heartbeat& heart)
+{
+  // Of meshes that agree nowhere some distances are cut into triangles without end, a gigabyte and
+  // more of them; others take some dozens of reads for each face.
+  constexpr std::size_t leastReads = 20000000;
+  constexpr std::size_t readsPerFace = 500;
+  std::size_t reads = leastReads + readsPerFace * (a.number_of_faces() + b.number_of_faces());
+  try
+  {
+    return !PMP::is_Hausdorff_distance_larger<CGAL::Sequential_tag>(a, b, distance, 0.01 * distance,
+      CGAL::parameters::use_one_sided_hausdorff(false).vertex_point_map(
+        WatchedPoints{ a.points(), &heart, &reads }),
+      CGAL::parameters::vertex_point_map(WatchedPoints{ b.points(), &heart, &reads }));
+  }
+  catch (const WatchedPoints::TooMuchWork&)
+  {
+    return false;
+  }
+}
+
+//------------------------------------------------------------------------------
 bool Resolve(Mesh& mesh, double distance, Heartbeat& heart, const Monitor& monitor)
 {
   Mesh old = mesh;
@@ -383,11 +415,7 @@ bool Resolve(Mesh& mesh, double distance, Heartbeat& heart, const Monitor& monit
       .visitor(WatchedResolving(heart)));
   mesh.collect_garbage();
   return !HasDegenerateTriangle(mesh) && FindIntersections(mesh, monitor).empty() &&
-    GetTopology(mesh) == GetTopology(old) &&
-    !PMP::is_Hausdorff_distance_larger<CGAL::Sequential_tag>(old, mesh, distance, 0.01 * distance,
-      CGAL::parameters::use_one_sided_hausdorff(false).vertex_point_map(
-        WatchedPoints{ old.points(), &heart }),
-      CGAL::parameters::vertex_point_map(WatchedPoints{ mesh.points(), &heart }));
+    GetTopology(mesh) == GetTopology(old) && IsNear(old, mesh, distance, heart);
 }
 
 //------------------------------------------------------------------------------
