@@ -9,6 +9,7 @@
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
@@ -142,8 +143,13 @@ void TransportRun::Warn(const std::string& text) const
 //------------------------------------------------------------------------------
 std::string TransportRun::GetArrayName(int index, const char* defaultName) const
 {
+  // GetInputArrayInformation would make what is not there: VTK's garbage collector then takes
+  // memory, and ends the process where it gets none.
+  vtkInformationVector* arrays =
+    this->Filter->GetInformation()->Get(vtkAlgorithm::INPUT_ARRAYS_TO_PROCESS());
+  const bool isChosen = arrays && index < arrays->GetNumberOfInformationObjects();
   const char* name =
-    this->Filter->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
+    isChosen ? arrays->GetInformationObject(index)->Get(vtkDataObject::FIELD_NAME()) : nullptr;
   return name && *name ? name : defaultName;
 }
 
