@@ -389,8 +389,7 @@ Outcome vtkPatchMesher::ReadRegions(vtkPolyData* input, std::vector<int>& region
 {
   int association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
   vtkAbstractArray* array = this->GetInputAbstractArrayToProcess(0, input, association);
-  const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  const std::string name = chosen && *chosen ? chosen : DefaultRegionArray;
+  const std::string name = InputArrays::GetChosenName(this, 0, DefaultRegionArray);
   if (name == DefaultRegionArray)
   {
     // ParaView's default may come with the association of points.
@@ -426,8 +425,7 @@ Outcome vtkPatchMesher::ReadLengths(vtkPolyData* input, std::vector<double>& len
   int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
   vtkDataArray* array =
     vtkDataArray::SafeDownCast(this->GetInputAbstractArrayToProcess(1, input, association));
-  const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
-  const std::string name = chosen && *chosen ? chosen : DefaultLengthArray;
+  const std::string name = InputArrays::GetChosenName(this, 1, DefaultLengthArray);
   if (name == DefaultLengthArray)
   {
     association = vtkDataObject::FIELD_ASSOCIATION_POINTS;

@@ -7,9 +7,13 @@
 
 #include "Shared/Outcome.h"
 #include "vtkAbstractArray.h"
+#include "vtkAlgorithm.h"
 #include "vtkCellData.h"
+#include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
@@ -24,6 +28,20 @@ namespace LightTransport
 {
 namespace InputArrays
 {
+//------------------------------------------------------------------------------
+/// The array that a user has chosen for one of a filter's inputs, or `defaultName`.
+/// vtkAlgorithm::GetInputArrayInformation would make what is not there: VTK's garbage collector
+/// then takes memory, and ends the process where it gets none.
+inline std::string GetChosenName(vtkAlgorithm* filter, int index, const char* defaultName)
+{
+  vtkInformationVector* arrays =
+    filter->GetInformation()->Get(vtkAlgorithm::INPUT_ARRAYS_TO_PROCESS());
+  const bool isChosen = arrays && index < arrays->GetNumberOfInformationObjects();
+  const char* name =
+    isChosen ? arrays->GetInformationObject(index)->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  return name && *name ? name : defaultName;
+}
+
 //------------------------------------------------------------------------------
 /// What is wrong with the lengths of arrays of `kind` ("cell"), of which `count` are needed; empty
 /// where nothing is.

@@ -3,13 +3,13 @@
 #include "Run/TransportRun.h"
 
 #include "Scene/Leaves.h"
+#include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
 #include "Shared/TransportMemory.h"
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
@@ -143,14 +143,7 @@ void TransportRun::Warn(const std::string& text) const
 //------------------------------------------------------------------------------
 std::string TransportRun::GetArrayName(int index, const char* defaultName) const
 {
-  // GetInputArrayInformation would make what is not there: VTK's garbage collector then takes
-  // memory, and ends the process where it gets none.
-  vtkInformationVector* arrays =
-    this->Filter->GetInformation()->Get(vtkAlgorithm::INPUT_ARRAYS_TO_PROCESS());
-  const bool isChosen = arrays && index < arrays->GetNumberOfInformationObjects();
-  const char* name =
-    isChosen ? arrays->GetInformationObject(index)->Get(vtkDataObject::FIELD_NAME()) : nullptr;
-  return name && *name ? name : defaultName;
+  return InputArrays::GetChosenName(this->Filter, index, defaultName);
 }
 
 //------------------------------------------------------------------------------
