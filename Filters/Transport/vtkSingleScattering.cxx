@@ -77,10 +77,9 @@ private:
 Outcome vtkSingleScattering::Run::Check()
 {
   const MediumProperties properties{ this->Owner->Material, this->Owner->ScatteringCoefficient,
-    this->Owner->AbsorptionCoefficient, this->Owner->RefractiveIndex,
+    this->Owner->AbsorptionCoefficient, this->Owner->RefractiveIndex, this->Owner->Anisotropy,
     this->Owner->MillimetersPerUnit };
-  Outcome checked = properties.MakeMedia(this->Media);
-  return checked ? MediumProperties::CheckAnisotropy(this->Owner->Anisotropy) : checked;
+  return properties.MakeMedia(this->Media);
 }
 
 //------------------------------------------------------------------------------
@@ -104,9 +103,8 @@ Outcome vtkSingleScattering::Run::Link()
   {
     return closed;
   }
-  const double* anisotropies = this->Owner->Anisotropy;
   this->Marcher = std::make_unique<RayMarcher>(this->Scene,
-    PhotonScattering::GetMedia(this->Media, { anisotropies, anisotropies + LightBands },
+    PhotonScattering::GetMedia(this->Media,
       this->Scene.GetScale() * this->Owner->MillimetersPerUnit),
     this->Media[0].RefractiveIndex, this->Lights);
   return this->AllRanks.Agree(this->Marcher->Build());

@@ -112,7 +112,6 @@ private:
   {
     return this->IsMonteCarlo() && this->Owner->LinkMethod == LINK_METHOD_AUTO;
   }
-  std::vector<double> GetAnisotropies() const;
   PhotonScattering::Settings GetPhotonSettings() const;
   std::unique_ptr<LinkBuilder> MakeBuilder() const;
   Outcome CheckLost(double share) const;
@@ -157,18 +156,12 @@ Outcome vtkSubsurfaceScattering::Run::Check()
     return Outcome::Failed("A medium that varies is connected (input port 1), and Model is a "
                            "profile of uniform media: set Model to MonteCarlo, or disconnect it.");
   }
+  // Links of other profiles do not depend on it.
+  const bool isAnisotropic = this->IsMonteCarlo() || this->IsTabulated();
   const MediumProperties properties{ this->Owner->Material, this->Owner->ScatteringCoefficient,
     this->Owner->AbsorptionCoefficient, this->Owner->RefractiveIndex,
-    this->Owner->MillimetersPerUnit };
-  Outcome checked = properties.MakeMedia(this->Media);
-  // Links of other profiles do not depend on it.
-  for (int band = 0; checked && this->IsTabulated() && band < Bands; ++band)
-  {
-    this->Media[band].Anisotropy = this->Owner->Anisotropy[band];
-  }
-  const bool isAnisotropic = this->IsMonteCarlo() || this->IsTabulated();
-  return checked && isAnisotropic ? MediumProperties::CheckAnisotropy(this->Owner->Anisotropy)
-                                  : checked;
+    isAnisotropic ? this->Owner->Anisotropy : nullptr, this->Owner->MillimetersPerUnit };
+  return properties.MakeMedia(this->Media);
 }
 
 //------------------------------------------------------------------------------
@@ -287,8 +280,8 @@ std::unique_ptr<LinkBuilder> vtkSubsurfaceScattering::Run::MakeBuilder() const
 {
   if (this->IsMonteCarlo())
   {
-    return std::make_unique<PhotonLinks>(this->Media, this->GetAnisotropies(),
-      this->Owner->MillimetersPerUnit, this->GetPhotonSettings(), this->Image.get());
+    return std::make_unique<PhotonLinks>(this->Media, this->Owner->MillimetersPerUnit,
+      this->GetPhotonSettings(), this->Image.get());
   }
   ScatteringOptions options;
   options.BurleyFit = this->Owner->BurleyFit;
@@ -322,12 +315,6 @@ Outcome vtkSubsurfaceScattering::Run::Compute()
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> vtkSubsurfaceScattering::Run::GetAnisotropies() const
-{
-  return { this->Owner->Anisotropy, this->Owner->Anisotropy + Bands };
-}
-
-//------------------------------------------------------------------------------
 PhotonScattering::Settings vtkSubsurfaceScattering::Run::GetPhotonSettings() const
 {
   return { this->Owner->TargetError, this->Owner->NumberOfPhotons,
@@ -350,7 +337,7 @@ Outcome vtkSubsurfaceScattering::Run::FollowPhotons()
     irradiance *= share;
   }
   const PhotonScattering scattering(this->Scene,
-    PhotonScattering::GetMedia(this->Media, this->GetAnisotropies(),
+    PhotonScattering::GetMedia(this->Media,
       this->Scene.GetScale() * this->Owner->MillimetersPerUnit),
     this->Media[0].RefractiveIndex, this->Image.get());
   Outcome done = scattering.Run(entering, this->GetPhotonSettings(), this->AllRanks,

@@ -10,6 +10,7 @@
 #define PatchSampler_h
 
 #include "Geometry/Polygon.h"
+#include "Support/SplitMix.h"
 #include "vtkMath.h"
 
 #include <Eigen/Geometry>
@@ -24,14 +25,10 @@ class PatchSampler
 public:
   explicit PatchSampler(std::uint64_t key)
   {
+    SplitMix bits(key);
     for (std::uint32_t& flips : this->Flips)
     {
-      // splitmix64 (Steele, Lea and Flood 2014)
-      key += 0x9E3779B97F4A7C15ull;
-      std::uint64_t bits = key;
-      bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ull;
-      bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBull;
-      flips = static_cast<std::uint32_t>(bits >> 32);
+      flips = bits.GetNextHalf();
     }
   }
 

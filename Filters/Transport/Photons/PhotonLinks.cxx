@@ -56,17 +56,17 @@ std::vector<PhotonRecorder::Event> TileRecorder::Gather(const std::vector<Event>
   {
     mine.push_back(static_cast<double>(event.Entry));
     mine.push_back(static_cast<double>(event.Exit));
-    mine.insert(mine.end(), event.Weights, event.Weights + MostBands);
+    mine.insert(mine.end(), event.Weights, event.Weights + MostPhotonBands);
   }
   const std::vector<double> all = this->AllRanks.Gather(mine);
-  std::vector<Event> gathered(all.size() / (2 + MostBands));
+  std::vector<Event> gathered(all.size() / (2 + MostPhotonBands));
   const double* next = all.data();
   for (Event& event : gathered)
   {
     event.Entry = static_cast<vtkIdType>(next[0]);
     event.Exit = static_cast<vtkIdType>(next[1]);
-    std::copy_n(next + 2, MostBands, event.Weights);
-    next += 2 + MostBands;
+    std::copy_n(next + 2, MostPhotonBands, event.Weights);
+    next += 2 + MostPhotonBands;
   }
   return gathered;
 }
@@ -83,7 +83,8 @@ void TileRecorder::Add(std::vector<Event>& events, const std::vector<int>& bands
     }
     // Both directions are the same link.
     const double share = event.Entry == event.Exit ? 1.0 : 0.5;
-    std::for_each(event.Weights, event.Weights + MostBands, [share](double& w) { w *= share; });
+    std::for_each(event.Weights, event.Weights + MostPhotonBands,
+      [share](double& w) { w *= share; });
   }
   std::vector<Event> all = this->Gather(events);
   std::sort(all.begin(), all.end(),
@@ -97,7 +98,7 @@ void TileRecorder::Add(std::vector<Event>& events, const std::vector<int>& bands
   for (std::size_t k = 0; k < all.size();)
   {
     const Event& first = all[k];
-    double sums[MostBands] = {};
+    double sums[MostPhotonBands] = {};
     for (; k < all.size() && all[k].Entry == first.Entry && all[k].Exit == first.Exit; ++k)
     {
       for (std::size_t band = 0; band < bands.size(); ++band)
@@ -154,10 +155,10 @@ double ScaleTiles(vtkExchangeMatrix* matrix, const std::vector<double>& factors)
 } // namespace
 
 //------------------------------------------------------------------------------
-PhotonLinks::PhotonLinks(std::vector<ScatteringMedium> bands, std::vector<double> anisotropies,
-  double millimetersPerUnit, const PhotonScattering::Settings& settings, const MediumImage* image)
-  : Bands(std::move(bands)), Anisotropies(std::move(anisotropies)),
-    MillimetersPerUnit(millimetersPerUnit), Settings(settings), Image(image)
+PhotonLinks::PhotonLinks(std::vector<ScatteringMedium> bands, double millimetersPerUnit,
+  const PhotonScattering::Settings& settings, const MediumImage* image)
+  : Bands(std::move(bands)), MillimetersPerUnit(millimetersPerUnit), Settings(settings),
+    Image(image)
 {
 }
 
@@ -172,9 +173,8 @@ LinkKey PhotonLinks::GetKey() const
   for (const ScatteringMedium& band : this->Bands)
   {
     key.Parameters.insert(key.Parameters.end(),
-      { band.Scattering, band.Absorption, band.RefractiveIndex });
+      { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
-  key.Parameters.insert(key.Parameters.end(), this->Anisotropies.begin(), this->Anisotropies.end());
   if (this->Image)
   {
     // Halves of it are exact as numbers.
@@ -207,8 +207,7 @@ Outcome PhotonLinks::Build(const PatchScene& scene, const Ranks& ranks, const Mo
     return done;
   }
   TileRecorder recorder(links.Matrix, ranks);
-  const PhotonScattering scattering(scene,
-    PhotonScattering::GetMedia(this->Bands, this->Anisotropies, scale),
+  const PhotonScattering scattering(scene, PhotonScattering::GetMedia(this->Bands, scale),
     this->Bands[0].RefractiveIndex, this->Image);
   PhotonScattering::Result photons;
   done = scattering.Run(std::vector<double>(areas.size() * bands, 1.0), this->Settings, ranks,

@@ -20,9 +20,8 @@ class PhotonLinks : public LinkBuilder
 {
 public:
   /// `image` of a medium that varies, or nullptr.
-  PhotonLinks(std::vector<ScatteringMedium> bands, std::vector<double> anisotropies,
-    double millimetersPerUnit, const PhotonScattering::Settings& settings,
-    const MediumImage* image);
+  PhotonLinks(std::vector<ScatteringMedium> bands, double millimetersPerUnit,
+    const PhotonScattering::Settings& settings, const MediumImage* image);
 
   LinkKey GetKey() const override;
   Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
@@ -38,7 +37,6 @@ public:
 
 private:
   std::vector<ScatteringMedium> Bands;
-  std::vector<double> Anisotropies;
   double MillimetersPerUnit;
   PhotonScattering::Settings Settings;
   const MediumImage* Image;

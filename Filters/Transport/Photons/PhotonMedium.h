@@ -5,6 +5,11 @@
 
 namespace LightTransport
 {
+/// Bands that may share their photons.
+constexpr int MostPhotonBands = 3;
+/// Of photons that weigh less only some go on (Russian roulette), of those that start with 1.
+constexpr double SmallPhotonWeight = 0.1;
+
 /// What photons of one band walk in. Lengths in the unit of the walk.
 struct PhotonMedium
 {

@@ -4,6 +4,7 @@
 #ifndef PhotonRecorder_h
 #define PhotonRecorder_h
 
+#include "Photons/PhotonMedium.h"
 #include "vtkType.h"
 
 #include <vector>
@@ -13,13 +14,11 @@ namespace LightTransport
 class PhotonRecorder
 {
 public:
-  static constexpr int MostBands = 3;
-
   struct Event
   {
     vtkIdType Entry;
     vtkIdType Exit;
-    double Weights[MostBands];
+    double Weights[MostPhotonBands];
   };
 
   virtual ~PhotonRecorder() = default;

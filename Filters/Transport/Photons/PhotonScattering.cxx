@@ -125,13 +125,13 @@ std::vector<PhotonMedium> PhotonScattering::ChooseMedia(const std::vector<int>& 
 
 //------------------------------------------------------------------------------
 std::vector<PhotonMedium> PhotonScattering::GetMedia(const std::vector<ScatteringMedium>& bands,
-  const std::vector<double>& anisotropies, double millimeters)
+  double millimeters)
 {
   std::vector<PhotonMedium> media;
-  for (std::size_t band = 0; band < bands.size(); ++band)
+  for (const ScatteringMedium& band : bands)
   {
-    media.push_back({ bands[band].Scattering * millimeters / (1.0 - anisotropies[band]),
-      bands[band].Absorption * millimeters, anisotropies[band] });
+    media.push_back({ band.Scattering * millimeters / (1.0 - band.Anisotropy),
+      band.Absorption * millimeters, band.Anisotropy });
   }
   return media;
 }

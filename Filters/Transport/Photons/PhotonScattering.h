@@ -68,7 +68,7 @@ public:
 
   /// Media of coefficients per mm, of which the scene's unit has so many.
   static std::vector<PhotonMedium> GetMedia(const std::vector<ScatteringMedium>& bands,
-    const std::vector<double>& anisotropies, double millimeters);
+    double millimeters);
 
   /// `entering` irradiance, patches x bands, not negative. `recorder` may be nullptr. Collective.
   Outcome Run(const std::vector<double>& entering, const Settings& settings, const Ranks& ranks,

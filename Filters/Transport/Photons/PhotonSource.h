@@ -20,12 +20,10 @@ namespace LightTransport
 class PhotonSource
 {
 public:
-  static constexpr int MostBands = 3;
-
   struct Photon
   {
     PhotonStart Start;
-    double Scales[MostBands];
+    double Scales[MostPhotonBands];
   };
 
   /// `flux` that enters, patches x bands: not negative, and in each band above 0 somewhere. The
@@ -48,7 +46,7 @@ private:
   };
 
   const PatchScene& Scene;
-  double Flux[MostBands] = {};
+  double Flux[MostPhotonBands] = {};
   std::vector<Triangle> Triangles;
   std::vector<double> Ends;   ///< of each triangle, in place
   std::vector<double> Scales; ///< patches x bands

@@ -22,8 +22,9 @@ std::vector<double> PhotonTally::Collect(const std::vector<Sum>& sums, const Ran
   std::vector<double> photons, rest;
   for (const Sum& sum : sums)
   {
-    photons.push_back(static_cast<double>(sum.GetUnits() / UnitsPerPhoton));
-    rest.push_back(static_cast<double>(sum.GetUnits() % UnitsPerPhoton) / UnitsPerPhoton);
+    photons.push_back(static_cast<double>(sum.GetUnits() / PhotonUnits::PerPhoton));
+    rest.push_back(
+      static_cast<double>(sum.GetUnits() % PhotonUnits::PerPhoton) / PhotonUnits::PerPhoton);
   }
   ranks.Sum(photons);
   ranks.Sum(rest);

@@ -12,6 +12,7 @@
 #include "Photons/PhotonListener.h"
 #include "Photons/PhotonRecorder.h"
 #include "Photons/PhotonSource.h"
+#include "Photons/PhotonUnits.h"
 #include "Scene/SceneFaces.h"
 #include "Support/Ranks.h"
 
@@ -54,16 +55,13 @@ private:
   public:
     void Add(double value)
     {
-      this->Units.fetch_add(static_cast<std::int64_t>(value * UnitsPerPhoton + 0.5),
-        std::memory_order_relaxed);
+      this->Units.fetch_add(PhotonUnits::Count(value), std::memory_order_relaxed);
     }
     std::int64_t GetUnits() const { return this->Units.load(std::memory_order_relaxed); }
 
   private:
     std::atomic<std::int64_t> Units{ 0 };
   };
-  // 2^31 photons that weigh 3 fit.
-  static constexpr std::int64_t UnitsPerPhoton = std::int64_t(1) << 30;
 
   enum Share
   {

@@ -70,7 +70,6 @@ public:
   Vector Enter(const Vector& outward, PhotonRandom& random) const;
 
 private:
-  static constexpr int MostBands = 3;
   // Between surfaces in one place, in the unit of the walk.
   static constexpr double SamePlace = 1e-6;
 
@@ -82,7 +81,7 @@ private:
     PhotonBall Ball; ///< that the photon is in, or an empty one
     PhotonCrossing Crossing;
     bool HasJustEntered; ///< where it had left before
-    double Weights[MostBands];
+    double Weights[MostPhotonBands];
   };
   enum class Fate
   {

@@ -37,7 +37,7 @@ public:
       albedo = std::max(albedo, medium.Scattering / extinction);
     }
     // Positive infinity where nothing is absorbed.
-    const double scatterings = std::ceil(std::log(SmallWeight) / -std::abs(std::log(albedo)));
+    const double scatterings = std::ceil(std::log(SmallPhotonWeight) / -std::abs(std::log(albedo)));
     this->RoulettePeriod =
       static_cast<int>(std::min(std::max(scatterings, 1.0), double(LongestPeriod)));
   }
@@ -46,7 +46,6 @@ public:
 
 private:
   friend class UniformPath;
-  static constexpr double SmallWeight = 0.1;
   static constexpr int LongestPeriod = 1 << 20;
 
   struct Band
@@ -113,7 +112,7 @@ public:
 private:
   bool Survives(PhotonRandom& random)
   {
-    double weights[MostBands];
+    double weights[MostPhotonBands];
     this->GetWeights(weights);
     const double weight = *std::max_element(weights, weights + this->Bands.GetNumber());
     if (weight >= 1.0)
@@ -123,8 +122,6 @@ private:
     this->Factor /= weight;
     return random.Get() < weight;
   }
-
-  static constexpr int MostBands = 3;
 
   const UniformBands& Bands;
   double FreePath;

@@ -43,8 +43,8 @@ public:
     }
     ++this->Scatterings;
     this->Weight *= scattering / extinction;
-    return this->Weight >= SmallWeight || this->Survives(random) ? PhotonEvent::SCATTERED
-                                                                 : PhotonEvent::ENDED;
+    return this->Weight >= SmallPhotonWeight || this->Survives(random) ? PhotonEvent::SCATTERED
+                                                                       : PhotonEvent::ENDED;
   }
 
   long long GetNumberOfEvents() const { return this->Events; }
@@ -59,8 +59,6 @@ private:
     this->Weight = 1.0;
     return survives;
   }
-
-  static constexpr double SmallWeight = 0.1;
 
   const VaryingMedium& Medium;
   VaryingMedium::Place Next{ 0.0, 0.0, false, Vector::Zero() };

@@ -3,6 +3,7 @@
 #include "Scattering/HalfSpaceTable.h"
 
 #include "Photons/FlatBoundaries.h"
+#include "Photons/PhotonUnits.h"
 #include "Photons/PhotonWalk.h"
 #include "Photons/UniformPath.h"
 #include "Shared/Pulse.h"
@@ -96,8 +97,8 @@ public:
     const double radius = std::hypot(position.x(), position.y());
     const double ring = RingsPerUnit * (std::log(radius) - FirstLogarithm);
     const int k = static_cast<int>(std::clamp(ring, 0.0, NumberOfRings - 1.0));
-    this->Left[k] += GetUnits(weights[0]);
-    this->Squares[k] += GetUnits(weights[0] * weights[0]);
+    this->Left[k] += PhotonUnits::Count(weights[0]);
+    this->Squares[k] += PhotonUnits::Count(weights[0] * weights[0]);
   }
   void Escape(bool, const double*) override {}
   void Lose(const Eigen::Vector3d&, const double*) override {}
@@ -112,18 +113,10 @@ public:
     this->Counts.Add(other.Counts);
   }
 
-  double GetLeft(int ring) const { return this->Left[ring] / UnitsPerPhoton; }
-  double GetSquares(int ring) const { return this->Squares[ring] / UnitsPerPhoton; }
+  double GetLeft(int ring) const { return double(this->Left[ring]) / PhotonUnits::PerPhoton; }
+  double GetSquares(int ring) const { return double(this->Squares[ring]) / PhotonUnits::PerPhoton; }
 
 private:
-  // 2^33 photons fit.
-  static constexpr double UnitsPerPhoton = 1 << 30;
-
-  static std::int64_t GetUnits(double weight)
-  {
-    return static_cast<std::int64_t>(weight * UnitsPerPhoton + 0.5);
-  }
-
   std::vector<std::int64_t> Left;
   std::vector<std::int64_t> Squares;
 };

@@ -12,6 +12,22 @@ namespace LightTransport
 namespace
 {
 constexpr double MostAnisotropy = 0.99;
+
+//------------------------------------------------------------------------------
+Outcome CheckAnisotropy(const std::vector<ScatteringMedium>& media)
+{
+  for (std::size_t band = 0; band < media.size(); ++band)
+  {
+    if (!(std::abs(media[band].Anisotropy) <= MostAnisotropy))
+    {
+      std::ostringstream text;
+      text << "Component " << band << " of Anisotropy is " << media[band].Anisotropy
+           << ": it must be between " << -MostAnisotropy << " and " << MostAnisotropy << ".";
+      return Outcome::Failed(text.str());
+    }
+  }
+  return Outcome::Done();
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -22,7 +38,8 @@ Outcome MediumProperties::MakeMedia(std::vector<ScatteringMedium>& media) const
   {
     media.push_back({ preset ? preset->Scattering[band] : this->Scattering[band],
       preset ? preset->Absorption[band] : this->Absorption[band],
-      preset ? preset->RefractiveIndex : this->RefractiveIndex, 0.0 });
+      preset ? preset->RefractiveIndex : this->RefractiveIndex,
+      this->Anisotropy ? this->Anisotropy[band] : 0.0 });
   }
   std::ostringstream text;
   for (int band = 0; band < Bands; ++band)
@@ -57,22 +74,6 @@ Outcome MediumProperties::MakeMedia(std::vector<ScatteringMedium>& media) const
          << ": it must be above 0 (10 for a mesh in centimetres).";
     return Outcome::Failed(text.str());
   }
-  return Outcome::Done();
-}
-
-//------------------------------------------------------------------------------
-Outcome MediumProperties::CheckAnisotropy(const double anisotropy[Bands])
-{
-  for (int band = 0; band < Bands; ++band)
-  {
-    if (!(std::abs(anisotropy[band]) <= MostAnisotropy))
-    {
-      std::ostringstream text;
-      text << "Component " << band << " of Anisotropy is " << anisotropy[band]
-           << ": it must be between " << -MostAnisotropy << " and " << MostAnisotropy << ".";
-      return Outcome::Failed(text.str());
-    }
-  }
-  return Outcome::Done();
+  return CheckAnisotropy(media);
 }
 } // namespace LightTransport

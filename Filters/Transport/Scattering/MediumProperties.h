@@ -19,13 +19,11 @@ struct MediumProperties
   const double* Scattering; ///< of a custom material, as all up to RefractiveIndex
   const double* Absorption;
   double RefractiveIndex;
+  const double* Anisotropy; ///< nullptr: nobody looks at more than the reduced coefficient
   double MillimetersPerUnit;
 
   /// Fails with what is out of range.
   Outcome MakeMedia(std::vector<ScatteringMedium>& media) const;
-
-  /// Fails where one of the bands is out of range.
-  static Outcome CheckAnisotropy(const double anisotropy[Bands]);
 };
 } // namespace LightTransport
 

@@ -17,14 +17,22 @@ public:
 
   std::uint64_t GetNext()
   {
-    this->State += 0x9E3779B97F4A7C15ull;
-    std::uint64_t bits = this->State;
-    bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ull;
-    bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBull;
+    const std::uint64_t bits = this->Step();
     return bits ^ (bits >> 31);
   }
 
+  /// Half as many, without the last step, which is for the lower half.
+  std::uint32_t GetNextHalf() { return static_cast<std::uint32_t>(this->Step() >> 32); }
+
 private:
+  std::uint64_t Step()
+  {
+    this->State += 0x9E3779B97F4A7C15ull;
+    std::uint64_t bits = this->State;
+    bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ull;
+    return (bits ^ (bits >> 27)) * 0x94D049BB133111EBull;
+  }
+
   std::uint64_t State;
 };
 } // namespace LightTransport

@@ -7,9 +7,11 @@
 #include "LightTransportTesting.h"
 #include "MessageLog.h"
 #include "vtkExecutive.h"
+#include "vtkSMPTools.h"
 #include "vtkSubsurfaceScattering.h"
 
 #include <string>
+#include <vector>
 
 namespace LightTransportTesting
 {
@@ -66,6 +68,22 @@ struct PhotonRun
     vtkDataArray* array = output ? output->GetCellData()->GetArray(name) : nullptr;
     Check(array != nullptr, std::string("the output has ") + name);
     return array;
+  }
+  // All values of an array, on this many threads.
+  std::vector<double> GetValues(const char* name, int threads) const
+  {
+    std::vector<double> values;
+    vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false },
+      [&]()
+      {
+        this->Filter->Update();
+        vtkDataArray* array = this->Get(name);
+        for (vtkIdType k = 0; array && k < 3 * array->GetNumberOfTuples(); ++k)
+        {
+          values.push_back(array->GetComponent(k / 3, k % 3));
+        }
+      });
+    return values;
   }
   double GetNumber(const char* name) const
   {

@@ -7,7 +7,6 @@
 #include "RanksInThreads.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkReverseSense.h"
-#include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <functional>
@@ -119,21 +118,10 @@ void TestTarget()
 //------------------------------------------------------------------------------
 std::vector<double> GetResult(int threads, int seed)
 {
-  std::vector<double> result;
-  const auto work = [&]()
-  {
-    PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
-    run.Filter->SetSeed(seed);
-    run.Filter->SetAnisotropy(0.0, 0.5, 0.5);
-    run.Filter->Update();
-    vtkDataArray* values = run.Get("ScatteredIrradiance");
-    for (vtkIdType k = 0; values && k < 3 * values->GetNumberOfTuples(); ++k)
-    {
-      result.push_back(values->GetComponent(k / 3, k % 3));
-    }
-  };
-  vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false }, work);
-  return result;
+  PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
+  run.Filter->SetSeed(seed);
+  run.Filter->SetAnisotropy(0.0, 0.5, 0.5);
+  return run.GetValues("ScatteredIrradiance", threads);
 }
 
 //------------------------------------------------------------------------------
@@ -290,7 +278,7 @@ void TestRanks()
   using namespace LightTransport;
   auto body = MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3);
   const std::vector<ScatteringMedium> media = { { 1.0, 0.1, 1.3 }, { 2.0, 0.1, 1.3 },
-    { 1.0, 0.2, 1.3 } };
+    { 1.0, 0.2, 1.3, 0.3 } };
   PhotonScattering::Settings settings;
   settings.NumberOfPhotons = 20000;
   const auto compute = [&](const Ranks& ranks, std::vector<double>& result)
@@ -298,8 +286,8 @@ void TestRanks()
     PatchScene scene;
     Check(bool(scene.Build(body, Ranks())), "scene built");
     const std::size_t values = 3 * scene.GetNumberOfPatches();
-    const PhotonScattering scattering(scene,
-      PhotonScattering::GetMedia(media, { 0.0, 0.0, 0.3 }, scene.GetScale()), 1.3, nullptr);
+    const PhotonScattering scattering(scene, PhotonScattering::GetMedia(media, scene.GetScale()),
+      1.3, nullptr);
     PhotonScattering::Result photons;
     Check(
       bool(scattering.Run(std::vector<double>(values, 1.0), settings, ranks, Monitor(), photons)),
@@ -307,7 +295,7 @@ void TestRanks()
     result = photons.Scattered;
     result.insert(result.end(), photons.Errors.begin(), photons.Errors.end());
     Links links;
-    const PhotonLinks builder(media, { 0.0, 0.0, 0.3 }, 1.0, settings, nullptr);
+    const PhotonLinks builder(media, 1.0, settings, nullptr);
     Check(bool(builder.Build(scene, ranks, Monitor(), links)), "links built");
     std::vector<double> all;
     for (std::size_t k = 0; k < values * values / 3; ++k)

@@ -11,7 +11,6 @@
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
-#include "vtkSMPTools.h"
 #include "vtkStringArray.h"
 
 #include <array>
@@ -402,20 +401,9 @@ void TestConservation()
 //------------------------------------------------------------------------------
 std::vector<double> GetResult(int threads)
 {
-  std::vector<double> result;
-  const auto work = [&]()
-  {
-    PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
-    run.Filter->SetInputData(1, MakeContrasts(0.1));
-    run.Filter->Update();
-    vtkDataArray* values = run.Get("ScatteredIrradiance");
-    for (vtkIdType k = 0; values && k < 3 * values->GetNumberOfTuples(); ++k)
-    {
-      result.push_back(values->GetComponent(k / 3, k % 3));
-    }
-  };
-  vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false }, work);
-  return result;
+  PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 2, 3 }, 3));
+  run.Filter->SetInputData(1, MakeContrasts(0.1));
+  return run.GetValues("ScatteredIrradiance", threads);
 }
 
 //------------------------------------------------------------------------------
