@@ -59,6 +59,8 @@ struct Links
 
   /// Names and values of the field data arrays that summarise how the links were made.
   std::vector<std::pair<std::string, double>> Summaries;
+  /// And those that are text.
+  std::vector<std::pair<std::string, std::string>> Remarks;
   std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"
   /// Not empty where users should doubt the links: why, and the remedy.
   std::string Warning;
