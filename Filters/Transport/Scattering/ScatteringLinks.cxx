@@ -99,12 +99,14 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
     area *= scale * scale;
   }
   links.Tolerance = this->Tolerance;
+  ScatteringOptions options = this->Options;
+  options.AllRanks = ranks;
   ScatteringProfiles profiles;
   ScatteringAssembly::Summary summary;
   Outcome built =
     LinkOperators::AllocateMatrix(areas, static_cast<int>(this->Bands.size()), ranks, links.Matrix);
-  built = built ? ScatteringModels::MakeProfiles(this->Model, this->Options, this->Bands, profiles)
-                : built;
+  built =
+    built ? ScatteringModels::MakeProfiles(this->Model, options, this->Bands, profiles) : built;
   built = built ? ScatteringAssembly::Fill(scene, scale, profiles, this->Tolerance, links.Matrix,
                     monitor, summary)
                 : built;
