@@ -50,13 +50,13 @@
  * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
  * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
  * where links of an earlier run were taken. "ProfileError" (MODEL_TABULATED, 3 components):
- * standard error of the profile's total, relative. Monte Carlo without links has in their place
- * "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters,
- * what goes away for good after scattering) with "LeavingShareError", "UnscatteredShare",
- * "LostShare" (0 but for surfaces that cross themselves and very large bodies),
- * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
- * "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the part of the surface
- * that is thinner than two diffusion lengths).
+ * standard error of the profile's total, relative; more than that where less than 1e-4 is absorbed.
+ * Monte Carlo without links has in their place "PhotonsTraced", "RelativeError" (of each band, as
+ * TargetError), "LeavingShare" (of what enters, what goes away for good after scattering) with
+ * "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for surfaces that cross themselves
+ * and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the
+ * table "Photons", "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the
+ * part of the surface that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not

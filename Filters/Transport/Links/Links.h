@@ -52,8 +52,11 @@ struct Links
   std::vector<double> BackHits;
   ///@}
 
-  /// Where links are counts of photons: what one of them adds, of each band.
+  ///@{ Where links are counts of photons, of each band: what one of them adds, and the area on
+  /// which one has started.
   std::vector<double> PhotonSizes;
+  std::vector<double> PhotonAreas;
+  ///@}
   /// Where links are those of a profile: standard error of its total, relative, of each band.
   std::vector<double> ProfileErrors;
 

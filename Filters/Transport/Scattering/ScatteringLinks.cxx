@@ -112,8 +112,9 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   {
     area *= scale * scale;
   }
-  Outcome built =
-    ScatteringModels::MakeProfiles(this->Model, this->Options, this->Bands, task.Profiles);
+  ScatteringOptions options = this->Options;
+  options.AllRanks = ranks;
+  Outcome built = ScatteringModels::MakeProfiles(this->Model, options, this->Bands, task.Profiles);
   if (built)
   {
     built = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE
