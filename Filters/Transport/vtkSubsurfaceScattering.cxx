@@ -92,6 +92,7 @@ public:
   Run(vtkSubsurfaceScattering* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner) {}
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Read() override;
   Outcome Link() override;
@@ -136,6 +137,15 @@ private:
   std::string DeviceUsed;
   std::string DeviceExplanation;
 };
+
+//------------------------------------------------------------------------------
+NumberProperties::List vtkSubsurfaceScattering::Run::ListNumbers() const
+{
+  NumberProperties::List numbers = this->TransportRun::ListNumbers();
+  numbers.emplace_back("TargetError", this->Owner->TargetError);
+  numbers.emplace_back("LinkTolerance", this->Owner->LinkTolerance);
+  return numbers;
+}
 
 //------------------------------------------------------------------------------
 Outcome vtkSubsurfaceScattering::Run::Check()
