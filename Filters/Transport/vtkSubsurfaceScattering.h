@@ -49,8 +49,12 @@
  * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
  * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
  * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
- * where links of an earlier run were taken. "ProfileError" (MODEL_TABULATED, 3 components):
- * standard error of the profile's total, relative. Monte Carlo without links has in their place
+ * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, 3
+ * components): of the light that links carry, those that are dropped included, the share that goes
+ * through the air between parts of the body, see DropLinksThroughAir; estimated from some 64 links
+ * of each patch, with one standard error "LinksThroughAirError", exact where they are dropped and
+ * for one convex body (0). "ProfileError" (MODEL_TABULATED, 3 components): standard error of the
+ * profile's total, relative. Monte Carlo without links has in their place
  * "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters,
  * what goes away for good after scattering) with "LeavingShareError", "UnscatteredShare",
  * "LostShare" (0 but for surfaces that cross themselves and very large bodies),
@@ -300,6 +304,21 @@ public:
 
   ///@{
   /**
+   * Leave out links of profiles that go through the air between two parts of the body, or between
+   * two bodies ("LinksThroughAir" tells what they would have carried, exactly then). A link does
+   * where the straight segment between the centroids of its patches leaves the body through one
+   * polygon and enters it through another, and these are turned towards each other: their normals
+   * differ by more than a right angle. The inside of corners and dents that are less does not
+   * count. The light of such links is lost, not given to others: MODEL_MONTE_CARLO, which does not
+   * look at this, follows it. Default off.
+   */
+  vtkSetMacro(DropLinksThroughAir, bool);
+  vtkGetMacro(DropLinksThroughAir, bool);
+  vtkBooleanMacro(DropLinksThroughAir, bool);
+  ///@}
+
+  ///@{
+  /**
    * Error that the links of one patch may have together, relative to all that a unit of entering
    * light gives back (the profile's total). Default 1e-4, range 1e-8 to 0.1.
    */
@@ -357,6 +376,7 @@ private:
   double TargetError = 1e-2;
   int Seed = 1;
   bool ComputeThickness = false;
+  bool DropLinksThroughAir = false;
   double LinkTolerance = 1e-4;
   int Incidence = INCIDENCE_DIFFUSE;
   int Device = DEVICE_AUTO;

@@ -3,6 +3,7 @@
 #include "Scattering/ProfileRun.h"
 
 #include "Links/LinkCache.h"
+#include "Scattering/AirShare.h"
 #include "Scattering/ScatteringLinks.h"
 #include "Shared/FieldValues.h"
 #include "vtkSubsurfaceScattering.h"
@@ -49,7 +50,8 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
-    this->Owner->GetMillimetersPerUnit(), this->Owner->GetLinkTolerance());
+    this->Owner->GetMillimetersPerUnit(), this->Owner->GetLinkTolerance(),
+    this->Owner->GetDropLinksThroughAir());
 }
 
 //------------------------------------------------------------------------------
@@ -96,6 +98,9 @@ void ProfileRun::WriteScattered(const SceneOutput& output)
     FieldValues::Add(this->GetOutputFields(), "ProfileError",
       this->Cache.Get().ProfileErrors.data(), Bands);
   }
+  const AirShare air(this->Cache.Get(), this->GetEntering(), this->Scattered);
+  FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
+  FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
   this->CheckThickness();
   this->CheckEnergy();
 }

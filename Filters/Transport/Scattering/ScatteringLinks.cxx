@@ -4,6 +4,7 @@
 
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
+#include "Scattering/AirGaps.h"
 #include "Scattering/ScatteringAssembly.h"
 #include "Scattering/ScatteringModels.h"
 #include "Scene/PatchScene.h"
@@ -31,6 +32,11 @@ void Summarize(ScatteringAssembly::Summary& summary, const Ranks& ranks, double 
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   ranks.Sum(counts, 2);
   ranks.Sum(summary.Errors);
+  ranks.Sum(summary.ThroughAir);
+  ranks.Sum(summary.ThroughAirVariances);
+  links.ThroughAir = std::move(summary.ThroughAir);
+  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
+  links.AirSamples = std::move(summary.AirSamples);
   const std::vector<double>& areas = links.Matrix->GetAreas();
   double bound = 0.0;
   for (std::size_t patch = 0; patch < areas.size(); ++patch)
@@ -61,9 +67,10 @@ Outcome FailForSize(double size)
 
 //------------------------------------------------------------------------------
 ScatteringLinks::ScatteringLinks(int model, const ScatteringOptions& options,
-  std::vector<ScatteringMedium> bands, double millimetersPerUnit, double tolerance)
+  std::vector<ScatteringMedium> bands, double millimetersPerUnit, double tolerance,
+  bool dropsThroughAir)
   : Model(model), Options(options), Bands(std::move(bands)), MillimetersPerUnit(millimetersPerUnit),
-    Tolerance(tolerance)
+    Tolerance(tolerance), DropsThroughAir(dropsThroughAir)
 {
 }
 
@@ -73,7 +80,7 @@ LinkKey ScatteringLinks::GetKey() const
   LinkKey key{ "ScatteringLinks",
     { static_cast<double>(this->Model), static_cast<double>(this->Options.BurleyFit),
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
-      this->MillimetersPerUnit, this->Tolerance },
+      this->MillimetersPerUnit, this->Tolerance, this->DropsThroughAir ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -99,14 +106,17 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
     area *= scale * scale;
   }
   links.Tolerance = this->Tolerance;
+  links.AreThroughAirDropped = this->DropsThroughAir;
   ScatteringProfiles profiles;
   ScatteringAssembly::Summary summary;
   Outcome built =
     LinkOperators::AllocateMatrix(areas, static_cast<int>(this->Bands.size()), ranks, links.Matrix);
   built = built ? ScatteringModels::MakeProfiles(this->Model, this->Options, this->Bands, profiles)
                 : built;
-  built = built ? ScatteringAssembly::Fill(scene, scale, profiles, this->Tolerance, links.Matrix,
-                    monitor, summary)
+  AirGaps gaps;
+  built = built ? ranks.Agree(gaps.Build(scene)) : built;
+  built = built ? ScatteringAssembly::Fill(scene, scale, profiles, this->Tolerance,
+                    { gaps, this->DropsThroughAir }, links.Matrix, monitor, summary)
                 : built;
   if (!built)
   {

@@ -17,9 +17,10 @@ class ScatteringLinks : public LinkBuilder
 {
 public:
   /// `model` is one of vtkSubsurfaceScattering::ModelType, `tolerance` the error that the links of
-  /// a patch may have together, relative to the profile's total.
+  /// a patch may have together, relative to the profile's total. Links through air (AirGaps) are
+  /// left out where they are to be dropped, and known by a sample where not.
   ScatteringLinks(int model, const ScatteringOptions& options, std::vector<ScatteringMedium> bands,
-    double millimetersPerUnit, double tolerance);
+    double millimetersPerUnit, double tolerance, bool dropsThroughAir);
 
   LinkKey GetKey() const override;
   Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
@@ -31,6 +32,7 @@ private:
   std::vector<ScatteringMedium> Bands;
   double MillimetersPerUnit;
   double Tolerance;
+  bool DropsThroughAir;
 };
 } // namespace LightTransport
 
