@@ -257,12 +257,13 @@ void RayMarcher::ShineFrom(const Vector& towards, double distance, const double*
   }
   const InsidePath path =
     this->Follow(entrance.Point, this->Interface.RefractInwards(-towards, normal), entrance.Patch);
-  if (path.GetNumberOfLegs() < 2)
+  if (path.GetNumberOfLegs() < 2 || !(path.GetShare(1) > 0.0))
   {
     return;
   }
-  // As often as much of it is scattered, so that all that leaves weighs about the same.
-  const double expected = ScatteringsPerRay * path.GetShare(1);
+  // The more often the larger its part of what is scattered, so that all that leaves weighs about
+  // the same.
+  const double expected = ScatteringsPerRay * path.GetShare(1) / path.GetShare(0);
   const int times = static_cast<int>(expected + entrance.Number);
   const double entering =
     entrance.Area * cosine * (1.0 - this->Interface.GetExternalReflectance(cosine)) / expected;

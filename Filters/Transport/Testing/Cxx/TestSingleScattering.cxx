@@ -687,6 +687,18 @@ void TestMedia()
       run.SetMedium({ 0, 0, 0 }, 1.0, 1.4);
     });
   CheckClose(*std::max_element(black.begin(), black.end()), 0.0, 0.0, "albedo 0 gives nothing");
+  // Where next to nothing is scattered it is scattered once, the more the longer the way.
+  const auto getThin = [](double size)
+  {
+    Run run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2));
+    run.SetMedium({ 0.5, 0.8, 1.0 }, 0.1, 1.4);
+    run.Filter->SetMillimetersPerUnit(size);
+    run.AddLight({ 1, 2, 3 }, false);
+    run.Update("a thin body");
+    return run.GetFlux(1) / size;
+  };
+  CheckClose(getThin(1e-4), getThin(1e-6), 1e-2, "thin bodies");
+  Check(getThin(1e-18) >= 0.0, "a body that is next to nothing");
   // Bands that differ a thousandfold share their rays.
   const auto get = [&box](double other)
   {
