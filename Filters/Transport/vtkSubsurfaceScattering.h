@@ -53,14 +53,16 @@
  * components): of the light that links carry, those that are dropped included, the share that goes
  * through the air between parts of the body, see DropLinksThroughAir; estimated from some 64 links
  * of each patch, with one standard error "LinksThroughAirError", exact where they are dropped and
- * for one convex body (0). "ProfileError" (MODEL_TABULATED, 3 components): standard error of the
- * profile's total, relative. Monte Carlo without links has in their place
- * "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters,
- * what goes away for good after scattering) with "LeavingShareError", "UnscatteredShare",
- * "LostShare" (0 but for surfaces that cross themselves and very large bodies),
- * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
- * "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the part of the surface
- * that is thinner than two diffusion lengths).
+ * for one convex body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives
+ * back of the light that enters; a body may give back more or less, and a warning tells where it is
+ * more than enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that,
+ * relative. Light that Monte Carlo lets enter again counts in LeavingFlux each time it leaves.
+ * Monte Carlo without links has in their place "PhotonsTraced", "RelativeError" (of each band, as
+ * TargetError), "LeavingShare" (of what enters, what goes away for good after scattering) with
+ * "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for surfaces that cross themselves
+ * and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the
+ * table "Photons", "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the
+ * part of the surface that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not

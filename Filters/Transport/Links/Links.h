@@ -54,8 +54,11 @@ struct Links
 
   /// Where links are counts of photons: what one of them adds, of each band.
   std::vector<double> PhotonSizes;
-  /// Where links are those of a profile: standard error of its total, relative, of each band.
+  ///@{ Where links are those of a profile: its total, and the standard error of that, relative, of
+  /// each band.
+  std::vector<double> ProfileTotals;
   std::vector<double> ProfileErrors;
+  ///@}
   ///@{ Of those, what goes through air (AirShare has it): per patch and band what its links through
   /// air carry for a unit of light on it, the variance of that, and of each band what one link that
   /// was looked at stands for at most (0: all were). Dropped ones are not among the links.

@@ -55,23 +55,40 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
 }
 
 //------------------------------------------------------------------------------
-/// More than all of it comes back only by an error.
-void ProfileRun::CheckEnergy() const
+/// More than all of it comes back only by an error; of light below 0 nobody can tell.
+void ProfileRun::CheckEnergy(const AirShare& air) const
 {
-  const double margin = NegligibleExcess + this->Cache.Get().GetSummary("LinkErrorBound");
+  const Links& links = this->Cache.Get();
+  const double margin = 1.0 + NegligibleExcess + links.GetSummary("LinkErrorBound");
+  if (*std::min_element(this->Irradiance.begin(), this->Irradiance.end()) < 0.0)
+  {
+    return;
+  }
+  double gains[Bands];
   for (int band = 0; band < Bands; ++band)
   {
-    if (this->LeavingFlux[band] > (1.0 + margin) * this->EnteringFlux[band])
+    gains[band] =
+      this->EnteringFlux[band] > 0.0 ? this->LeavingFlux[band] / this->EnteringFlux[band] : 0.0;
+  }
+  const auto worst = std::max_element(gains, gains + Bands) - gains;
+  if (gains[worst] > margin)
+  {
+    std::ostringstream text;
+    text << "In component " << worst << " " << gains[worst]
+         << " times the light that enters leaves again, which cannot be: a flat surface gives back "
+         << links.ProfileTotals[worst] << " by this model";
+    if (!links.AreThroughAirDropped && air.Shares[worst] > 0.0)
     {
-      std::ostringstream text;
-      text
-        << "In component " << band << " " << this->LeavingFlux[band] / this->EnteringFlux[band]
-        << " times the light that enters leaves again: the model claims too much where little is "
-           "absorbed, or straight links do, across sharp edges and the air between parts of the "
-           "body. Compare with Model MonteCarlo, which keeps energy in closed bodies.";
-      this->Warn(text.str());
-      return;
+      text << ", " << 100.0 * air.Shares[worst]
+           << " % goes through the air between parts of the body (DropLinksThroughAir leaves that "
+              "out)";
     }
+    if (gains[worst] > links.ProfileTotals[worst])
+    {
+      text << ", and straight links claim too much across hollows, sharp edges and thin walls";
+    }
+    text << ". Compare with Model MonteCarlo, which keeps energy in closed bodies.";
+    this->Warn(text.str());
   }
 }
 
@@ -93,15 +110,16 @@ void ProfileRun::CheckThickness() const
 void ProfileRun::WriteScattered(const SceneOutput& output)
 {
   this->ScatteringRun::WriteScattered(output);
+  const Links& links = this->Cache.Get();
+  FieldValues::Add(this->GetOutputFields(), "ProfileTotal", links.ProfileTotals.data(), Bands);
   if (this->IsTabulated())
   {
-    FieldValues::Add(this->GetOutputFields(), "ProfileError",
-      this->Cache.Get().ProfileErrors.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "ProfileError", links.ProfileErrors.data(), Bands);
   }
-  const AirShare air(this->Cache.Get(), this->GetEntering(), this->Scattered);
+  const AirShare air(links, this->GetEntering(), this->Scattered);
   FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
   FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
   this->CheckThickness();
-  this->CheckEnergy();
+  this->CheckEnergy(air);
 }
 } // namespace LightTransport

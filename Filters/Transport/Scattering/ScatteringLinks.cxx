@@ -124,6 +124,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   }
   for (const auto& profile : profiles)
   {
+    links.ProfileTotals.push_back(profile->GetTotal());
     links.ProfileErrors.push_back(profile->GetError());
   }
   Summarize(summary, ranks, this->Tolerance, links);
