@@ -8,6 +8,8 @@
 
 namespace LightTransport
 {
+struct AirShare;
+
 class ProfileRun : public ScatteringRun
 {
 public:
@@ -22,7 +24,7 @@ protected:
 
 private:
   bool IsTabulated() const;
-  void CheckEnergy() const;
+  void CheckEnergy(const AirShare& air) const;
   void CheckThickness() const;
 };
 } // namespace LightTransport

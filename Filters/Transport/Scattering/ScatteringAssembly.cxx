@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringAssembly.h"
 
+#include "Scattering/AirGaps.h"
 #include "Scattering/ScatteringIntegrals.h"
 #include "Scattering/ScatteringPatches.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
+#include "Support/SplitMix.h"
 #include "vtkExchangeMatrix.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace LightTransport
 {
@@ -34,14 +37,45 @@ constexpr double RoundingMargin = 1.01;
 /// Halvings of the longest distance in the search for the one beyond which pairs are left out.
 constexpr int CutOffSteps = 60;
 
+/// Links of a patch that are looked at for air, where not all of them are; a little more of small
+/// ones and where bands differ.
+constexpr double AirSamples = 64.0;
+
 //------------------------------------------------------------------------------
-/// What a thread leaves behind for one strip of a tile.
+/// What a thread leaves behind for a patch.
+struct PatchSummary
+{
+  using Bands = ScatteringIntegrals::Bands;
+  double Error = 0.0;
+  Bands ThroughAir = Bands::Zero();
+  Bands ThroughAirVariance = Bands::Zero();
+
+  void Add(const PatchSummary& other)
+  {
+    this->Error += other.Error;
+    this->ThroughAir += other.ThroughAir;
+    this->ThroughAirVariance += other.ThroughAirVariance;
+  }
+  void AddTo(ScatteringAssembly::Summary& summary, vtkIdType patch) const
+  {
+    summary.Errors[patch] += this->Error;
+    for (int band = 0; band < ScatteringIntegrals::NumberOfBands; ++band)
+    {
+      const vtkIdType k = patch * ScatteringIntegrals::NumberOfBands + band;
+      summary.ThroughAir[k] += this->ThroughAir[band];
+      summary.ThroughAirVariances[k] += this->ThroughAirVariance[band];
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+/// And for one strip of a tile.
 struct StripSummary
 {
   vtkIdType Links = 0;
   vtkIdType LeftOut = 0;
-  double RowErrors[RowsPerStrip] = {};
-  double ColumnErrors[vtkExchangeMatrix::TileSize] = {};
+  PatchSummary Rows[RowsPerStrip];
+  PatchSummary Columns[vtkExchangeMatrix::TileSize];
 };
 
 //------------------------------------------------------------------------------
@@ -51,8 +85,8 @@ class StripFiller
 public:
   StripFiller(const ScatteringPatches& body, const ScatteringIntegrals& integrals,
     const ScatteringProfiles& profiles, double tolerance, double furthest,
-    vtkExchangeMatrix* exchange)
-    : Patches(body), Integrals(integrals), Tiles(exchange->GetTiles())
+    const ScatteringAssembly::AirLinks& air, vtkExchangeMatrix* exchange)
+    : Patches(body), Integrals(integrals), Air(air), Tiles(exchange->GetTiles())
   {
     for (std::size_t band = 0; band < profiles.size(); ++band)
     {
@@ -96,12 +130,12 @@ public:
       const vtkIdType column = tile.Column * vtkExchangeMatrix::TileSize;
       for (vtkIdType i = 0; i < std::min<vtkIdType>(RowsPerStrip, count - row); ++i)
       {
-        summary.Errors[row + i] += strip.RowErrors[i];
+        strip.Rows[i].AddTo(summary, row + i);
       }
       for (vtkIdType j = 0; j < std::min<vtkIdType>(vtkExchangeMatrix::TileSize, count - column);
            ++j)
       {
-        summary.Errors[column + j] += strip.ColumnErrors[j];
+        strip.Columns[j].AddTo(summary, column + j);
       }
     }
   }
@@ -152,16 +186,20 @@ private:
       for (vtkIdType column = std::max<vtkIdType>(0, i - columnOffset); column < last; ++column)
       {
         const vtkIdType j = columnOffset + column;
-        const double error = this->FillPair(tile, row, column, i, j, summary);
-        summary.RowErrors[row - firstRow] += error;
-        summary.ColumnErrors[column] += i == j ? 0.0 : error;
+        PatchSummary pair;
+        this->FillPair(tile, row, column, i, j, summary, pair);
+        summary.Rows[row - firstRow].Add(pair);
+        if (i != j)
+        {
+          summary.Columns[column].Add(pair);
+        }
       }
     }
   }
 
-  /// Returns the estimated error.
-  double FillPair(vtkExchangeMatrix::Tile& tile, vtkIdType row, vtkIdType column, vtkIdType i,
-    vtkIdType j, StripSummary& summary) const
+  /// `pair`: what it adds to the summaries of both patches.
+  void FillPair(vtkExchangeMatrix::Tile& tile, vtkIdType row, vtkIdType column, vtkIdType i,
+    vtkIdType j, StripSummary& summary, PatchSummary& pair) const
   {
     ScatteringIntegrals::Result result;
     if (i == j)
@@ -177,7 +215,8 @@ private:
       if (distance - reach > this->CutOff)
       {
         ++summary.LeftOut;
-        return this->PerArea * areas;
+        pair.Error = this->PerArea * areas;
+        return;
       }
       ++summary.Links;
       double tolerance = this->PerArea * areas;
@@ -186,19 +225,51 @@ private:
         tolerance += this->PerNeighbour * std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
       }
       this->Patches.AddPair(this->Integrals, i, j, tolerance / areas, result);
+      this->LookForAir(i, j, result.Value, pair);
     }
+    pair.Error = result.Error;
     for (int band = 0; band < ScatteringIntegrals::NumberOfBands; ++band)
     {
       vtkExchangeMatrix::SetValue(tile, static_cast<int>(row), static_cast<int>(column), band,
         this->Totals[band] * result.Value[band]);
     }
-    return result.Error;
+  }
+
+  /// Of the links of a patch about as many are looked at as AirSamples says, stronger ones more
+  /// likely, by a number that is the link's own: so that threads and ranks do not matter.
+  void LookForAir(vtkIdType i, vtkIdType j, ScatteringIntegrals::Bands& value,
+    PatchSummary& pair) const
+  {
+    if (!this->Air.Gaps.MayBeThere())
+    {
+      return;
+    }
+    double chance = 1.0;
+    if (!this->Air.AreDropped)
+    {
+      const double part =
+        value.maxCoeff() / std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
+      chance = std::min(AirSamples * part, 1.0);
+      const auto count = static_cast<std::uint64_t>(this->Patches.Areas.size());
+      SplitMix number(static_cast<std::uint64_t>(i) * count + static_cast<std::uint64_t>(j));
+      if (!(number.GetNextHalf() < chance * 0x1p32))
+      {
+        return;
+      }
+    }
+    if (this->Air.Gaps.AreBetween(i, j))
+    {
+      pair.ThroughAir = value * this->Totals / chance;
+      pair.ThroughAirVariance = (1.0 - chance) * pair.ThroughAir.square();
+      value *= this->Air.AreDropped ? 0.0 : 1.0;
+    }
   }
 
   const ScatteringPatches& Patches;
   const ScatteringIntegrals& Integrals;
+  const ScatteringAssembly::AirLinks& Air;
   const std::vector<vtkExchangeMatrix::Tile>& Tiles;
-  double Totals[ScatteringIntegrals::NumberOfBands];
+  ScatteringIntegrals::Bands Totals = ScatteringIntegrals::Bands::Zero();
   double PerArea;
   double PerNeighbour;
   double CutOff = 0.0;
@@ -209,16 +280,24 @@ private:
 
 //------------------------------------------------------------------------------
 Outcome ScatteringAssembly::Fill(const PatchScene& scene, double millimetersPerSceneUnit,
-  const ScatteringProfiles& profiles, double tolerance, vtkExchangeMatrix* exchange,
-  const Monitor& monitor, Summary& summary)
+  const ScatteringProfiles& profiles, double tolerance, const AirLinks& air,
+  vtkExchangeMatrix* exchange, const Monitor& monitor, Summary& summary)
 {
   const ScatteringPatches body(scene, millimetersPerSceneUnit);
   // The scene's bounding box has diagonal 1.
   const double furthest = RoundingMargin * millimetersPerSceneUnit;
   const ScatteringIntegrals integrals(profiles, furthest, ShareOfValues * tolerance);
-  StripFiller filler(body, integrals, profiles, tolerance, furthest, exchange);
+  StripFiller filler(body, integrals, profiles, tolerance, furthest, air, exchange);
   summary = Summary();
   summary.Errors.assign(body.Areas.size(), 0.0);
+  summary.ThroughAir.assign(body.Areas.size() * profiles.size(), 0.0);
+  summary.ThroughAirVariances.assign(body.Areas.size() * profiles.size(), 0.0);
+  const bool isSample = air.Gaps.MayBeThere() && !air.AreDropped;
+  for (const auto& profile : profiles)
+  {
+    const double largest = *std::max_element(body.Areas.begin(), body.Areas.end());
+    summary.AirSamples.push_back(isSample ? profile->GetTotal() * largest / AirSamples : 0.0);
+  }
   const vtkIdType strips =
     static_cast<vtkIdType>(exchange->GetTiles().size()) * StripFiller::StripsPerTile;
   for (int batch = 0; batch < NumberOfBatches; ++batch)

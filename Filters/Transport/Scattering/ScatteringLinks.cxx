@@ -4,6 +4,7 @@
 
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
+#include "Scattering/AirGaps.h"
 #include "Scattering/ScatteringAssembly.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringIntegrals.h"
@@ -34,8 +35,7 @@ constexpr double ClusterTolerance = 1e-2;
 /// Above the longest distance in the scene, whose bounding box has diagonal 1.
 constexpr double RoundingMargin = 1.01;
 ///@{ Of the tolerance of links between clusters, what their values may be wrong by: in proportion
-/// to
-/// themselves, to areas, and to neighbours (in a triangle mesh there are about 40).
+/// to themselves, to areas, and to neighbours (in a triangle mesh there are about 40).
 constexpr double ShareOfValues = 0.3;
 constexpr double ShareOfAreas = 0.1;
 constexpr double ShareOfNeighbours = 0.1 / 40.0;
@@ -80,7 +80,8 @@ LinkKey ScatteringLinks::GetKey() const
     { static_cast<double>(this->Model), static_cast<double>(this->Options.BurleyFit),
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
-      static_cast<double>(this->Choice.Number), this->Choice.Tolerance },
+      static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
+      this->Choice.DropsThroughAir ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -117,9 +118,10 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   Outcome built = ScatteringModels::MakeProfiles(this->Model, options, this->Bands, task.Profiles);
   if (built)
   {
-    built = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE
-      ? this->LinkPatches(task)
-      : this->LinkClusters(task);
+    // What goes through the air is told of pairs alone.
+    const bool isDense = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
+      this->Choice.DropsThroughAir;
+    built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
   }
   if (!built)
   {
@@ -127,6 +129,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   }
   for (const auto& profile : task.Profiles)
   {
+    links.ProfileTotals.push_back(profile->GetTotal());
     links.ProfileErrors.push_back(profile->GetError());
   }
   links.Summaries.emplace_back("LinkBytes", links.GetExchange()->GetNumberOfBytes());
@@ -139,11 +142,14 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
 {
   Links& links = task.Result;
   links.Tolerance = this->GetTolerance(true);
+  links.AreThroughAirDropped = this->Choice.DropsThroughAir;
   ScatteringAssembly::Summary summary;
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
+  AirGaps gaps;
+  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
-                    links.Matrix, task.Watch, summary)
+                    { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
   if (!built)
   {
@@ -152,6 +158,11 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   task.AllRanks.Sum(counts, 2);
   task.AllRanks.Sum(summary.Errors);
+  task.AllRanks.Sum(summary.ThroughAir);
+  task.AllRanks.Sum(summary.ThroughAirVariances);
+  links.ThroughAir = std::move(summary.ThroughAir);
+  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
+  links.AirSamples = std::move(summary.AirSamples);
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {

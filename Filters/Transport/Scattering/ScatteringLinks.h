@@ -19,15 +19,17 @@ class ScatteringRefinement;
 /// Which links there are.
 struct ScatteringLinkChoice
 {
-  int Method = 0;         ///< of vtkSubsurfaceScattering::LinkMethodType
-  int Number = 0;         ///< of each receiver: of Uniform, and at most of Adaptive
-  double Tolerance = 0.0; ///< relative error of what a patch receives; 0 for the method's own
+  int Method = 0;               ///< of vtkSubsurfaceScattering::LinkMethodType
+  int Number = 0;               ///< of each receiver: of Uniform, and at most of Adaptive
+  double Tolerance = 0.0;       ///< relative error of what a patch receives; 0 for the method's own
+  bool DropsThroughAir = false; ///< of all pairs
 };
 
 class ScatteringLinks : public LinkBuilder
 {
 public:
-  /// `model` is one of vtkSubsurfaceScattering::ModelType.
+  /// `model` is one of vtkSubsurfaceScattering::ModelType. Links through air (AirGaps) are
+  /// left out where they are to be dropped, and of all pairs known by a sample where not.
   ScatteringLinks(int model, const ScatteringOptions& options, std::vector<ScatteringMedium> bands,
     double millimetersPerUnit, const ScatteringLinkChoice& choice);
 

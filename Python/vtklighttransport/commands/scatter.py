@@ -46,6 +46,9 @@ PROPERTIES = (
            "surface"),
     Switch("--thickness", "ComputeThickness", True,
            "add the arrays Thickness (mm) and DiffusionThickness (diffusion lengths)"),
+    Switch("--drop-links-through-air", "DropLinksThroughAir", True,
+           "leave out links through the air between parts of the body; LinksThroughAir tells what "
+           "they carry"),
     Number("--link-tolerance", "LinkTolerance", float,
            "bound on the relative error of the links of a patch"),
     Choice("--device", "Device", "DEVICE_",
