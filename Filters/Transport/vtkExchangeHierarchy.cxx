@@ -154,8 +154,8 @@ bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vecto
     offsets.back() == static_cast<std::int64_t>(columns.size()) &&
     std::is_sorted(offsets.begin(), offsets.end()) &&
     values.size() == columns.size() * this->NumberOfKernels &&
-    std::all_of(
-      columns.begin(), columns.end(), [=](int slot) { return slot >= 0 && slot < slots; });
+    std::all_of(columns.begin(), columns.end(),
+      [=](int slot) { return slot >= 0 && slot < slots; });
   if (good)
   {
     this->Offsets = std::move(offsets);
