@@ -35,6 +35,8 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
   this->Patches = tables.GetPatches();
   this->Tiles = tables.GetTiles();
   this->PieceLines = tables.GetNumberOfPieceLines();
+  this->LinksPerTexel = tables.GetLinksPerTexel();
+  this->TexelsPerLink = tables.GetTexelsPerLink();
   double bytes = 0.0;
   for (const Tile& tile : this->Tiles)
   {
@@ -175,7 +177,9 @@ Outcome HierarchicalProductGL::GatherLinks()
 {
   vtkShaderProgram* program = nullptr;
   const Outcome used =
-    this->Use(program, "GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS);
+    this->Use(program, "GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS,
+      "#define LINKS_PER_TEXEL " + std::to_string(this->LinksPerTexel) +
+        "\n#define TEXELS_PER_LINK " + std::to_string(this->TexelsPerLink) + "\n");
   for (std::size_t tile = 0; used && tile < this->Tiles.size(); ++tile)
   {
     this->Engine.SetTextures(program, "links", this->Links[tile]);

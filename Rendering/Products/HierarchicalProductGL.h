@@ -45,6 +45,8 @@ private:
   std::vector<Range> Levels; ///< of nodes
   Range Patches{};
   int PieceLines = 0;
+  int LinksPerTexel = 0;
+  int TexelsPerLink = 0;
   std::vector<Tile> Tiles;
   std::vector<Group> Links; ///< of each tile
   Group Children;

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct Case
   int Bands;
   int MaximumTextureSize;
   int LinkTextures;
+  int Kernels = 0; ///< of links that serve one direction; 0 for links that serve both
 };
 
 std::string Describe(const Case& setting)
@@ -52,7 +54,8 @@ std::string Describe(const Case& setting)
   return std::to_string(setting.Patches) + " patches, leaves of at most " +
     std::to_string(setting.LargestLeaf) + ", " + std::to_string(setting.Links) + " links, " +
     std::to_string(setting.Bands) + " bands, textures of at most " +
-    std::to_string(setting.MaximumTextureSize);
+    std::to_string(setting.MaximumTextureSize) +
+    (setting.Kernels > 0 ? ", one way with kernels: " + std::to_string(setting.Kernels) : "");
 }
 
 /// Cut at random places into two to five children, breadth first, so that levels and patches mix.
@@ -116,6 +119,27 @@ std::vector<Link> MakeLinks(int nodes, int patches, int count)
   return links;
 }
 
+/// The links in the rows of their first ends, with other values in each kernel.
+bool SetRows(vtkExchangeHierarchy* hierarchy, std::vector<Link> links)
+{
+  std::stable_sort(links.begin(), links.end(),
+    [](const Link& a, const Link& b) { return a.I < b.I; });
+  std::vector<std::int64_t> offsets(static_cast<std::size_t>(hierarchy->GetNumberOfSlots()) + 1, 0);
+  std::vector<int> columns;
+  std::vector<float> values;
+  for (const Link& link : links)
+  {
+    columns.push_back(link.J);
+    ++offsets[static_cast<std::size_t>(link.I) + 1];
+    for (int kernel = 0; kernel < hierarchy->GetNumberOfKernels(); ++kernel)
+    {
+      values.push_back(link.Value / static_cast<float>(1 + (link.J + 3 * kernel) % 7));
+    }
+  }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  return hierarchy->SetRows(offsets, columns, values);
+}
+
 /// With absolute values of the links, a product bounds the rounding of the other.
 void FillHierarchy(vtkExchangeHierarchy* hierarchy, const Case& setting, bool absolute = false)
 {
@@ -131,7 +155,8 @@ void FillHierarchy(vtkExchangeHierarchy* hierarchy, const Case& setting, bool ab
   {
     weight = weight * weight + 0.1;
   }
-  if (!hierarchy->SetTree(weights, nodes) || !hierarchy->SetLinks(links))
+  if (!hierarchy->SetTree(weights, nodes, 0, 1, std::max(setting.Kernels, 1)) ||
+    !(setting.Kernels > 0 ? SetRows(hierarchy, links) : hierarchy->SetLinks(links)))
   {
     std::cerr << "ERROR: no hierarchy for " << Describe(setting) << "\n";
   }
@@ -387,7 +412,10 @@ int TestOpenGLHierarchicalLinks(int, char*[])
     { 300, 8, 1000, 1, 0, 1 }, { 300, 8, 1000, 3, 0, 1 }, { 300, 1, 1000, 4, 0, 1 },
     { 300, 8, 1000, 5, 0, 1 }, { 300, 8, 1000, 8, 0, 1 }, { 300, 8, 1000, 32, 0, 1 },
     { 3000, 4, 50000, 3, 0, 1 }, { 5, 1, 20, 3, 64, 1 }, { 300, 8, 10000, 3, 64, 3 },
-    { 300, 8, 10000, 5, 100, 2 }, { 1000, 8, 20000, 1, 64, 6 } };
+    { 300, 8, 10000, 5, 100, 2 }, { 1000, 8, 20000, 1, 64, 6 }, { 300, 8, 1000, 1, 0, 1, 1 },
+    { 300, 8, 1000, 3, 0, 1, 1 }, { 300, 8, 1000, 2, 0, 1, 2 }, { 300, 8, 1000, 3, 0, 1, 3 },
+    { 300, 8, 1000, 4, 0, 1, 4 }, { 300, 8, 1000, 5, 0, 1, 5 }, { 300, 8, 1000, 32, 0, 1, 32 },
+    { 1, 1, 3, 3, 0, 1, 3 }, { 3000, 4, 50000, 3, 0, 1, 3 }, { 300, 8, 10000, 3, 64, 4, 3 } };
   vtkNew<vtkOpenGLLinkOperator> device;
   bool good = true;
   for (const Case& setting : cases)
