@@ -36,7 +36,8 @@ int HierarchyLayout::CountTexels(std::int64_t links) const
 //------------------------------------------------------------------------------
 bool HierarchyLayout::Fits() const
 {
-  const int received = this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines();
+  const int coded = this->Hierarchy.GetCodedRows().Tiles.empty() ? 0 : this->GetNumberOfSlotLines();
+  const int received = this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines() + coded;
   return std::max({ this->GetNumberOfSlotLines(), received, this->TexelsPerLink }) <=
     this->MaximumHeight;
 }

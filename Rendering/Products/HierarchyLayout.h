@@ -62,6 +62,7 @@ public:
   const std::vector<Range>& GetLevels() const { return this->Levels; }
   const Range& GetPatches() const { return this->Patches; }
   const std::vector<Tile>& GetTiles() const { return this->Tiles; }
+  int GetSlotTexel(int slot) const { return this->SlotTexels[static_cast<std::size_t>(slot)]; }
   int GetNumberOfSlotLines() const { return this->Patches.FirstLine + this->Patches.Lines; }
   int GetNumberOfNodeLines() const { return this->Patches.FirstLine; }
   int GetNumberOfPieceLines() const { return static_cast<int>(this->Heights.size()); }

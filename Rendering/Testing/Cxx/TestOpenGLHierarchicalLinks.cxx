@@ -5,6 +5,7 @@
  * vtkHierarchicalLinkOperator, for random trees and links that take one texture or many; what is
  * read back; operators that change from one form of links to the other; windows that go; errors.
  */
+#include "ClusterLinksTesting.h"
 #include "CornellBoxTesting.h"
 #include "LinkOperatorTesting.h"
 #include "vtkHierarchicalLinkOperator.h"
@@ -212,6 +213,67 @@ bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
   return Check(textures == setting.LinkTextures,
            Describe(setting) + ", " + std::to_string(textures) + " textures of links") &&
     TestProduct(device, setting, 1) && TestProduct(device, setting, 2);
+}
+
+/// Rows in one or two bytes a link, with some links that stay as they are.
+bool TestCodes(vtkOpenGLLinkOperator* device, vtkExchangeHierarchy* hierarchy, int bands,
+  int textures, const std::string& what, int maximumTextureSize = 0)
+{
+  device->SetMaximumTextureSize(maximumTextureSize);
+  if (!Check(device->Initialize(hierarchy, bands), what + ", Initialize"))
+  {
+    return false;
+  }
+  bool good = Check(device->GetNumberOfLinkTextures() == textures,
+    what + ", " + std::to_string(device->GetNumberOfLinkTextures()) + " textures of links");
+  const auto size = static_cast<std::size_t>(hierarchy->GetNumberOfPatches() * bands);
+  for (const unsigned int seed : { 1u, 2u })
+  {
+    const Vector x = MakeVector(size, seed);
+    const Vector expected = MultiplyOnCPU(hierarchy, bands, x);
+    const Vector bound = MultiplyOnCPU(hierarchy, bands, Absolute(x));
+    Vector found(size);
+    good = device->SetVector(0, x.data()) && device->Multiply(1, 0) &&
+      device->GetVector(1, found.data()) &&
+      CheckWithinBound(found, expected, bound, Tolerance, what) && good;
+  }
+  device->SetMaximumTextureSize(0);
+  return good;
+}
+
+/// Rows with common slots alone, with others, with more slots than a tile; of nodes and of patches.
+bool TestCompression(vtkOpenGLLinkOperator* device)
+{
+  bool good = true;
+  for (const int kernels : { 1, 3, 4, 5 })
+  {
+    const ClusterLinks scene(600, kernels);
+    const std::string what = ", coded, kernels: " + std::to_string(kernels);
+    const auto adaptive = scene.MakeAdaptive(0.8);
+    adaptive->CompressRows(0.0);
+    good = TestCodes(device, adaptive, kernels, 1, "adaptive" + what) && good;
+    const auto kept = scene.MakeAdaptive(0.8);
+    kept->CompressRows(0.01);
+    good = TestCodes(device, kept, kernels, 2, "adaptive, some kept" + what) && good;
+    const auto uniform = scene.MakeUniform(5);
+    uniform->CompressRows(0.0);
+    good = TestCodes(device, uniform, kernels, 1, "uniform" + what) && good;
+    const auto all = scene.MakeAdaptive(0.0);
+    all->CompressRows(0.0);
+    good = TestCodes(device, all, kernels, 1, "all pairs" + what) && good;
+  }
+  const ClusterLinks shared(300, 1);
+  const auto one = shared.MakeAdaptive(0.8);
+  one->CompressRows(0.0);
+  good = TestCodes(device, one, 6, 1, "coded, one kernel for six bands") && good;
+  const ClusterLinks large(1500, 2);
+  const auto parts = large.MakeUniform(7);
+  parts->CompressRows(0.0);
+  good = TestCodes(device, parts, 2, 2, "coded, several textures", 100) && good;
+  vtkNew<vtkExchangeHierarchy> odd;
+  FillHierarchy(odd, { 300, 8, 5000, 3, 0, 1, 3 }, true);
+  odd->CompressRows(0.0);
+  return TestCodes(device, odd, 3, 1, "coded, rows of nodes and patches") && good;
 }
 
 /// A chain of nodes that each keep one patch: the patches of all levels, one line of texels each.
@@ -424,6 +486,7 @@ int TestOpenGLHierarchicalLinks(int, char*[])
   }
   device->SetMaximumTextureSize(0);
   good = TestChain(device) && good;
+  good = TestCompression(device) && good;
   good = TestLongSums(device) && good;
   good = TestBytesRead() && good;
   good = TestWindowsAndForms() && good;
