@@ -200,7 +200,8 @@ bool vtkExchangeHierarchy::SetCodedRows(CodedRows rows)
 //------------------------------------------------------------------------------
 double vtkExchangeHierarchy::CompressRows(double tolerance, vtkMultiProcessController* controller)
 {
-  return RowCompression::Compress(*this, tolerance, Ranks(controller));
+  return this->Coded.Book.empty() ? RowCompression::Compress(*this, tolerance, Ranks(controller))
+                                  : 0.0;
 }
 
 //------------------------------------------------------------------------------

@@ -155,8 +155,8 @@ public:
    * most the tolerance times the mean of the link itself and of all links of its row, each times
    * the area of its source. So in even light no row's sum is off by more than the tolerance.
    * Several parts train the same book, with the controller of the ranks that hold them; each must
-   * have whole rows. Returns the error that is left: sqrt(sum A_I (A_J dK)^2 / sum A_I (A_J K)^2)
-   * over all links, of the worst kernel.
+   * have whole rows. A second time nothing changes, until there are other rows. Returns the error
+   * that is left: sqrt(sum A_I (A_J dK)^2 / sum A_I (A_J K)^2) over all links, of the worst kernel.
    */
   double CompressRows(double tolerance, vtkMultiProcessController* controller = nullptr);
 

@@ -87,30 +87,36 @@ template <int Count>
 struct GatherCodes
 {
   using CodedRows = vtkExchangeHierarchy::CodedRows;
-  static constexpr int BookValues = Count * CodedRows::BookSize;
+  // Three bands take as long as four, which are whole vectors.
+  static constexpr int Lanes = Count == 3 ? 4 : Count;
+  static constexpr int TileValues = Lanes * CodedRows::BookSize;
 
   const CodedRows& Coded;
   int Bands;
   const double* Sent;
   double* Received;
-  std::vector<double> Book = std::vector<double>(BookValues);
+  std::vector<double> Book = std::vector<double>(TileValues, 0.0);
 
   GatherCodes(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
     double* received)
     : Coded(hierarchy.GetCodedRows()), Bands(bands), Sent(sent + first), Received(received + first)
   {
     const int kernels = hierarchy.GetNumberOfKernels();
-    for (int value = 0; value < BookValues; ++value)
+    for (int code = 0; code < CodedRows::BookSize; ++code)
     {
-      const int kernel = kernels > 1 ? first + value % Count : 0;
-      this->Book[value] = static_cast<double>(this->Coded.Book[value / Count * kernels + kernel]);
+      for (int band = 0; band < Count; ++band)
+      {
+        const int kernel = kernels > 1 ? first + band : 0;
+        this->Book[code * Lanes + band] =
+          static_cast<double>(this->Coded.Book[code * kernels + kernel]);
+      }
     }
   }
 
   // Tiles of the same rows stay on one thread: they add to the same sums.
   void operator()(vtkIdType begin, vtkIdType end) const
   {
-    std::vector<double> heard(BookValues);
+    std::vector<double> heard(TileValues, 0.0);
     const auto skip = [&](vtkIdType tile)
     {
       while (tile < static_cast<vtkIdType>(this->Coded.Tiles.size()) && this->Coded.Continues(tile))
@@ -133,18 +139,19 @@ struct GatherCodes
       const double* sent =
         this->Sent + static_cast<std::int64_t>(this->Coded.Slots[slot]) * this->Bands;
       std::copy(sent, sent + Count,
-        heard + static_cast<std::int64_t>(slot - tile.FirstSlot) * Count);
+        heard + static_cast<std::int64_t>(slot - tile.FirstSlot) * Lanes);
     }
+    const double* book = this->Book.data();
     this->Coded.VisitPieces(tile,
       [&](int row, const std::uint8_t* bytes, int pairs)
       {
-        double sums[Count] = {};
+        double sums[Lanes] = {};
         CodedRows::VisitLinks(tile, bytes, pairs,
           [&](int place, int code)
           {
-            for (int band = 0; band < Count; ++band)
+            for (int lane = 0; lane < Lanes; ++lane)
             {
-              sums[band] += this->Book[code * Count + band] * heard[place * Count + band];
+              sums[lane] += book[code * Lanes + lane] * heard[place * Lanes + lane];
             }
           });
         double* received = this->Received + static_cast<std::int64_t>(row) * this->Bands;

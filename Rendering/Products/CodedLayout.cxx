@@ -36,6 +36,10 @@ CodedLayout::CodedLayout(const vtkExchangeHierarchy& hierarchy, const HierarchyL
   : Hierarchy(hierarchy), Coded(hierarchy.GetCodedRows()), Slots(slots), Width(width),
     MaximumHeight(std::min(maximumHeight, static_cast<int>(FloatTextures::MaximumTexels / width)))
 {
+  if (this->Coded.Tiles.empty())
+  {
+    return;
+  }
   this->FindPieces();
   this->PlaceBytes();
   this->Fit = this->Fit && this->Coded.Tiles.size() < NoTile &&

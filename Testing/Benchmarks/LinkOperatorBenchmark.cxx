@@ -763,7 +763,8 @@ private:
       {
         const double begin = GetSeconds();
         const double error = hierarchy->CompressRows(0.0);
-        std::cout << " in " << GetSeconds() - begin << " s, error " << error;
+        std::cout << std::setprecision(4) << " in " << GetSeconds() - begin << " s, error "
+                  << error;
       }
       std::cout << "\n";
       const PlainWork reading = MakeReading(GetBlocks(hierarchy), this->Threads);

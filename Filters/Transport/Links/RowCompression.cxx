@@ -440,6 +440,7 @@ void RowCompression::Replace()
     offsets.push_back(static_cast<std::int64_t>(columns.size()));
   }
   this->Hierarchy.SetRows(std::move(offsets), std::move(columns), std::move(values));
+  this->Coded.Bytes.shrink_to_fit();
   this->Hierarchy.SetCodedRows(std::move(this->Coded));
 }
 } // namespace LightTransport

@@ -165,6 +165,8 @@ void TestBytes()
   const auto uniform = scene.MakeUniform(6);
   Check(uniform->GetNumberOfLinks() == 64 * patches, "64 links");
   uniform->CompressRows(0.0);
+  Check(uniform->CompressRows(0.0) == 0.0 && uniform->GetNumberOfLinks() == 64 * patches,
+    "a second time nothing changes");
   const CodedRows& same = uniform->GetCodedRows();
   Check(same.Bytes.size() == std::size_t(64) * patches && same.Tiles[0].Common == 64,
     "a byte for a link that all have");
