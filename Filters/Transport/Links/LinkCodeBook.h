@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Points that stand for many: the code book of a vector quantiser (Y. Linde, A. Buzo, R. M. Gray,
- * IEEE Trans. Commun. 28, 84, 1980), trained so that the sum of weighted squared distances is
- * small. The same samples in the same order give the same book.
+ * IEEE Transactions on Communications 28, 84, 1980), trained so that the sum of weighted squared
+ * distances is small. The same samples in the same order give the same book.
  */
 #ifndef LinkCodeBook_h
 #define LinkCodeBook_h
