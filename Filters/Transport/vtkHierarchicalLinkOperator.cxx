@@ -88,29 +88,29 @@ struct GatherCodes
 {
   using CodedRows = vtkExchangeHierarchy::CodedRows;
   // Three bands take as long as four, which are whole vectors.
-  static constexpr int Lanes = Count == 3 ? 4 : Count;
+  static constexpr int Lanes = Count + (Count == 3 ? 1 : 0);
   static constexpr int TileValues = Lanes * CodedRows::BookSize;
 
   const CodedRows& Coded;
   int Bands;
   const double* Sent;
   double* Received;
-  std::vector<double> Book = std::vector<double>(TileValues, 0.0);
+  std::vector<double> Book; ///< as MakeBook makes it
 
-  GatherCodes(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
-    double* received)
-    : Coded(hierarchy.GetCodedRows()), Bands(bands), Sent(sent + first), Received(received + first)
+  static std::vector<double> MakeBook(const vtkExchangeHierarchy& hierarchy, int firstKernel)
   {
+    const std::vector<float>& values = hierarchy.GetCodedRows().Book;
     const int kernels = hierarchy.GetNumberOfKernels();
+    std::vector<double> book(TileValues, 0.0);
     for (int code = 0; code < CodedRows::BookSize; ++code)
     {
       for (int band = 0; band < Count; ++band)
       {
-        const int kernel = kernels > 1 ? first + band : 0;
-        this->Book[code * Lanes + band] =
-          static_cast<double>(this->Coded.Book[code * kernels + kernel]);
+        const int kernel = kernels > 1 ? firstKernel + band : 0;
+        book[code * Lanes + band] = static_cast<double>(values[code * kernels + kernel]);
       }
     }
+    return book;
   }
 
   // Tiles of the same rows stay on one thread: they add to the same sums.
@@ -178,7 +178,8 @@ void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, co
   const auto tiles = static_cast<vtkIdType>(hierarchy.GetCodedRows().Tiles.size());
   if (tiles > 0)
   {
-    GatherCodes<Count> gather(hierarchy, bands, first, sent, received);
+    GatherCodes<Count> gather{ hierarchy.GetCodedRows(), bands, sent + first, received + first,
+      GatherCodes<Count>::MakeBook(hierarchy, first) };
     Threads::For(0, tiles, TilesPerTask, gather);
   }
 }
