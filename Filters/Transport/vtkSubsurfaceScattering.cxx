@@ -116,6 +116,7 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "BurleyFit: " << this->BurleyFit << "\n";
   os << indent << "ComputeThickness: " << this->ComputeThickness << "\n";
+  os << indent << "NumberOfLinks: " << this->NumberOfLinks << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

@@ -39,6 +39,15 @@ Outcome ProfileRun::Check()
 }
 
 //------------------------------------------------------------------------------
+// In an order for clusters, where there may be any.
+Outcome ProfileRun::Gather()
+{
+  return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
+    ? this->ScatteringRun::Gather()
+    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface);
+}
+
+//------------------------------------------------------------------------------
 std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
 {
   ScatteringOptions options;
@@ -49,14 +58,18 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
-    this->Owner->GetMillimetersPerUnit(), this->Owner->GetLinkTolerance());
+    this->Owner->GetMillimetersPerUnit(),
+    ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
+      this->Owner->GetLinkTolerance() });
 }
 
 //------------------------------------------------------------------------------
 /// More than all of it comes back only by an error.
 void ProfileRun::CheckEnergy() const
 {
-  const double margin = NegligibleExcess + this->Cache.Get().GetSummary("LinkErrorBound");
+  const Links& links = this->Cache.Get();
+  const double margin =
+    NegligibleExcess + links.GetSummary("LinkErrorBound") + links.GetSummary("LinkError");
   for (int band = 0; band < Bands; ++band)
   {
     if (this->LeavingFlux[band] > (1.0 + margin) * this->EnteringFlux[band])
