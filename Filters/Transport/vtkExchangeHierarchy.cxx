@@ -2,15 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExchangeHierarchy.h"
 
+#include "Links/RowCompression.h"
 #include "Shared/Pulse.h"
+#include "Support/Ranks.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
-using LightTransport::Pulse;
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkExchangeHierarchy);
+
+namespace
+{
+//------------------------------------------------------------------------------
+template <typename Table>
+double GetBytes(const Table& table)
+{
+  return static_cast<double>(table.size() * sizeof(table[0]));
+}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkExchangeHierarchy::vtkExchangeHierarchy() = default;
@@ -26,24 +39,33 @@ void vtkExchangeHierarchy::Clear()
   this->Levels.clear();
   this->Parents.clear();
   this->Weights.clear();
-  this->SetLinks({});
+  this->ClearLinks();
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeHierarchy::ClearLinks()
+{
+  this->Columns.clear();
+  this->Values.clear();
+  this->Coded = {};
+  this->NumberOfLinks = 0;
+  this->Symmetric = true;
+  this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------
 bool vtkExchangeHierarchy::SetTree(const std::vector<double>& areas, const std::vector<Node>& nodes,
-  int part, int numberOfParts)
+  int part, int numberOfParts, int numberOfKernels)
 {
   this->Areas = areas;
   this->Weights = areas;
   this->Nodes = nodes;
-  this->NumberOfKernels = 1;
+  this->NumberOfKernels = numberOfKernels;
   this->Part = part;
   this->NumberOfParts = numberOfParts;
-  const bool good = this->FindParents() && this->SetLinks({});
-  if (!good)
-  {
-    this->Clear();
-  }
+  const bool good = this->FindParents();
+  good ? this->ClearLinks() : this->Clear();
   return good;
 }
 
@@ -92,10 +114,7 @@ bool vtkExchangeHierarchy::FindParents()
 //------------------------------------------------------------------------------
 bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
 {
-  this->Columns.clear();
-  this->Values.clear();
-  this->NumberOfLinks = 0;
-  this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
+  this->ClearLinks();
   std::size_t step = 0;
   for (const Link& link : links)
   {
@@ -114,7 +133,7 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
   }
   catch (const std::bad_alloc&)
   {
-    this->SetLinks({});
+    this->ClearLinks();
     return false;
   }
   std::vector<std::int64_t> ends(this->Offsets.begin(), this->Offsets.end() - 1);
@@ -139,9 +158,62 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
 }
 
 //------------------------------------------------------------------------------
+bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vector<int> columns,
+  std::vector<float> values)
+{
+  this->ClearLinks();
+  const int slots = this->GetNumberOfSlots();
+  const bool good = offsets.size() == this->Offsets.size() && offsets.front() == 0 &&
+    offsets.back() == static_cast<std::int64_t>(columns.size()) &&
+    std::is_sorted(offsets.begin(), offsets.end()) &&
+    values.size() == columns.size() * this->NumberOfKernels &&
+    std::all_of(columns.begin(), columns.end(),
+      [=](int slot) { return slot >= 0 && slot < slots; });
+  if (good)
+  {
+    this->Offsets = std::move(offsets);
+    this->Columns = std::move(columns);
+    this->Values = std::move(values);
+    this->NumberOfLinks = static_cast<vtkIdType>(this->Columns.size());
+    this->Symmetric = false;
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+bool vtkExchangeHierarchy::SetCodedRows(CodedRows rows)
+{
+  const auto areSlots = [slots = this->GetNumberOfSlots()](const std::vector<int>& table)
+  { return std::all_of(table.begin(), table.end(), [=](int s) { return s >= 0 && s < slots; }); };
+  const bool good = areSlots(rows.Rows) && areSlots(rows.Slots) &&
+    rows.Book.size() == static_cast<std::size_t>(CodedRows::BookSize) * this->NumberOfKernels;
+  if (good)
+  {
+    this->NumberOfLinks += static_cast<vtkIdType>(rows.NumberOfLinks - this->Coded.NumberOfLinks);
+    this->Coded = std::move(rows);
+    this->Symmetric = false;
+    this->Modified();
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::CompressRows(double tolerance, vtkMultiProcessController* controller)
+{
+  return this->Coded.Book.empty() ? RowCompression::Compress(*this, tolerance, Ranks(controller))
+                                  : 0.0;
+}
+
+//------------------------------------------------------------------------------
 double vtkExchangeHierarchy::GetEstimatedBytes(double numberOfLinks)
 {
-  return 2.0 * numberOfLinks * (sizeof(int) + sizeof(float));
+  return GetEstimatedBytesOfRows(2.0 * numberOfLinks, 1);
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetEstimatedBytesOfRows(double numberOfLinks, int numberOfKernels)
+{
+  return numberOfLinks * (sizeof(int) + numberOfKernels * sizeof(float));
 }
 
 //------------------------------------------------------------------------------
@@ -152,7 +224,7 @@ void vtkExchangeHierarchy::SetWeights(const std::vector<double>& weights)
 }
 
 //------------------------------------------------------------------------------
-double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int) const
+double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int kernel) const
 {
   const auto getSlot = [this](vtkIdType patch)
   { return this->GetNumberOfNodes() + static_cast<int>(patch); };
@@ -161,26 +233,66 @@ double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int) const
   {
     others.push_back(slot);
   }
-  double sum = 0.0;
+  std::vector<int> rows;
   for (int slot = getSlot(i); slot >= 0; slot = this->Parents[slot])
+  {
+    rows.push_back(slot);
+  }
+  double sum = this->GetCodedValue(rows, others, kernel);
+  for (const int slot : rows)
   {
     for (std::int64_t link = this->Offsets[slot]; link < this->Offsets[slot + 1]; ++link)
     {
       const bool isOther =
         std::find(others.begin(), others.end(), this->Columns[link]) != others.end();
-      sum += isOther ? static_cast<double>(this->Values[link]) : 0.0;
+      sum +=
+        isOther ? static_cast<double>(this->Values[link * this->NumberOfKernels + kernel]) : 0.0;
     }
   }
   return this->Weights[i] * sum * this->Weights[j];
 }
 
 //------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetCodedValue(const std::vector<int>& rows,
+  const std::vector<int>& others, int kernel) const
+{
+  const auto isIn = [](const std::vector<int>& slots, int slot)
+  { return std::find(slots.begin(), slots.end(), slot) != slots.end(); };
+  double sum = 0.0;
+  for (const CodedRows::Tile& tile : this->Coded.Tiles)
+  {
+    const auto add = [&](int place, int code)
+    {
+      sum += isIn(others, this->Coded.Slots[tile.FirstSlot + place])
+        ? static_cast<double>(this->Coded.Book[code * this->NumberOfKernels + kernel])
+        : 0.0;
+    };
+    this->Coded.VisitPieces(tile,
+      [&](int row, const std::uint8_t* bytes, int pairs)
+      {
+        if (isIn(rows, row))
+        {
+          CodedRows::VisitLinks(tile, bytes, pairs, add);
+        }
+      });
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
 double vtkExchangeHierarchy::GetNumberOfBytes() const
 {
-  const auto bytes = [](const auto& table)
-  { return static_cast<double>(table.size() * sizeof(table[0])); };
-  return bytes(this->Nodes) + bytes(this->Parents) + bytes(this->Weights) + bytes(this->Areas) +
-    bytes(this->Offsets) + bytes(this->Columns) + bytes(this->Values);
+  return GetBytes(this->Nodes) + GetBytes(this->Parents) + GetBytes(this->Weights) +
+    GetBytes(this->Areas) + this->GetNumberOfLinkBytes();
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetNumberOfLinkBytes() const
+{
+  const CodedRows& coded = this->Coded;
+  return GetBytes(this->Offsets) + GetBytes(this->Columns) + GetBytes(this->Values) +
+    GetBytes(coded.Book) + GetBytes(coded.Rows) + GetBytes(coded.Slots) + GetBytes(coded.Tiles) +
+    GetBytes(coded.Pairs) + GetBytes(coded.Bytes);
 }
 
 //------------------------------------------------------------------------------

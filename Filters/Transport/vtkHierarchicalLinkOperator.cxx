@@ -7,6 +7,8 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 using namespace LightTransport;
 
@@ -18,10 +20,12 @@ namespace
 constexpr int MaximumBands = 4;
 // Rows that a thread takes at a time: rows differ in length.
 constexpr vtkIdType RowsPerTask = 1024;
+constexpr vtkIdType TilesPerTask = 16;
 
 //------------------------------------------------------------------------------
-// Y_I = sum of K X_J for bands [0, Count) of `Bands`.
-template <int Count>
+// Y_I = sum of K X_J for bands [0, Count) of `Bands`. Bands share one value of each link, or have
+// kernels of their own.
+template <int Count, bool HasKernels>
 struct Gather
 {
   // Sums that do not wait for each other: an addition takes some four cycles.
@@ -31,12 +35,14 @@ struct Gather
   int Bands;
   const double* Sent;
   double* Received;
+  int FirstKernel; ///< where bands have their own
 
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     const std::int64_t* offsets = this->Hierarchy.GetOffsets().data();
     const int* columns = this->Hierarchy.GetColumns().data();
-    const float* values = this->Hierarchy.GetValues().data();
+    const float* values = this->Hierarchy.GetValues().data() + this->FirstKernel;
+    const int kernels = HasKernels ? this->Hierarchy.GetNumberOfKernels() : 1;
     for (vtkIdType slot = begin; slot < end; ++slot)
     {
       double sums[Chains][Count] = {};
@@ -45,12 +51,12 @@ struct Gather
       {
         for (int chain = 0; chain < Chains; ++chain)
         {
-          this->Add(columns[link + chain], values[link + chain], sums[chain]);
+          this->Add(columns[link + chain], values + (link + chain) * kernels, sums[chain]);
         }
       }
       for (; link < offsets[slot + 1]; ++link)
       {
-        this->Add(columns[link], values[link], sums[0]);
+        this->Add(columns[link], values + link * kernels, sums[0]);
       }
       for (int band = 0; band < Count; ++band)
       {
@@ -64,13 +70,93 @@ struct Gather
     }
   }
 
-  void Add(int column, float value, double* sums) const
+  void Add(int column, const float* values, double* sums) const
   {
     const double* sent = this->Sent + static_cast<std::int64_t>(column) * this->Bands;
     for (int band = 0; band < Count; ++band)
     {
-      sums[band] += static_cast<double>(value) * sent[band];
+      sums[band] += static_cast<double>(values[HasKernels ? band : 0]) * sent[band];
     }
+  }
+};
+
+//------------------------------------------------------------------------------
+// Y_I += sum over the coded links of I, for bands [0, Count) of `Bands`. What a tile's rows hear is
+// copied into one place first, so that nothing else than it, the book and the bytes are read.
+template <int Count>
+struct GatherCodes
+{
+  using CodedRows = vtkExchangeHierarchy::CodedRows;
+  // Three bands take as long as four, which are whole vectors.
+  static constexpr int Lanes = Count + (Count == 3 ? 1 : 0);
+  static constexpr int TileValues = Lanes * CodedRows::BookSize;
+
+  const CodedRows& Coded;
+  int Bands;
+  const double* Sent;
+  double* Received;
+  std::vector<double> Book; ///< as MakeBook makes it
+
+  static std::vector<double> MakeBook(const vtkExchangeHierarchy& hierarchy, int firstKernel)
+  {
+    const std::vector<float>& values = hierarchy.GetCodedRows().Book;
+    const int kernels = hierarchy.GetNumberOfKernels();
+    std::vector<double> book(TileValues, 0.0);
+    for (int code = 0; code < CodedRows::BookSize; ++code)
+    {
+      for (int band = 0; band < Count; ++band)
+      {
+        const int kernel = kernels > 1 ? firstKernel + band : 0;
+        book[code * Lanes + band] = static_cast<double>(values[code * kernels + kernel]);
+      }
+    }
+    return book;
+  }
+
+  // Tiles of the same rows stay on one thread: they add to the same sums.
+  void operator()(vtkIdType begin, vtkIdType end) const
+  {
+    std::vector<double> heard(TileValues, 0.0);
+    const auto skip = [&](vtkIdType tile)
+    {
+      while (tile < static_cast<vtkIdType>(this->Coded.Tiles.size()) && this->Coded.Continues(tile))
+      {
+        ++tile;
+      }
+      return tile;
+    };
+    const vtkIdType last = skip(end);
+    for (vtkIdType tile = skip(begin); tile < last; ++tile)
+    {
+      this->GatherTile(this->Coded.Tiles[tile], heard.data());
+    }
+  }
+
+  void GatherTile(const CodedRows::Tile& tile, double* heard) const
+  {
+    for (int slot = tile.FirstSlot; slot < tile.LastSlot; ++slot)
+    {
+      const double* sent =
+        this->Sent + static_cast<std::int64_t>(this->Coded.Slots[slot]) * this->Bands;
+      std::copy(sent, sent + Count,
+        heard + static_cast<std::int64_t>(slot - tile.FirstSlot) * Lanes);
+    }
+    const double* book = this->Book.data();
+    this->Coded.VisitPieces(tile,
+      [&](int row, const std::uint8_t* bytes, int pairs)
+      {
+        double sums[Lanes] = {};
+        CodedRows::VisitLinks(tile, bytes, pairs,
+          [&](int place, int code)
+          {
+            for (int lane = 0; lane < Lanes; ++lane)
+            {
+              sums[lane] += book[code * Lanes + lane] * heard[place * Lanes + lane];
+            }
+          });
+        double* received = this->Received + static_cast<std::int64_t>(row) * this->Bands;
+        std::transform(sums, sums + Count, received, received, std::plus<double>());
+      });
   }
 };
 
@@ -79,8 +165,23 @@ template <int Count>
 void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
   double* received)
 {
-  Gather<Count> gather{ hierarchy, bands, sent + first, received + first };
-  Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  if (hierarchy.GetNumberOfKernels() > 1)
+  {
+    Gather<Count, true> gather{ hierarchy, bands, sent + first, received + first, first };
+    Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  }
+  else
+  {
+    Gather<Count, false> gather{ hierarchy, bands, sent + first, received + first, 0 };
+    Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  }
+  const auto tiles = static_cast<vtkIdType>(hierarchy.GetCodedRows().Tiles.size());
+  if (tiles > 0)
+  {
+    GatherCodes<Count> gather{ hierarchy.GetCodedRows(), bands, sent + first, received + first,
+      GatherCodes<Count>::MakeBook(hierarchy, first) };
+    Threads::For(0, tiles, TilesPerTask, gather);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -192,7 +293,7 @@ void vtkHierarchicalLinkOperator::MultiplyPart(const Vector& x, Vector& y)
 
 //------------------------------------------------------------------------------
 // The links of the patch and of all nodes above it, swept down.
-void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int, double* row)
+void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 {
   this->Received.assign(this->Hierarchy->GetNumberOfSlots(), 0.0);
   const int nodes = this->Hierarchy->GetNumberOfNodes();
@@ -202,14 +303,45 @@ void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int, double* row)
   {
     for (std::int64_t link = offsets[slot]; link < offsets[slot + 1]; ++link)
     {
-      this->Received[this->Hierarchy->GetColumns()[link]] += this->Hierarchy->GetValues()[link];
+      this->Received[this->Hierarchy->GetColumns()[link]] +=
+        this->Hierarchy->GetValues()[link * this->Hierarchy->GetNumberOfKernels() + kernel];
     }
   }
+  this->FillCodedRow(i, kernel);
   this->SweepDown(1);
   const std::vector<double>& weights = this->Hierarchy->GetWeights();
   for (vtkIdType patch = 0; patch < this->NumberOfPatches; ++patch)
   {
     row[patch] = weights[i] * weights[patch] * this->Received[nodes + patch];
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkHierarchicalLinkOperator::FillCodedRow(vtkIdType i, int kernel)
+{
+  using CodedRows = vtkExchangeHierarchy::CodedRows;
+  const CodedRows& coded = this->Hierarchy->GetCodedRows();
+  std::set<int> rows;
+  for (int slot = this->Hierarchy->GetNumberOfNodes() + static_cast<int>(i); slot >= 0;
+       slot = this->Hierarchy->GetParents()[slot])
+  {
+    rows.insert(slot);
+  }
+  for (const CodedRows::Tile& tile : coded.Tiles)
+  {
+    coded.VisitPieces(tile,
+      [&](int row, const std::uint8_t* bytes, int pairs)
+      {
+        if (rows.count(row) > 0)
+        {
+          CodedRows::VisitLinks(tile, bytes, pairs,
+            [&](int place, int code)
+            {
+              this->Received[coded.Slots[tile.FirstSlot + place]] += static_cast<double>(
+                coded.Book[code * this->Hierarchy->GetNumberOfKernels() + kernel]);
+            });
+        }
+      });
   }
 }
 

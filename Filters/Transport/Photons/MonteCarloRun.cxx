@@ -53,6 +53,14 @@ PhotonScattering::Settings MonteCarloRun::GetSettings() const
 //------------------------------------------------------------------------------
 Outcome MonteCarloRun::Check()
 {
+  if (const int method = this->Owner->GetLinkMethod();
+      method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM ||
+      method == vtkSubsurfaceScattering::LINK_METHOD_ADAPTIVE)
+  {
+    return Outcome::Failed("LinkMethod is Uniform or Adaptive, links between clusters, which Model "
+                           "MonteCarlo has not: set it to Auto, or to Dense for links that are "
+                           "kept.");
+  }
   if (this->FollowsPhotons() && this->Owner->GetDevice() == vtkSubsurfaceScattering::DEVICE_OPENGL)
   {
     return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "

@@ -20,6 +20,7 @@ protected:
   Outcome Read() override;
   Outcome Link() override;
   bool IsAnisotropic() const override { return true; }
+  const char* FindUseOfBody() const override { return "Model MonteCarlo"; }
   std::unique_ptr<LinkBuilder> MakeBuilder() const override;
   Outcome Scatter() override;
   void SumLeaving() override;

@@ -200,8 +200,9 @@ Outcome PhotonLinks::Build(const PatchScene& scene, const Ranks& ranks, const Mo
     surface += area;
   }
   Outcome done = ClosedSurface::Check(scene);
-  done = done ? LinkOperators::AllocateMatrix(areas, static_cast<int>(bands), ranks, links.Matrix)
-              : done;
+  done = done
+    ? LinkOperators::AllocateMatrix(areas, static_cast<int>(bands), "", ranks, links.Matrix)
+    : done;
   if (!done)
   {
     return done;
