@@ -344,6 +344,8 @@ public:
   vtkBooleanMacro(DropLinksThroughAir, bool);
   ///@}
 
+  ///@{
+  /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
    * surface, of light that differs from its mean over each cluster by half of it. Default 0: 1e-4
