@@ -362,22 +362,17 @@ public:
    */
   vtkSetClampMacro(Incidence, int, INCIDENCE_DIFFUSE, INCIDENCE_TRANSMITTED);
   vtkGetMacro(Incidence, int);
-  void SetIncidenceToDiffuse() {
-    this->SetIncidence(INCIDENCE_DIFFUSE); }
-  void SetIncidenceToTransmitted() {
-    this->SetIncidence(INCIDENCE_TRANSMITTED); }
+  void SetIncidenceToDiffuse() { this->SetIncidence(INCIDENCE_DIFFUSE); }
+  void SetIncidenceToTransmitted() { this->SetIncidence(INCIDENCE_TRANSMITTED); }
   ///@}
 
   ///@{
   /// Where the links are applied. Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
   vtkGetMacro(Device, int);
-  void SetDeviceToAuto() {
-    this->SetDevice(DEVICE_AUTO); }
-  void SetDeviceToCPU() {
-    this->SetDevice(DEVICE_CPU); }
-  void SetDeviceToOpenGL() {
-    this->SetDevice(DEVICE_OPENGL); }
+  void SetDeviceToAuto() { this->SetDevice(DEVICE_AUTO); }
+  void SetDeviceToCPU() { this->SetDevice(DEVICE_CPU); }
+  void SetDeviceToOpenGL() { this->SetDevice(DEVICE_OPENGL); }
   ///@}
 
 protected:

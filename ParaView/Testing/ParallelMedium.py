@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What TestParallel.py runs in pvbatch: photons in a block of which each rank has a piece, and an
 image of its medium, which a source gives each rank as it asks for it; in the case `pieces` no more
-than a piece.
+than a piece. Then the profile of a table whose photons the ranks share.
 
-The first rank gathers the result and writes it.
+The first rank gathers the results and writes them.
 """
 
 import os
@@ -47,8 +47,12 @@ else:
 medium = simple.Calculator(
     Input=image, ResultArrayName="Scattering",
     Function="2 + coordsX" if case == "pieces" else "0.01 * RTData")
-scattering = simple.SubsurfaceScattering(
-    Input=body, Medium=medium, Model="Monte Carlo", NumberOfPhotons=5000)
-scattering.UpdatePipeline()
-write_surface(os.path.join(folder, "photons.vtp"), simple.servermanager.Fetch(scattering))
+results = {
+    "photons": simple.SubsurfaceScattering(
+        Input=body, Medium=medium, Model="Monte Carlo", NumberOfPhotons=5000),
+    "table": simple.SubsurfaceScattering(
+        Input=body, Model="Tabulated", NumberOfPhotons=5000, Device="CPU")}
+for name, result in results.items():
+    result.UpdatePipeline()
+    write_surface(os.path.join(folder, name + ".vtp"), simple.servermanager.Fetch(result))
 print("the script came to its end", flush=True)

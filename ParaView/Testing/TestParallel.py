@@ -25,7 +25,8 @@ ROOM_ARRAYS = {
     "radiosity": ("Radiosity", "Irradiance", "NetFlux"),
     "scattering": ("DirectIrradiance", "TransmittedIrradiance", "ScatteredIrradiance",
                    "ViewFactorSum", "SkyFraction", "BackFaceFraction")}
-BLOCK_ARRAYS = {"photons": ("ScatteredIrradiance", "ScatteredIrradianceError")}
+PHOTON_ARRAYS = {"photons": ("ScatteredIrradiance", "ScatteredIrradianceError")}
+BLOCK_ARRAYS = {**PHOTON_ARRAYS, "table": ("ScatteredIrradiance",)}
 # What all ranks say where the last one fails, or all do.
 ON_LAST = "On rank {last} of {ranks}: "
 ERRORS = {"error": ON_LAST + "The input has point coordinates that are not finite",
@@ -36,7 +37,7 @@ TOLERANCE = 1e-9
 
 
 def get_arrays(case):
-    return BLOCK_ARRAYS if case in ("medium", "pieces") else ROOM_ARRAYS
+    return {"medium": BLOCK_ARRAYS, "pieces": PHOTON_ARRAYS}.get(case, ROOM_ARRAYS)
 
 
 def run(command, case, folder):
