@@ -95,7 +95,7 @@ class Scattering(Subject):
         low, high = difference.find_range()
         solution.row.update(
             error_l2=difference.error, error_l2_low=low, error_l2_high=high,
-            error_worst_band=float(difference.bands[band]), worst_band=BANDS[band],
+            error_worst_band=float(difference.bands[band]), worst_band=BANDS[band % len(BANDS)],
             error_reference=difference.noise,
             ratio_total=float((areas @ values).sum() / ((areas @ exact).sum() or 1.0)))
         solution.row["ratio_total_error"] = solution.row["ratio_total"] * math.hypot(
