@@ -80,8 +80,8 @@ class Ours:
         self.surface.GetCellData().AddArray(light)
         self.walks = Walks
 
-    def run(self, photons, _seed):
-        walks = self.walks(self.surface, self.medium, self.across, photons)
+    def run(self, photons, seed):
+        walks = self.walks(self.surface, self.medium, self.across, photons, seed)
         leaving = walks.field("LeavingShare")[0] + walks.field("UnscatteredShare")[0]
         return 1.0 - leaving, walks.field("LeavingShareError")[0]
 
