@@ -57,8 +57,9 @@ class Scattering(Subject):
         # Monte Carlo first: it is the reference as well, and tells where the body is not closed.
         self.methods = [
             make_method("MonteCarlo", "TargetError", options.target_errors, monte_carlo)]
+        # All pairs of patches, so that tolerances are what links are off by.
         self.methods += [make_method(name, "LinkTolerance", options.link_tolerances,
-                                     {"Model": number})
+                                     {"Model": number, "LinkMethod": self.kind.LINK_METHOD_DENSE})
                          for name, number in self.find_models() if name != "MonteCarlo"]
         self.reference = Method("MonteCarlo", "TargetError", [options.reference_error], monte_carlo)
         self.seeds = 0
