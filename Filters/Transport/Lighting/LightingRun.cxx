@@ -23,6 +23,14 @@ constexpr double RaysOfBatch = 4e6;
 } // namespace
 
 //------------------------------------------------------------------------------
+NumberProperties::List LightingRun::ListNumbers() const
+{
+  NumberProperties::List numbers = this->TransportRun::ListNumbers();
+  numbers.emplace_back("LightAngularDiameter", this->Lighting->GetLightAngularDiameter());
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
 Outcome LightingRun::ReadLights(std::vector<PunctualLight>& lights) const
 {
   for (int index = 0; index < this->Lighting->GetNumberOfLights(); ++index)

@@ -23,6 +23,8 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
+
   /// Take over the lights that are on. A warning tells where there is no light at all.
   Outcome ReadLights(std::vector<PunctualLight>& lights) const;
 

@@ -52,8 +52,11 @@ struct Links
   std::vector<double> BackHits;
   ///@}
 
-  /// Where links are counts of photons: what one of them adds, of each band.
+  ///@{ Where links are counts of photons, of each band: what one of them adds, and the area on
+  /// which one has started.
   std::vector<double> PhotonSizes;
+  std::vector<double> PhotonAreas;
+  ///@}
   ///@{ Where links are those of a profile: its total, and the standard error of that, relative, of
   /// each band.
   std::vector<double> ProfileTotals;
@@ -70,6 +73,8 @@ struct Links
 
   /// Names and values of the field data arrays that summarise how the links were made.
   std::vector<std::pair<std::string, double>> Summaries;
+  /// And those that are text.
+  std::vector<std::pair<std::string, std::string>> Remarks;
   std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"
   /// Not empty where users should doubt the links: why, and the remedy.
   std::string Warning;

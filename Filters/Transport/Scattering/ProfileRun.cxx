@@ -31,12 +31,27 @@ bool ProfileRun::IsTabulated() const
 //------------------------------------------------------------------------------
 Outcome ProfileRun::Check()
 {
+  if (this->Owner->GetDropLinksThroughAir() &&
+    this->Owner->GetLinkMethod() > vtkSubsurfaceScattering::LINK_METHOD_DENSE)
+  {
+    return Outcome::Failed("DropLinksThroughAir looks at pairs of patches, and LinkMethod is Uniform "
+                           "or Adaptive: set it to Auto or Dense, or do not drop links.");
+  }
   if (this->Owner->GetNumberOfInputConnections(1) > 0)
   {
     return Outcome::Failed("A medium that varies is connected (input port 1), and Model is a "
                            "profile of uniform media: set Model to MonteCarlo, or disconnect it.");
   }
   return this->ScatteringRun::Check();
+}
+
+//------------------------------------------------------------------------------
+// In an order for clusters, where there may be any.
+Outcome ProfileRun::Gather()
+{
+  return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
+    ? this->ScatteringRun::Gather()
+    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface);
 }
 
 //------------------------------------------------------------------------------
@@ -50,8 +65,9 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
-    this->Owner->GetMillimetersPerUnit(), this->Owner->GetLinkTolerance(),
-    this->Owner->GetDropLinksThroughAir());
+    this->Owner->GetMillimetersPerUnit(),
+    ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
+      this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir() });
 }
 
 //------------------------------------------------------------------------------
@@ -59,7 +75,8 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
 void ProfileRun::CheckEnergy(const AirShare& air) const
 {
   const Links& links = this->Cache.Get();
-  const double margin = 1.0 + NegligibleExcess + links.GetSummary("LinkErrorBound");
+  const double margin =
+    1.0 + NegligibleExcess + links.GetSummary("LinkErrorBound") + links.GetSummary("LinkError");
   if (*std::min_element(this->Irradiance.begin(), this->Irradiance.end()) < 0.0)
   {
     return;
@@ -77,7 +94,7 @@ void ProfileRun::CheckEnergy(const AirShare& air) const
     text << "In component " << worst << " " << gains[worst]
          << " times the light that enters leaves again, which cannot be: a flat surface gives back "
          << links.ProfileTotals[worst] << " by this model";
-    if (!links.AreThroughAirDropped && air.Shares[worst] > 0.0)
+    if (!links.AreThroughAirDropped && !air.Shares.empty() && air.Shares[worst] > 0.0)
     {
       text << ", " << 100.0 * air.Shares[worst]
            << " % goes through the air between parts of the body (DropLinksThroughAir leaves that "
@@ -117,8 +134,11 @@ void ProfileRun::WriteScattered(const SceneOutput& output)
     FieldValues::Add(this->GetOutputFields(), "ProfileError", links.ProfileErrors.data(), Bands);
   }
   const AirShare air(links, this->GetEntering(), this->Scattered);
-  FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
-  FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
+  if (!air.Shares.empty())
+  {
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
+  }
   this->CheckThickness();
   this->CheckEnergy(air);
 }

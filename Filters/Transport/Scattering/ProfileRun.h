@@ -17,6 +17,7 @@ public:
 
 protected:
   Outcome Check() override;
+  Outcome Gather() override;
   void WriteScattered(const SceneOutput& output) override;
   bool IsAnisotropic() const override { return this->IsTabulated(); }
   std::unique_ptr<LinkBuilder> MakeBuilder() const override;

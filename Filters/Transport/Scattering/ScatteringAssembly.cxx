@@ -4,6 +4,7 @@
 
 #include "Scattering/AirGaps.h"
 #include "Scattering/ScatteringIntegrals.h"
+#include "Scattering/ScatteringPatches.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
@@ -19,8 +20,6 @@ namespace LightTransport
 {
 namespace
 {
-using Triangle = ScatteringIntegrals::Triangle;
-
 /// Rows of a tile that one thread works on at a time.
 constexpr int RowsPerStrip = 8;
 /// Calls of the monitor; the same on all ranks. The first tiles, of neighbours, take the longest.
@@ -42,43 +41,6 @@ constexpr int CutOffSteps = 60;
 /// Links of a patch that are looked at for air, where not all of them are; a little more of small
 /// ones and where bands differ.
 constexpr double AirSamples = 64.0;
-
-//------------------------------------------------------------------------------
-/// Patches in millimetres.
-struct Body
-{
-  Body(const PatchScene& scene, double scale)
-  {
-    const vtkIdType count = scene.GetNumberOfPatches();
-    this->Offsets.reserve(count + 1);
-    this->Offsets.push_back(0);
-    for (vtkIdType patch = 0; patch < count; ++patch)
-    {
-      const auto corner = [&](int k) { return scale * scene.GetCorner(patch, k); };
-      for (int k = 2; k < scene.GetNumberOfCorners(patch); ++k)
-      {
-        const Triangle triangle(corner(0), corner(k - 1), corner(k));
-        // A corner in the middle of an edge leaves one without an area.
-        if (triangle.Area > 0.0)
-        {
-          this->Triangles.push_back(triangle);
-        }
-      }
-      this->Offsets.push_back(static_cast<vtkIdType>(this->Triangles.size()));
-      this->Centroids.emplace_back(scale * scene.GetCentroid(patch));
-      this->Radii.push_back(scale * scene.GetRadius(patch));
-      this->Areas.push_back(scale * scale * scene.GetAreas()[patch]);
-      this->TotalArea += this->Areas.back();
-    }
-  }
-
-  std::vector<Triangle> Triangles;
-  std::vector<vtkIdType> Offsets;
-  std::vector<PatchScene::Vector> Centroids;
-  std::vector<double> Radii;
-  std::vector<double> Areas;
-  double TotalArea = 0.0;
-};
 
 //------------------------------------------------------------------------------
 /// What a thread leaves behind for a patch.
@@ -122,7 +84,7 @@ struct StripSummary
 class StripFiller
 {
 public:
-  StripFiller(const Body& body, const ScatteringIntegrals& integrals,
+  StripFiller(const ScatteringPatches& body, const ScatteringIntegrals& integrals,
     const ScatteringProfiles& profiles, double tolerance, double furthest,
     const ScatteringAssembly::AirLinks& air, vtkExchangeMatrix* exchange)
     : Patches(body), Integrals(integrals), Air(air), Tiles(exchange->GetTiles())
@@ -243,7 +205,8 @@ private:
     ScatteringIntegrals::Result result;
     if (i == j)
     {
-      this->IntegrateSelf(i, result);
+      this->Patches.AddSelf(this->Integrals, i, this->PerNeighbour / this->Patches.Areas[i],
+        result);
     }
     else
     {
@@ -262,7 +225,7 @@ private:
       {
         tolerance += this->PerNeighbour * std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
       }
-      this->IntegratePair(i, j, tolerance / areas, result);
+      this->Patches.AddPair(this->Integrals, i, j, tolerance / areas, result);
       this->LookForAir(i, j, result.Value, pair);
     }
     pair.Error = result.Error;
@@ -303,39 +266,7 @@ private:
     }
   }
 
-  void IntegratePair(vtkIdType i, vtkIdType j, double tolerancePerAreas,
-    ScatteringIntegrals::Result& result) const
-  {
-    for (vtkIdType p = this->Patches.Offsets[i]; p < this->Patches.Offsets[i + 1]; ++p)
-    {
-      const Triangle& a = this->Patches.Triangles[p];
-      for (vtkIdType q = this->Patches.Offsets[j]; q < this->Patches.Offsets[j + 1]; ++q)
-      {
-        const Triangle& b = this->Patches.Triangles[q];
-        this->Integrals.AddPair(a, b, tolerancePerAreas * a.Area * b.Area, result);
-      }
-    }
-  }
-
-  void IntegrateSelf(vtkIdType i, ScatteringIntegrals::Result& result) const
-  {
-    ScatteringIntegrals::Result pairs;
-    const double tolerance = this->PerNeighbour / this->Patches.Areas[i];
-    for (vtkIdType p = this->Patches.Offsets[i]; p < this->Patches.Offsets[i + 1]; ++p)
-    {
-      const Triangle& a = this->Patches.Triangles[p];
-      this->Integrals.AddSelf(a, result);
-      for (vtkIdType q = this->Patches.Offsets[i]; q < p; ++q)
-      {
-        const Triangle& b = this->Patches.Triangles[q];
-        this->Integrals.AddPair(a, b, tolerance * a.Area * b.Area, pairs);
-      }
-    }
-    result.Value += 2.0 * pairs.Value;
-    result.Error += 2.0 * pairs.Error;
-  }
-
-  const Body& Patches;
+  const ScatteringPatches& Patches;
   const ScatteringIntegrals& Integrals;
   const ScatteringAssembly::AirLinks& Air;
   const std::vector<vtkExchangeMatrix::Tile>& Tiles;
@@ -353,7 +284,7 @@ Outcome ScatteringAssembly::Fill(const PatchScene& scene, double millimetersPerS
   const ScatteringProfiles& profiles, double tolerance, const AirLinks& air,
   vtkExchangeMatrix* exchange, const Monitor& monitor, Summary& summary)
 {
-  const Body body(scene, millimetersPerSceneUnit);
+  const ScatteringPatches body(scene, millimetersPerSceneUnit);
   // The scene's bounding box has diagonal 1.
   const double furthest = RoundingMargin * millimetersPerSceneUnit;
   const ScatteringIntegrals integrals(profiles, furthest, ShareOfValues * tolerance);
