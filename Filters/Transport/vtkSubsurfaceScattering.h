@@ -49,20 +49,21 @@
  * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
  * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
  * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
- * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, 3
- * components): of the light that links carry, those that are dropped included, the share that goes
- * through the air between parts of the body, see DropLinksThroughAir; estimated from some 64 links
- * of each patch, with one standard error "LinksThroughAirError", exact where they are dropped and
- * for one convex body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives
- * back of the light that enters; a body may give back more or less, and a warning tells where it is
- * more than enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that,
- * relative; more where less than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts
- * in LeavingFlux each time it leaves. Monte Carlo without links has in their place "PhotonsTraced",
- * "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters, what goes away
- * for good after scattering) with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for
- * surfaces that cross themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton"
- * and "WalkSeconds", and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness
- * "ThinShare" (3 components: the part of the surface that is thinner than two diffusion lengths).
+ * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, with
+ * links between all pairs of patches, 3 components): of the light that links carry, those that are
+ * dropped included, the share that goes through the air between parts of the body, see
+ * DropLinksThroughAir; estimated from some 64 links of each patch, with one standard error
+ * "LinksThroughAirError", exact where they are dropped and for one convex body (0). "ProfileTotal"
+ * (those models, 3 components): what a flat surface gives back of the light that enters; a body may
+ * give back more or less, and a warning tells where it is more than enters. "ProfileError"
+ * (MODEL_TABULATED, 3 components): standard error of that, relative; more where less than 1e-4 is
+ * absorbed. Light that Monte Carlo lets enter again counts in LeavingFlux each time it leaves.
+ * Monte Carlo without links has in their place "PhotonsTraced", "RelativeError" (of each band, as
+ * TargetError), "LeavingShare" (of what enters, what goes away for good after scattering) with
+ * "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for surfaces that cross themselves
+ * and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the
+ * table "Photons", "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the
+ * part of the surface that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
@@ -344,6 +345,8 @@ public:
   vtkBooleanMacro(DropLinksThroughAir, bool);
   ///@}
 
+  ///@{
+  /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
    * surface, of light that differs from its mean over each cluster by half of it. Default 0: 1e-4
@@ -360,22 +363,17 @@ public:
    */
   vtkSetClampMacro(Incidence, int, INCIDENCE_DIFFUSE, INCIDENCE_TRANSMITTED);
   vtkGetMacro(Incidence, int);
-  void SetIncidenceToDiffuse() {
-    this->SetIncidence(INCIDENCE_DIFFUSE); }
-  void SetIncidenceToTransmitted() {
-    this->SetIncidence(INCIDENCE_TRANSMITTED); }
+  void SetIncidenceToDiffuse() { this->SetIncidence(INCIDENCE_DIFFUSE); }
+  void SetIncidenceToTransmitted() { this->SetIncidence(INCIDENCE_TRANSMITTED); }
   ///@}
 
   ///@{
   /// Where the links are applied. Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
   vtkGetMacro(Device, int);
-  void SetDeviceToAuto() {
-    this->SetDevice(DEVICE_AUTO); }
-  void SetDeviceToCPU() {
-    this->SetDevice(DEVICE_CPU); }
-  void SetDeviceToOpenGL() {
-    this->SetDevice(DEVICE_OPENGL); }
+  void SetDeviceToAuto() { this->SetDevice(DEVICE_AUTO); }
+  void SetDeviceToCPU() { this->SetDevice(DEVICE_CPU); }
+  void SetDeviceToOpenGL() { this->SetDevice(DEVICE_OPENGL); }
   ///@}
 
 protected:
