@@ -34,8 +34,9 @@ Outcome ProfileRun::Check()
   if (this->Owner->GetDropLinksThroughAir() &&
     this->Owner->GetLinkMethod() > vtkSubsurfaceScattering::LINK_METHOD_DENSE)
   {
-    return Outcome::Failed("DropLinksThroughAir looks at pairs of patches, and LinkMethod is Uniform "
-                           "or Adaptive: set it to Auto or Dense, or do not drop links.");
+    return Outcome::Failed(
+      "DropLinksThroughAir looks at pairs of patches, and LinkMethod is Uniform "
+      "or Adaptive: set it to Auto or Dense, or do not drop links.");
   }
   if (this->Owner->GetNumberOfInputConnections(1) > 0)
   {
