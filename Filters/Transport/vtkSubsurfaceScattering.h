@@ -50,9 +50,9 @@
  * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
  * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
  * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, with
- * links between all pairs of patches, 3 components): of the light that links carry, those that are
- * dropped included, the share that goes through the air between parts of the body, see
- * DropLinksThroughAir; estimated from some 64 links of each patch, with one standard error
+ * links between all pairs of patches of a surface, 3 components): of the light that links carry,
+ * those that are dropped included, the share that goes through the air between parts of the body,
+ * see DropLinksThroughAir; estimated from some 64 links of each patch, with one standard error
  * "LinksThroughAirError", exact where they are dropped and for one convex body (0). "ProfileTotal"
  * (those models, 3 components): what a flat surface gives back of the light that enters; a body may
  * give back more or less, and a warning tells where it is more than enters. "ProfileError"
@@ -349,8 +349,8 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by a third of it. Default 0: 1e-4
-   * for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
+   * surface, of light that differs from its mean over each cluster by a third of it. Default 0:
+   * 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);
   vtkGetMacro(LinkTolerance, double);

@@ -47,6 +47,13 @@ Outcome ProfileRun::Check()
 }
 
 //------------------------------------------------------------------------------
+const char* ProfileRun::FindUseOfBody() const
+{
+  return this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir"
+                                               : this->ScatteringRun::FindUseOfBody();
+}
+
+//------------------------------------------------------------------------------
 // In an order for clusters, where there may be any.
 Outcome ProfileRun::Gather()
 {

@@ -146,8 +146,10 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   ScatteringAssembly::Summary summary;
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
+  // Texels do not enclose a body: rays would find air in their gaps.
+  const bool knowsAir = !task.Scene.IsOfTexels();
   AirGaps gaps;
-  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
                     { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
@@ -160,9 +162,12 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   task.AllRanks.Sum(summary.Errors);
   task.AllRanks.Sum(summary.ThroughAir);
   task.AllRanks.Sum(summary.ThroughAirVariances);
-  links.ThroughAir = std::move(summary.ThroughAir);
-  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
-  links.AirSamples = std::move(summary.AirSamples);
+  if (knowsAir)
+  {
+    links.ThroughAir = std::move(summary.ThroughAir);
+    links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
+    links.AirSamples = std::move(summary.AirSamples);
+  }
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {
