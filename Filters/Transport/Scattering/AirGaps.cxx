@@ -31,6 +31,10 @@ struct Passage
 Outcome AirGaps::Build(const PatchScene& scene)
 {
   this->Scene = &scene;
+  if (scene.IsOfTexels())
+  {
+    return Outcome::Done();
+  }
   const std::vector<bool> hollows = FindHollows(scene);
   this->HasHollows = std::find(hollows.begin(), hollows.end(), true) != hollows.end();
   return this->HasHollows ? this->Hollows.Build(scene, &hollows) : Outcome::Done();
