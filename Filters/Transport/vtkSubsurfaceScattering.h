@@ -51,11 +51,11 @@
  * times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a
  * vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
  * "LinksReused" is 1 where links of an earlier run were taken. "LinksThroughAir" (models that are
- * profiles, 3 components): of the light that links carry, those that are dropped included, the
- * share that goes through the air between parts of the body, see DropLinksThroughAir; estimated
- * from some 64 links of each patch, with one standard error "LinksThroughAirError", exact where
- * they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components): what a
- * flat surface gives back of the light that enters; a body may give back more or less, and a
+ * profiles, 3 components; not of texels): of the light that links carry, those that are dropped
+ * included, the share that goes through the air between parts of the body, see DropLinksThroughAir;
+ * estimated from some 64 links of each patch, with one standard error "LinksThroughAirError", exact
+ * where they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components):
+ * what a flat surface gives back of the light that enters; a body may give back more or less, and a
  * warning tells where it is more than enters. "ProfileError" (MODEL_TABULATED, 3 components):
  * standard error of that, relative; more where less than 1e-4 is absorbed. Light that Monte Carlo
  * lets enter again counts in LeavingFlux each time it leaves. Monte Carlo without links has in
