@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 using LightTransport::Pulse;
 
@@ -26,24 +27,32 @@ void vtkExchangeHierarchy::Clear()
   this->Levels.clear();
   this->Parents.clear();
   this->Weights.clear();
-  this->SetLinks({});
+  this->ClearLinks();
+}
+
+//------------------------------------------------------------------------------
+void vtkExchangeHierarchy::ClearLinks()
+{
+  this->Columns.clear();
+  this->Values.clear();
+  this->NumberOfLinks = 0;
+  this->Symmetric = true;
+  this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------
 bool vtkExchangeHierarchy::SetTree(const std::vector<double>& areas, const std::vector<Node>& nodes,
-  int part, int numberOfParts)
+  int part, int numberOfParts, int numberOfKernels)
 {
   this->Areas = areas;
   this->Weights = areas;
   this->Nodes = nodes;
-  this->NumberOfKernels = 1;
+  this->NumberOfKernels = numberOfKernels;
   this->Part = part;
   this->NumberOfParts = numberOfParts;
-  const bool good = this->FindParents() && this->SetLinks({});
-  if (!good)
-  {
-    this->Clear();
-  }
+  const bool good = this->FindParents();
+  good ? this->ClearLinks() : this->Clear();
   return good;
 }
 
@@ -92,10 +101,7 @@ bool vtkExchangeHierarchy::FindParents()
 //------------------------------------------------------------------------------
 bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
 {
-  this->Columns.clear();
-  this->Values.clear();
-  this->NumberOfLinks = 0;
-  this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
+  this->ClearLinks();
   std::size_t step = 0;
   for (const Link& link : links)
   {
@@ -114,7 +120,7 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
   }
   catch (const std::bad_alloc&)
   {
-    this->SetLinks({});
+    this->ClearLinks();
     return false;
   }
   std::vector<std::int64_t> ends(this->Offsets.begin(), this->Offsets.end() - 1);
@@ -139,9 +145,38 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
 }
 
 //------------------------------------------------------------------------------
+bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vector<int> columns,
+  std::vector<float> values)
+{
+  this->ClearLinks();
+  const int slots = this->GetNumberOfSlots();
+  const bool good = offsets.size() == this->Offsets.size() && offsets.front() == 0 &&
+    offsets.back() == static_cast<std::int64_t>(columns.size()) &&
+    std::is_sorted(offsets.begin(), offsets.end()) &&
+    values.size() == columns.size() * this->NumberOfKernels &&
+    std::all_of(columns.begin(), columns.end(),
+      [=](int slot) { return slot >= 0 && slot < slots; });
+  if (good)
+  {
+    this->Offsets = std::move(offsets);
+    this->Columns = std::move(columns);
+    this->Values = std::move(values);
+    this->NumberOfLinks = static_cast<vtkIdType>(this->Columns.size());
+    this->Symmetric = false;
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
 double vtkExchangeHierarchy::GetEstimatedBytes(double numberOfLinks)
 {
-  return 2.0 * numberOfLinks * (sizeof(int) + sizeof(float));
+  return GetEstimatedBytesOfRows(2.0 * numberOfLinks, 1);
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetEstimatedBytesOfRows(double numberOfLinks, int numberOfKernels)
+{
+  return numberOfLinks * (sizeof(int) + numberOfKernels * sizeof(float));
 }
 
 //------------------------------------------------------------------------------
@@ -152,7 +187,7 @@ void vtkExchangeHierarchy::SetWeights(const std::vector<double>& weights)
 }
 
 //------------------------------------------------------------------------------
-double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int) const
+double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int kernel) const
 {
   const auto getSlot = [this](vtkIdType patch)
   { return this->GetNumberOfNodes() + static_cast<int>(patch); };
@@ -168,7 +203,8 @@ double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int) const
     {
       const bool isOther =
         std::find(others.begin(), others.end(), this->Columns[link]) != others.end();
-      sum += isOther ? static_cast<double>(this->Values[link]) : 0.0;
+      sum +=
+        isOther ? static_cast<double>(this->Values[link * this->NumberOfKernels + kernel]) : 0.0;
     }
   }
   return this->Weights[i] * sum * this->Weights[j];

@@ -19,6 +19,10 @@
  * independently, on any device. Uniform links, adaptive links and hierarchical radiosity (Hanrahan,
  * Salzman and Aupperle 1991) differ in which links there are.
  *
+ * Where links are applied once and not solved for, each receiver may choose whom it hears, and as
+ * how large a cluster: SetRows takes links that serve one direction. What is stored is then no
+ * longer symmetric, though what it stands for is, within the error of the links.
+ *
  * A tree may come from anywhere (PatchTree, or the quadtree of an atlas).
  */
 #ifndef vtkExchangeHierarchy_h
@@ -51,19 +55,26 @@ public:
   };
 
   /**
-   * The tree, without links, and one kernel. Every slot but the root must be the child of one node;
+   * The tree, without links. Every slot but the root must be the child of one node;
    * the children of a node must come after it and be on the level below it or patches. Returns
    * false where that does not hold; the hierarchy is then empty.
    */
   bool SetTree(const std::vector<double>& areas, const std::vector<Node>& nodes, int part = 0,
-    int numberOfParts = 1);
+    int numberOfParts = 1, int numberOfKernels = 1);
 
-  /// Replace the links of this part. Returns false when the memory for them is not there; there are
-  /// then none.
+  /// Replace the links of this part, of one kernel. Returns false when the memory for them is not
+  /// there; there are then none.
   bool SetLinks(const std::vector<Link>& links);
+
+  /// Replace the links of this part by rows as they are (GetOffsets and so on), each link serving
+  /// one direction. Returns false, and there are no links, where the tables do not fit the tree.
+  bool SetRows(std::vector<std::int64_t> offsets, std::vector<int> columns,
+    std::vector<float> values);
 
   /// Bytes that SetLinks takes for a number of links.
   static double GetEstimatedBytes(double numberOfLinks);
+  /// Bytes that SetRows takes.
+  static double GetEstimatedBytesOfRows(double numberOfLinks, int numberOfKernels);
 
   int GetNumberOfNodes() const { return static_cast<int>(this->Nodes.size()); }
   int GetNumberOfSlots() const
@@ -78,7 +89,10 @@ public:
 
   /// Links of this part, each counted once.
   vtkIdType GetNumberOfLinks() const { return this->NumberOfLinks; }
-  ///@{ Row r of the table: slots columns[k] and values[k] for offsets[r] <= k < offsets[r + 1].
+  /// Whether each link is there in both directions.
+  bool IsSymmetric() const { return this->Symmetric; }
+  ///@{ Row r of the table: slots columns[k] and values[k * kernels + kernel] for offsets[r] <= k <
+  /// offsets[r + 1].
   const std::vector<std::int64_t>& GetOffsets() const { return this->Offsets; }
   const std::vector<int>& GetColumns() const { return this->Columns; }
   const std::vector<float>& GetValues() const { return this->Values; }
@@ -104,6 +118,7 @@ private:
 
   bool FindParents();
   void Clear();
+  void ClearLinks();
 
   std::vector<Node> Nodes;
   std::vector<int> Levels;
@@ -113,6 +128,7 @@ private:
   std::vector<int> Columns;
   std::vector<float> Values;
   vtkIdType NumberOfLinks = 0;
+  bool Symmetric = true;
 };
 
 #endif

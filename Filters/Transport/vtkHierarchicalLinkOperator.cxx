@@ -20,8 +20,9 @@ constexpr int MaximumBands = 4;
 constexpr vtkIdType RowsPerTask = 1024;
 
 //------------------------------------------------------------------------------
-// Y_I = sum of K X_J for bands [0, Count) of `Bands`.
-template <int Count>
+// Y_I = sum of K X_J for bands [0, Count) of `Bands`. Bands share one value of each link, or have
+// kernels of their own.
+template <int Count, bool HasKernels>
 struct Gather
 {
   // Sums that do not wait for each other: an addition takes some four cycles.
@@ -31,12 +32,14 @@ struct Gather
   int Bands;
   const double* Sent;
   double* Received;
+  int FirstKernel; ///< where bands have their own
 
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     const std::int64_t* offsets = this->Hierarchy.GetOffsets().data();
     const int* columns = this->Hierarchy.GetColumns().data();
-    const float* values = this->Hierarchy.GetValues().data();
+    const float* values = this->Hierarchy.GetValues().data() + this->FirstKernel;
+    const int kernels = HasKernels ? this->Hierarchy.GetNumberOfKernels() : 1;
     for (vtkIdType slot = begin; slot < end; ++slot)
     {
       double sums[Chains][Count] = {};
@@ -45,12 +48,12 @@ struct Gather
       {
         for (int chain = 0; chain < Chains; ++chain)
         {
-          this->Add(columns[link + chain], values[link + chain], sums[chain]);
+          this->Add(columns[link + chain], values + (link + chain) * kernels, sums[chain]);
         }
       }
       for (; link < offsets[slot + 1]; ++link)
       {
-        this->Add(columns[link], values[link], sums[0]);
+        this->Add(columns[link], values + link * kernels, sums[0]);
       }
       for (int band = 0; band < Count; ++band)
       {
@@ -64,12 +67,12 @@ struct Gather
     }
   }
 
-  void Add(int column, float value, double* sums) const
+  void Add(int column, const float* values, double* sums) const
   {
     const double* sent = this->Sent + static_cast<std::int64_t>(column) * this->Bands;
     for (int band = 0; band < Count; ++band)
     {
-      sums[band] += static_cast<double>(value) * sent[band];
+      sums[band] += static_cast<double>(values[HasKernels ? band : 0]) * sent[band];
     }
   }
 };
@@ -79,8 +82,16 @@ template <int Count>
 void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
   double* received)
 {
-  Gather<Count> gather{ hierarchy, bands, sent + first, received + first };
-  Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  if (hierarchy.GetNumberOfKernels() > 1)
+  {
+    Gather<Count, true> gather{ hierarchy, bands, sent + first, received + first, first };
+    Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  }
+  else
+  {
+    Gather<Count, false> gather{ hierarchy, bands, sent + first, received + first, 0 };
+    Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -192,7 +203,7 @@ void vtkHierarchicalLinkOperator::MultiplyPart(const Vector& x, Vector& y)
 
 //------------------------------------------------------------------------------
 // The links of the patch and of all nodes above it, swept down.
-void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int, double* row)
+void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 {
   this->Received.assign(this->Hierarchy->GetNumberOfSlots(), 0.0);
   const int nodes = this->Hierarchy->GetNumberOfNodes();
@@ -202,7 +213,8 @@ void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int, double* row)
   {
     for (std::int64_t link = offsets[slot]; link < offsets[slot + 1]; ++link)
     {
-      this->Received[this->Hierarchy->GetColumns()[link]] += this->Hierarchy->GetValues()[link];
+      this->Received[this->Hierarchy->GetColumns()[link]] +=
+        this->Hierarchy->GetValues()[link * this->Hierarchy->GetNumberOfKernels() + kernel];
     }
   }
   this->SweepDown(1);

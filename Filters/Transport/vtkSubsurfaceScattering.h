@@ -341,8 +341,6 @@ private:
   vtkSubsurfaceScattering(const vtkSubsurfaceScattering&) = delete;
   void operator=(const vtkSubsurfaceScattering&) = delete;
 
-  class Run;
-
   /// Kept for as long as what they depend on stays the same.
   std::unique_ptr<LightTransport::LinkCache> Links;
 

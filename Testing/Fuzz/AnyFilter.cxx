@@ -161,7 +161,7 @@ vtkSmartPointer<vtkAlgorithm> MakeAtlasToSurface(Choices& choices, const Room&)
 vtkSmartPointer<vtkAlgorithm> MakeViewFactors(Choices& choices, const Room&)
 {
   auto factors = vtkSmartPointer<vtkViewFactors>::New();
-  factors->SetTolerance(ChooseTolerance(choices, { 1e-1, 1e-2, 1e-3, 1e9 }));
+  factors->SetTolerance(ChooseTolerance(choices, { 1e-1, 3e-2, 1e-2, 1e9 }));
   factors->SetEnforceClosure(choices.Chance(3));
   factors->SetHierarchical(choices.Chance(3));
   factors->SetLinkTolerance(ChooseTolerance(choices, { 1e-2, 1e-1, 1.0 }));
@@ -212,7 +212,7 @@ vtkSmartPointer<vtkAlgorithm> MakeRadiosity(Choices& choices, const Room&)
   radiosity->SetLinkTolerance(ChooseTolerance(choices, { 1e-2, 1e-1, 1.0 }));
   radiosity->SetClusterTree(choices.Index(3));
   radiosity->SetRefineByBrightness(choices.Chance(4));
-  radiosity->SetViewFactorTolerance(ChooseTolerance(choices, { 1e-1, 1e-2, 1e-3 }));
+  radiosity->SetViewFactorTolerance(ChooseTolerance(choices, { 1e-1, 3e-2, 1e-2 }));
   radiosity->SetEnforceClosure(choices.Chance(3));
   radiosity->SetTwoSided(choices.Chance(3));
   radiosity->SetDeviceToCPU();

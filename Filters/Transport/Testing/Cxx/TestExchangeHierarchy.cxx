@@ -253,6 +253,64 @@ void TestProducts(const Tree& tree, const Matrix& matrix, int bands)
 }
 
 //------------------------------------------------------------------------------
+// Links that serve one direction, with a kernel for each band: the tree's links in the rows of
+// their first ends.
+void TestRows(const Tree& tree)
+{
+  constexpr int kernels = 3;
+  std::vector<std::int64_t> offsets(tree.GetNumberOfSlots() + 1, 0);
+  std::vector<int> columns;
+  std::vector<float> values;
+  std::vector<Matrix> matrices(kernels, Matrix::Zero(tree.Areas.size(), tree.Areas.size()));
+  for (int slot = 0; slot < tree.GetNumberOfSlots(); ++slot)
+  {
+    for (const Link& link : tree.Links)
+    {
+      std::vector<int> rows;
+      std::vector<int> others;
+      FindPatches(tree, link.I, rows);
+      FindPatches(tree, link.J, others);
+      for (int kernel = 0; link.I == slot && kernel < kernels; ++kernel)
+      {
+        values.push_back(link.Value / static_cast<float>(1 + kernel));
+        for (const int i : rows)
+        {
+          for (const int j : others)
+          {
+            matrices[kernel](i, j) +=
+              tree.Weights[i] * static_cast<double>(values.back()) * tree.Weights[j];
+          }
+        }
+      }
+      columns.insert(columns.end(), link.I == slot ? 1 : 0, link.J);
+    }
+    offsets[slot + 1] = static_cast<std::int64_t>(columns.size());
+  }
+  vtkNew<vtkExchangeHierarchy> hierarchy;
+  Check(hierarchy->SetTree(tree.Areas, tree.Nodes, 0, 1, kernels) && hierarchy->IsSymmetric(),
+    "a tree of three kernels");
+  Check(!hierarchy->SetRows(offsets, columns, { 1.0f }) && hierarchy->GetNumberOfLinks() == 0,
+    "rows without their values are refused");
+  Check(hierarchy->SetRows(offsets, columns, values) && !hierarchy->IsSymmetric() &&
+      hierarchy->GetNumberOfLinks() == static_cast<vtkIdType>(tree.Links.size()),
+    "rows");
+  hierarchy->SetWeights(tree.Weights);
+  vtkNew<vtkHierarchicalLinkOperator> links;
+  Check(links->Initialize(hierarchy, kernels), "initialize with rows");
+  const Values x = MakeValues(static_cast<Eigen::Index>(tree.Areas.size()), kernels, 5);
+  const Values y = Multiply(links, x);
+  Eigen::RowVectorXd row(x.rows());
+  for (int kernel = 0; kernel < kernels; ++kernel)
+  {
+    Check(Compare(y.col(kernel), matrices[kernel] * x.col(kernel)) < 1e-12, "product of rows");
+    Check(links->GetRow(1, kernel, row.data()), "row of a kernel");
+    Check(Compare(row, matrices[kernel].row(1)) < 1e-12, "row of each kernel");
+    CheckClose(hierarchy->GetValue(1, 2, kernel), matrices[kernel](1, 2), 1e-12, "value");
+  }
+  Check(hierarchy->SetLinks({}) && hierarchy->IsSymmetric(), "no links are symmetric");
+}
+
+//------------------------------------------------------------------------------
 // More rows than one thread takes at a time.
 void TestThreads()
 {
@@ -364,6 +422,7 @@ int TestExchangeHierarchy(int, char*[])
       TestProducts(tree, matrix, bands);
     }
   }
+  TestRows(tree);
   TestThreads();
   TestBytes(tree);
   TestRefusals(tree);

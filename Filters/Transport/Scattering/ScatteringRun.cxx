@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scattering/ScatteringRun.h"
+
+#include "Links/LinkBuilder.h"
+#include "Links/LinkCache.h"
+#include "Links/LinkOperators.h"
+#include "Scattering/BodyThickness.h"
+#include "Scene/CellArrays.h"
+#include "Scene/SceneOutput.h"
+#include "Scene/SmoothPoints.h"
+#include "Shared/ArrayNames.h"
+#include "Shared/FieldValues.h"
+#include "Shared/Fresnel.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkLinkOperator.h"
+#include "vtkSubsurfaceScattering.h"
+#include "vtkTable.h"
+#include "vtkTimerLog.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace LightTransport
+{
+namespace
+{
+// Indices of refraction that differ by less are the same.
+constexpr double IndexTolerance = 1e-6;
+// Diffusion lengths below which a body is thin.
+constexpr double ThinBody = 2.0;
+
+//------------------------------------------------------------------------------
+/// A field data array of one of the data sets, or nullptr.
+vtkDataArray* FindFieldArray(vtkDataObject* data, const char* name)
+{
+  if (vtkDataArray* array = data->GetFieldData()->GetArray(name))
+  {
+    return array;
+  }
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (!composite)
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkCompositeDataIterator> blocks;
+  blocks.TakeReference(composite->NewIterator());
+  for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
+  {
+    if (vtkDataArray* array = blocks->GetCurrentDataObject()->GetFieldData()->GetArray(name))
+    {
+      return array;
+    }
+  }
+  return nullptr;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+NumberProperties::List ScatteringRun::ListNumbers() const
+{
+  NumberProperties::List numbers = this->TransportRun::ListNumbers();
+  numbers.emplace_back("TargetError", this->Owner->GetTargetError());
+  numbers.emplace_back("LinkTolerance", this->Owner->GetLinkTolerance());
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::Check()
+{
+  if (Outcome device = LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Owner->GetDevice()),
+        this->AllRanks);
+      !device)
+  {
+    return device;
+  }
+  // Links of other profiles do not depend on anisotropy.
+  const MediumProperties properties{ this->Owner->GetMaterial(),
+    this->Owner->GetScatteringCoefficient(), this->Owner->GetAbsorptionCoefficient(),
+    this->Owner->GetRefractiveIndex(),
+    this->IsAnisotropic() ? this->Owner->GetAnisotropy() : nullptr,
+    this->Owner->GetMillimetersPerUnit() };
+  return properties.MakeMedia(this->Media);
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::Read()
+{
+  Outcome read = this->ReadIrradiance();
+  if (read)
+  {
+    this->CompareIndices();
+  }
+  return read;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::ReadIrradiance()
+{
+  const bool isDiffuse = this->Owner->GetIncidence() == vtkSubsurfaceScattering::INCIDENCE_DIFFUSE;
+  const std::string first =
+    this->GetArrayName(0, isDiffuse ? ArrayNames::Irradiance : ArrayNames::TransmittedIrradiance);
+  const std::string name = isDiffuse ? first : this->GetArrayName(1, first.c_str());
+  std::vector<double> values;
+  int components = 0;
+  const CellArrays arrays(this->Scene, this->Input, this->AllRanks);
+  if (Outcome read = arrays.Read(name, true, values, components); !read)
+  {
+    return read;
+  }
+  if (components != 1 && components != Bands)
+  {
+    return Outcome::Failed("The cell array \"" + name + "\" has " + std::to_string(components) +
+      " components: it must have 1 (the same in all bands) or 3 (red, green, blue).");
+  }
+  const std::size_t patches = this->Scene.GetAreas().size();
+  this->Irradiance.resize(patches * Bands);
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    for (int band = 0; band < Bands; ++band)
+    {
+      this->Irradiance[patch * Bands + band] =
+        values[patch * components + (components == 1 ? 0 : band)];
+    }
+  }
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRun::CompareIndices() const
+{
+  vtkDataArray* recorded = FindFieldArray(this->Input, ArrayNames::RefractiveIndex);
+  if (this->Owner->GetIncidence() != vtkSubsurfaceScattering::INCIDENCE_TRANSMITTED || !recorded ||
+    recorded->GetNumberOfTuples() == 0)
+  {
+    return;
+  }
+  const double before = recorded->GetComponent(0, 0);
+  const double here = this->Media[0].RefractiveIndex;
+  if (std::abs(before - here) > IndexTolerance)
+  {
+    std::ostringstream text;
+    text << "The transmitted irradiance was computed for a refractive index of " << before
+         << ", but " << here
+         << " is used here. Give vtkDirectIrradiance and vtkSubsurfaceScattering the same one.";
+    this->Warn(text.str());
+  }
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::Link()
+{
+  Outcome updated = this->Cache.Update(this->Scene, *this->MakeBuilder(), this->AllRanks,
+    this->Progress.GetMonitor().GetStage(0.0, LinksDone));
+  if (updated && this->Cache.WereMade() && !this->Cache.Get().Warning.empty())
+  {
+    this->Warn(this->Cache.Get().Warning);
+  }
+  return updated;
+}
+
+//------------------------------------------------------------------------------
+/// Part of the input array that enters the surface.
+double ScatteringRun::GetEnteringShare() const
+{
+  return this->Owner->GetIncidence() == vtkSubsurfaceScattering::INCIDENCE_DIFFUSE
+    ? 1.0 - Fresnel::GetMeanExternalReflectance(this->Media[0].RefractiveIndex)
+    : 1.0;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> ScatteringRun::GetEntering() const
+{
+  std::vector<double> entering = this->Irradiance;
+  const double share = this->GetEnteringShare();
+  for (double& irradiance : entering)
+  {
+    irradiance *= share;
+  }
+  return entering;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::Compute()
+{
+  const double start = vtkTimerLog::GetUniversalTime();
+  Outcome done = this->Scatter();
+  this->ApplySeconds = vtkTimerLog::GetUniversalTime() - start;
+  return done && this->Owner->GetComputeThickness()
+    ? this->AllRanks.Agree(BodyThickness::Measure(this->Scene, this->Thickness))
+    : done;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::Scatter()
+{
+  this->Scattered = this->GetEntering();
+  return this->ApplyLinks({ &this->Scattered });
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::ApplyLinks(const std::vector<std::vector<double>*>& fields)
+{
+  enum Slot
+  {
+    INCIDENT,
+    LEFT,
+    RIGHT,
+    SCATTERED,
+    SCRATCH
+  };
+  vtkExchange* exchange = this->Cache.Get().GetExchange();
+  vtkSmartPointer<vtkLinkOperator> links;
+  if (Outcome made = LinkOperators::Make(static_cast<LinkDevice>(this->Owner->GetDevice()),
+        exchange, Bands, this->AllRanks, links, this->DeviceExplanation);
+      !made)
+  {
+    return made;
+  }
+  const std::vector<double>& areas = exchange->GetAreas();
+  std::vector<double> left(areas.size() * Bands);
+  for (std::size_t k = 0; k < left.size(); ++k)
+  {
+    left[k] = 1.0 / areas[k / Bands];
+  }
+  const std::vector<double> right(left.size(), 1.0);
+  for (std::vector<double>* field : fields)
+  {
+    const bool isApplied = links->SetVector(INCIDENT, field->data()) &&
+      links->SetVector(LEFT, left.data()) && links->SetVector(RIGHT, right.data()) &&
+      links->Apply(SCATTERED, LEFT, RIGHT, INCIDENT, SCRATCH) &&
+      links->GetVector(SCATTERED, field->data());
+    if (!isApplied)
+    {
+      return Outcome::FailedAsReported();
+    }
+  }
+  this->DeviceUsed = links->GetDeviceName();
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRun::Write()
+{
+  const SmoothPoints points(this->Scene, this->Owner->GetFeatureAngle());
+  const SceneOutput output(this->Scene, &points, this->Input, this->Output);
+  if (this->Owner->GetComputeThickness())
+  {
+    this->WriteThickness(output);
+  }
+  this->WriteFluxes();
+  this->WriteScattered(output);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRun::WriteThickness(const SceneOutput& output)
+{
+  const double scale = this->Scene.GetScale() * this->Owner->GetMillimetersPerUnit();
+  const std::size_t patches = this->Thickness.size();
+  std::vector<double> millimeters(patches);
+  std::vector<double> lengths(patches * Bands);
+  double total = 0.0;
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    const double area = this->Scene.GetAreas()[patch];
+    millimeters[patch] = scale * this->Thickness[patch];
+    total += area;
+    for (int band = 0; band < Bands; ++band)
+    {
+      double& value = lengths[patch * Bands + band];
+      value = millimeters[patch] * BodyThickness::GetTransportCoefficient(this->Media[band]);
+      this->ThinShares[band] += value < ThinBody ? area : 0.0;
+    }
+  }
+  for (double& share : this->ThinShares)
+  {
+    share /= total;
+  }
+  output.AddArray("Thickness", millimeters, 1);
+  output.AddArray("DiffusionThickness", lengths, Bands);
+  FieldValues::Add(this->GetOutputFields(), "ThinShare", this->ThinShares, Bands);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRun::WriteFluxes()
+{
+  const double share = this->GetEnteringShare();
+  for (std::size_t k = 0; k < this->Irradiance.size(); ++k)
+  {
+    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands];
+    this->EnteringFlux[k % Bands] += area * share * this->Irradiance[k];
+  }
+  this->SumLeaving();
+  vtkFieldData* fields = this->GetOutputFields();
+  FieldValues::Add(fields, "EnteringFlux", this->EnteringFlux, Bands);
+  FieldValues::Add(fields, "LeavingFlux", this->LeavingFlux, Bands);
+  FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
+  FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRun::SumLeaving()
+{
+  for (std::size_t k = 0; k < this->Scattered.size(); ++k)
+  {
+    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands];
+    this->LeavingFlux[k % Bands] += area * this->Scattered[k];
+  }
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRun::WriteScattered(const SceneOutput& output)
+{
+  output.AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
+  const Links& links = this->Cache.Get();
+  vtkFieldData* fields = this->GetOutputFields();
+  links.AddSummaries(fields);
+  FieldValues::Add(fields, "LinksReused", this->Cache.WereMade() ? 0.0 : 1.0);
+  FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
+
+  this->Table->Initialize();
+  vtkFieldData* row = this->Table->GetRowData();
+  FieldValues::Add(row, "Links", links.GetSummary("NumberOfLinks"));
+  FieldValues::Add(row, "LinksLeftOut", links.GetSummary("LinksLeftOut"));
+  FieldValues::Add(row, "LinkSeconds", links.GetSummary("LinkSeconds"));
+  FieldValues::Add(row, "ApplySeconds", this->ApplySeconds);
+  FieldValues::Add(row, "ErrorBound", links.GetSummary("LinkErrorBound"));
+}
+} // namespace LightTransport

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A run of vtkSubsurfaceScattering, as far as its models do the same: irradiance in, links made and
+ * applied, exitance, thickness and sums out. Models that are a profile of distance are a
+ * ProfileRun, photons in the body itself a MonteCarloRun.
+ */
+#ifndef ScatteringRun_h
+#define ScatteringRun_h
+
+#include "Run/TransportRun.h"
+#include "Scattering/MediumProperties.h"
+#include "Scattering/ScatteringMedium.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkSubsurfaceScattering;
+
+namespace LightTransport
+{
+class LinkBuilder;
+class LinkCache;
+class SceneOutput;
+
+class ScatteringRun : public TransportRun
+{
+public:
+  /// `links` are those that the filter keeps.
+  ScatteringRun(vtkSubsurfaceScattering* owner, LinkCache& links, const RunPorts& ports)
+    : TransportRun(ports), Owner(owner), Cache(links)
+  {
+  }
+
+protected:
+  static constexpr int Bands = MediumProperties::Bands;
+  /// The links, or photons in their place, as a fraction of the progress.
+  static constexpr double LinksDone = 0.95;
+
+  NumberProperties::List ListNumbers() const override;
+  Outcome Check() override;
+  Outcome Read() override;
+  Outcome Link() override;
+  Outcome Compute() override;
+  void Write() override;
+
+  /// Whether the model looks at more than the reduced coefficient.
+  virtual bool IsAnisotropic() const = 0;
+  virtual std::unique_ptr<LinkBuilder> MakeBuilder() const = 0;
+  /// From irradiance to exitance; by the links, unless a model does without.
+  virtual Outcome Scatter();
+  /// Adds what leaves to LeavingFlux.
+  virtual void SumLeaving();
+  /// Exitance, and what is to be told of how it came about.
+  virtual void WriteScattered(const SceneOutput& output);
+
+  /// What enters the patches, patches x bands.
+  std::vector<double> GetEntering() const;
+  /// From what enters the patches to what leaves them, in place.
+  Outcome ApplyLinks(const std::vector<std::vector<double>*>& fields);
+
+  vtkSubsurfaceScattering* Owner;
+  LinkCache& Cache;
+  std::vector<ScatteringMedium> Media; ///< of each band
+  ///@{ patches x bands
+  std::vector<double> Irradiance;
+  std::vector<double> Scattered;
+  ///@}
+  ///@{ Known when written.
+  double EnteringFlux[Bands] = {};
+  double LeavingFlux[Bands] = {};
+  double ThinShares[Bands] = {}; ///< of the surface, below ThinBody; with ComputeThickness
+  ///@}
+  double ApplySeconds = 0.0;
+  std::string DeviceUsed;
+  std::string DeviceExplanation;
+
+private:
+  Outcome ReadIrradiance();
+  void CompareIndices() const;
+  double GetEnteringShare() const;
+  void WriteThickness(const SceneOutput& output);
+  void WriteFluxes();
+
+  std::vector<double> Thickness; ///< of each patch, in scene units
+};
+} // namespace LightTransport
+
+#endif
