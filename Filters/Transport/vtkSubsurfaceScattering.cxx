@@ -6,6 +6,7 @@
 #include "Photons/MonteCarloRun.h"
 #include "Scattering/ProfileRun.h"
 #include "Scattering/ScatteringMaterials.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -32,7 +33,9 @@ int vtkSubsurfaceScattering::FillInputPortInformation(int port, vtkInformation* 
 {
   if (port == 0)
   {
-    return this->Superclass::FillInputPortInformation(port, info);
+    this->Superclass::FillInputPortInformation(port, info);
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+    return 1;
   }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
   // Refused, but here: the pipeline would run the filter for each block.
@@ -42,13 +45,18 @@ int vtkSubsurfaceScattering::FillInputPortInformation(int port, vtkInformation* 
 }
 
 //------------------------------------------------------------------------------
-// All ranks need all of the medium.
+// All ranks need all of the medium, and all texels of their pieces whatever is asked of the output.
 int vtkSubsurfaceScattering::RequestUpdateExtent(vtkInformation* request,
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* texels = inputs[0]->GetInformationObject(0);
+  if (vtkImageData::GetData(texels) && texels->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    texels->Set(Pipeline::UPDATE_EXTENT(), texels->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
   if (vtkInformation* medium = inputs[1]->GetInformationObject(0))
   {
-    using Pipeline = vtkStreamingDemandDrivenPipeline;
     medium->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     medium->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     medium->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
@@ -116,6 +124,8 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "BurleyFit: " << this->BurleyFit << "\n";
   os << indent << "ComputeThickness: " << this->ComputeThickness << "\n";
+  os << indent << "NumberOfLinks: " << this->NumberOfLinks << "\n";
+  os << indent << "DropLinksThroughAir: " << this->DropLinksThroughAir << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

@@ -20,6 +20,7 @@ protected:
   Outcome Read() override;
   Outcome Link() override;
   bool IsAnisotropic() const override { return true; }
+  const char* FindUseOfBody() const override { return "Model MonteCarlo"; }
   std::unique_ptr<LinkBuilder> MakeBuilder() const override;
   Outcome Scatter() override;
   void SumLeaving() override;
@@ -32,7 +33,9 @@ private:
   Outcome ReadMedium();
   Outcome FollowPhotons();
   Outcome ApplyWithErrors();
-  Outcome CheckLost(double share) const;
+  std::vector<PhotonMedium> GetMedia() const;
+  void CheckSize() const;
+  Outcome CheckLost(double share, double photons) const;
   void WritePhotons(const SceneOutput& output) const;
 
   /// Where the medium varies; else nullptr.

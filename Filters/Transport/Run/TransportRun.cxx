@@ -6,11 +6,11 @@
 #include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
 #include "Shared/TransportMemory.h"
-#include "vtkCellData.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
-#include "vtkPolyData.h"
 #include "vtkTransportAlgorithm.h"
 
 #include <algorithm>
@@ -91,15 +91,16 @@ Outcome TransportRun::Finish()
 // Products of numbers that are all right may be too large, and areas too small, for any number.
 Outcome TransportRun::CheckResults() const
 {
-  const std::vector<vtkPolyData*> inputs = Leaves::Get(this->Input);
-  const std::vector<vtkPolyData*> outputs = Leaves::Get(this->Output);
+  const std::vector<vtkDataSet*> inputs = Leaves::Get(this->Input);
+  const std::vector<vtkDataSet*> outputs = Leaves::Get(this->Output);
   for (std::size_t block = 0; block < outputs.size(); ++block)
   {
-    vtkCellData* results = outputs[block]->GetCellData();
+    vtkDataSetAttributes* results = Leaves::GetPatchData(outputs[block]);
+    vtkDataSetAttributes* given = Leaves::GetPatchData(inputs[block]);
     for (int index = 0; index < results->GetNumberOfArrays(); ++index)
     {
       auto* array = vtkDoubleArray::SafeDownCast(results->GetAbstractArray(index));
-      if (!array || inputs[block]->GetCellData()->GetAbstractArray(array->GetName()) == array)
+      if (!array || given->GetAbstractArray(array->GetName()) == array)
       {
         continue;
       }
@@ -134,7 +135,7 @@ void TransportRun::WarnOnce(const std::vector<std::string>& warnings) const
 Outcome TransportRun::Gather()
 {
   return this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Spatial,
-    this->NumberOfSides);
+    this->NumberOfSides, this->TakesTexels);
 }
 
 //------------------------------------------------------------------------------
@@ -144,7 +145,8 @@ Outcome TransportRun::GatherForClusters(int clusterTree)
     (clusterTree == vtkTransportAlgorithm::CLUSTER_TREE_AUTO &&
       PolygonGathering::HasAtlas(this->Input, this->AllRanks));
   return this->Scene.Build(this->Input, this->AllRanks,
-    usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial, this->NumberOfSides);
+    usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial, this->NumberOfSides,
+    this->TakesTexels);
 }
 
 //------------------------------------------------------------------------------

@@ -77,6 +77,8 @@ protected:
 
   /// 2 where the backs of polygons count: to be set before Gather.
   int NumberOfSides = 1;
+  /// Whether the input may be texel images: to be set before Gather.
+  bool TakesTexels = false;
 
   vtkTransportAlgorithm* Filter;
   vtkDataObject* Input;

@@ -88,9 +88,26 @@ Outcome ScatteringRun::Check()
 }
 
 //------------------------------------------------------------------------------
+const char* ScatteringRun::FindUseOfBody() const
+{
+  return this->Owner->GetComputeThickness() ? "ComputeThickness" : nullptr;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRun::CheckTexels() const
+{
+  const char* use = this->Scene.IsOfTexels() ? this->FindUseOfBody() : nullptr;
+  return use ? Outcome::Failed(std::string("The input is a texel image, and ") + use +
+                 " looks into the body, which texels do not enclose without gaps: give the "
+                 "surface, and bring the result to the atlas with vtkSurfaceToAtlas.")
+             : Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
 Outcome ScatteringRun::Read()
 {
-  Outcome read = this->ReadIrradiance();
+  Outcome read = this->CheckTexels();
+  read = read ? this->ReadIrradiance() : read;
   if (read)
   {
     this->CompareIndices();
@@ -114,7 +131,8 @@ Outcome ScatteringRun::ReadIrradiance()
   }
   if (components != 1 && components != Bands)
   {
-    return Outcome::Failed("The cell array \"" + name + "\" has " + std::to_string(components) +
+    return Outcome::Failed("The " + arrays.GetKind() + " \"" + name + "\" has " +
+      std::to_string(components) +
       " components: it must have 1 (the same in all bands) or 3 (red, green, blue).");
   }
   const std::size_t patches = this->Scene.GetAreas().size();
@@ -246,8 +264,12 @@ Outcome ScatteringRun::ApplyLinks(const std::vector<std::vector<double>*>& field
 //------------------------------------------------------------------------------
 void ScatteringRun::Write()
 {
-  const SmoothPoints points(this->Scene, this->Owner->GetFeatureAngle());
-  const SceneOutput output(this->Scene, &points, this->Input, this->Output);
+  std::unique_ptr<SmoothPoints> points;
+  if (!this->Scene.IsOfTexels())
+  {
+    points = std::make_unique<SmoothPoints>(this->Scene, this->Owner->GetFeatureAngle());
+  }
+  const SceneOutput output(this->Scene, points.get(), this->Input, this->Output);
   if (this->Owner->GetComputeThickness())
   {
     this->WriteThickness(output);

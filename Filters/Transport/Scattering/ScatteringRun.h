@@ -31,9 +31,11 @@ public:
   ScatteringRun(vtkSubsurfaceScattering* owner, LinkCache& links, const RunPorts& ports)
     : TransportRun(ports), Owner(owner), Cache(links)
   {
+    this->TakesTexels = true;
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   static constexpr int Bands = MediumProperties::Bands;
   /// The links, or photons in their place, as a fraction of the progress.
   static constexpr double LinksDone = 0.95;
@@ -47,6 +49,8 @@ protected:
 
   /// Whether the model looks at more than the reduced coefficient.
   virtual bool IsAnisotropic() const = 0;
+  /// What looks into the body, which texels do not enclose; nullptr where nothing does.
+  virtual const char* FindUseOfBody() const;
   virtual std::unique_ptr<LinkBuilder> MakeBuilder() const = 0;
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
@@ -77,6 +81,7 @@ protected:
   std::string DeviceExplanation;
 
 private:
+  Outcome CheckTexels() const;
   Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEnteringShare() const;

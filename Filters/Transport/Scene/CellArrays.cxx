@@ -7,10 +7,11 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
-#include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,30 +21,39 @@ namespace LightTransport
 namespace
 {
 //------------------------------------------------------------------------------
-// The array, or nullptr where there is none.
-Outcome FindArray(vtkPolyData* data, const std::string& name, vtkDataArray*& numbers)
+const char* GetWord(bool ofPoints)
 {
-  vtkAbstractArray* array = data->GetCellData()->GetAbstractArray(name.c_str());
+  return ofPoints ? "point" : "cell";
+}
+
+//------------------------------------------------------------------------------
+// The array, or nullptr where there is none.
+Outcome FindArray(vtkDataSet* data, const std::string& name, vtkDataArray*& numbers)
+{
+  vtkDataSetAttributes* ofPatches = Leaves::GetPatchData(data);
+  const bool ofPoints = ofPatches == data->GetPointData();
+  vtkAbstractArray* array = ofPatches->GetAbstractArray(name.c_str());
   numbers = vtkDataArray::SafeDownCast(array);
   if (array && !numbers)
   {
-    return Outcome::Failed("The cell array \"" + name +
+    return Outcome::Failed(std::string("The ") + GetWord(ofPoints) + " array \"" + name +
       "\" is not numeric: it holds no numbers but a " + array->GetClassName() +
       ". Give one of floats or doubles.");
   }
-  if (!array && data->GetPointData()->HasArray(name.c_str()))
+  const auto other = ofPoints ? vtkDataObject::CELL : vtkDataObject::POINT;
+  if (!array && data->GetAttributes(other)->HasArray(name.c_str()))
   {
-    return Outcome::Failed("\"" + name +
-      "\" is a point array and a cell array is needed: pass the input through "
-      "vtkPointDataToCellData.");
+    return Outcome::Failed("\"" + name + "\" is a " + GetWord(!ofPoints) + " array and a " +
+      GetWord(ofPoints) + " array is needed: pass the input through " +
+      (ofPoints ? "vtkCellDataToPointData." : "vtkPointDataToCellData."));
   }
   return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-Outcome FailUneven(const std::string& name)
+Outcome FailUneven(const std::string& kind, const std::string& name)
 {
-  return Outcome::Failed("The cell array \"" + name +
+  return Outcome::Failed("The " + kind + " \"" + name +
     "\" is missing or has another number of components in some blocks: give it to all of them.");
 }
 } // namespace
@@ -72,7 +82,7 @@ Outcome CellArrays::Read(const std::string& name, bool required, std::vector<dou
   {
     values.clear();
     return required || componentsOfBacks > 0
-      ? Outcome::Failed("The input has no cell array \"" + name + "\"" +
+      ? Outcome::Failed("The input has no " + this->GetKind() + " \"" + name + "\"" +
           (componentsOfBacks > 0 ? ", but one for the backs: add it with the values of the fronts."
                                  : ".") +
           this->Suggest(name))
@@ -92,19 +102,26 @@ Outcome CellArrays::Read(const std::string& name, bool required, std::vector<dou
 std::string CellArrays::Suggest(const std::string& name) const
 {
   std::string suggested;
-  for (vtkPolyData* data : Leaves::Get(this->Input))
+  for (vtkDataSet* data : Leaves::Get(this->Input))
   {
-    suggested = suggested.empty() ? InputArrays::Suggest(data->GetCellData(), name) : suggested;
+    suggested =
+      suggested.empty() ? InputArrays::Suggest(Leaves::GetPatchData(data), name) : suggested;
   }
   return suggested;
 }
 
 //------------------------------------------------------------------------------
+std::string CellArrays::GetKind() const
+{
+  return std::string(GetWord(this->Scene.IsOfTexels())) + " array";
+}
+
+//------------------------------------------------------------------------------
 bool CellArrays::IsInput(const std::string& name) const
 {
-  const std::vector<vtkPolyData*> leaves = Leaves::Get(this->Input);
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(this->Input);
   const bool isMine = std::any_of(leaves.begin(), leaves.end(),
-    [&](vtkPolyData* data) { return data->GetCellData()->HasArray(name.c_str()) != 0; });
+    [&](vtkDataSet* data) { return Leaves::GetPatchData(data)->HasArray(name.c_str()) != 0; });
   return this->AllRanks.GetLargest(isMine ? 1 : 0) != 0;
 }
 
@@ -133,7 +150,7 @@ Outcome CellArrays::ReadPolygons(const std::string& name, std::vector<double>& v
   }
   if (missing || !even)
   {
-    return FailUneven(name);
+    return FailUneven(this->GetKind(), name);
   }
   values = this->AllRanks.Gather(mine);
   return Outcome::Done();
@@ -172,7 +189,7 @@ std::vector<double> CellArrays::Spread(const std::vector<double>& fronts,
 Outcome CellArrays::ReadLocal(const std::string& name, std::vector<double>& values,
   int& components) const
 {
-  const std::vector<vtkPolyData*> leaves = Leaves::Get(this->Input);
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(this->Input);
   int block = -1;
   vtkDataArray* array = nullptr;
   for (const LocalCell& local : this->Scene.GetLocalCells())
@@ -188,7 +205,7 @@ Outcome CellArrays::ReadLocal(const std::string& name, std::vector<double>& valu
       const int here = array ? array->GetNumberOfComponents() : -1;
       if (components != 0 && here != components)
       {
-        return FailUneven(name);
+        return FailUneven(this->GetKind(), name);
       }
       components = here;
     }
@@ -197,9 +214,9 @@ Outcome CellArrays::ReadLocal(const std::string& name, std::vector<double>& valu
       const double value = array->GetComponent(local.Cell, component);
       if (!std::isfinite(value))
       {
-        return Outcome::Failed("The cell array \"" + name +
-          "\" has a value that is not finite at cell " + std::to_string(local.Cell) +
-          ": replace it, for example with vtkArrayCalculator.");
+        return Outcome::Failed("The " + this->GetKind() + " \"" + name +
+          "\" has a value that is not finite at " + GetWord(this->Scene.IsOfTexels()) + " " +
+          std::to_string(local.Cell) + ": replace it, for example with vtkArrayCalculator.");
       }
       values.push_back(value);
     }

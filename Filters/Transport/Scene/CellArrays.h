@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Cell arrays of the input as numbers of the patches of a scene. Those of backs have the suffix
-/// "Back"; where there is none of that name the fronts' holds for both sides.
+/// Cell arrays of the input (point arrays of texel images) as numbers of the patches of a scene.
+/// Those of backs have the suffix "Back"; where there is none of that name the fronts' holds for
+/// both sides.
 #ifndef CellArrays_h
 #define CellArrays_h
 
@@ -30,15 +31,18 @@ public:
    * An array as doubles, for all patches of all ranks: values[patch * components + component].
    * `required` decides whether an array that is missing everywhere is an error or leaves `values`
    * empty. Fails, on all ranks alike, where the array is missing in some block, is not numeric, is
-   * a point array, has different component counts, or holds a value that is not finite, and where
-   * there is an array of the backs but none of the fronts. `hasBack`, where it is not null, tells
-   * whether backs have an array of their own. Collective.
+   * one of the points (of an image: the cells), has different component counts, or holds a value
+   * that is not finite, and where there is an array of the backs but none of the fronts. `hasBack`,
+   * where it is not null, tells whether backs have an array of their own. Collective.
    */
   Outcome Read(const std::string& name, bool required, std::vector<double>& values, int& components,
     bool* hasBack = nullptr) const;
 
   /// InputArrays::Suggest for an array that is missing everywhere, as this rank knows it.
   std::string Suggest(const std::string& name) const;
+
+  /// What the array of patches is in a message: "cell array", in images "point array".
+  std::string GetKind() const;
 
   /// Whether any block of any rank has the array. Collective.
   bool IsInput(const std::string& name) const;

@@ -97,19 +97,24 @@ void AddSurfaces(const std::vector<Vector>& centers, const std::vector<vtkIdType
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order, int numberOfSides)
+Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order, int numberOfSides,
+  bool takesTexels)
 {
   *this = PatchScene();
   this->OrderOfPatches = order;
   GatheredPolygons polygons;
-  if (Outcome gathered = PolygonGathering::Gather(input, ranks, order == Order::Atlas, polygons);
+  if (Outcome gathered =
+        PolygonGathering::Gather(input, ranks, order == Order::Atlas, takesTexels, polygons);
       !gathered)
   {
     return gathered;
   }
   if (polygons.Counts.empty())
   {
-    return Outcome::Failed("The input has no polygons: give a surface with at least one polygon.");
+    return Outcome::Failed(polygons.AreTexels
+        ? "The texel image has no texels with surface (ChartId from 0, Area above 0): make it of "
+          "the surface with vtkSurfaceToAtlas."
+        : "The input has no polygons: give a surface with at least one polygon.");
   }
   const std::set<vtkIdType> surfaces(polygons.Surfaces.begin(), polygons.Surfaces.end());
   if (surfaces.size() * numberOfSides > MaximumSurfaces)
@@ -122,7 +127,9 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order,
   {
     return normalized;
   }
+  this->OfTexels = polygons.AreTexels;
   this->LocalCells = polygons.LocalCells;
+  this->CopiedCells = polygons.CopiedCells;
   this->FirstLocal = polygons.FirstLocal;
   const std::vector<Vector> corners = this->MakeCorners(polygons);
   ScenePieces pieces(this->PlaceOffsets, corners, this->CoordinateRounding.norm());
@@ -137,7 +144,10 @@ Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order,
   }
   this->Problems = pieces.Problems;
   this->Arrange(polygons, corners, pieces);
-  this->Prune(polygons, corners, pieces);
+  if (!this->OfTexels)
+  {
+    this->Prune(polygons, corners, pieces);
+  }
   this->WarnOfSpacing();
   return Outcome::Done();
 }
@@ -260,6 +270,7 @@ std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
   const vtkIdType count = pieces.GetNumber();
   std::vector<Vector> centers(count, Vector::Zero());
   std::vector<Vector> normals(count, Vector::Zero());
+  std::vector<double> areas(count);
   for (vtkIdType piece = 0; piece < count; ++piece)
   {
     Pulse::Beat(piece);
@@ -272,11 +283,13 @@ std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
       centers[piece] += place / pieces.GetCount(piece);
       normals[piece] += (place - origin).cross(corners[pieces.Corners[next]] - origin);
     }
+    areas[piece] = 0.5 * normals[piece].norm();
     normals[piece].normalize();
   }
-  if (this->OrderOfPatches == Order::Spatial)
+  if (this->OrderOfPatches != Order::Atlas)
   {
-    return this->Tree.Sort(centers, normals);
+    return this->OrderOfPatches == Order::Spatial ? this->Tree.Sort(centers, normals)
+                                                  : this->Tree.Sort(centers, normals, areas);
   }
   std::vector<std::uint64_t> codes;
   std::vector<vtkIdType> surfaces;

@@ -11,10 +11,10 @@
  *
  * All ranks hold the whole scene, in the same order: that of a tree (PatchTree), so that patches
  * that are near each other in space are near each other in every array and in the exchange matrix.
- * The tree is the spatial one, or for links between clusters that of the surfaces' atlases, one
- * after another: points of an atlas are the point array "AtlasCoordinates". Where users meet
- * numbers of patches (messages, arguments) they are those of the input's polygons: all blocks and
- * ranks in order, ghosts left out.
+ * The tree is the spatial one, or for links between clusters that of a surface, or that of the
+ * surfaces' atlases, one after another: points of an atlas are the point array "AtlasCoordinates".
+ * Where users meet numbers of patches (messages, arguments) they are those of the input's polygons:
+ * all blocks and ranks in order, ghosts left out.
  */
 #ifndef PatchScene_h
 #define PatchScene_h
@@ -43,6 +43,7 @@ public:
   enum class Order
   {
     Spatial,
+    Surface,
     Atlas
   };
 
@@ -53,12 +54,15 @@ public:
    * Gather the patches of `input`. Fails, on every rank alike, with nothing to work on (no polygon
    * that has an area), coordinates that are not finite; in the order of an atlas for a surface
    * without "AtlasCoordinates", or more surfaces than MaximumSurfaces. `numberOfSides` is 2 where
-   * the backs of polygons are faces, too.
+   * the backs of polygons are faces, too; `takesTexels` lets the input be texel images
+   * (TexelGathering), whose polygons are looked at as they are: neighbours may overlap.
    */
   Outcome Build(vtkDataObject* input, const Ranks& ranks, Order order = Order::Spatial,
-    int numberOfSides = 1);
+    int numberOfSides = 1, bool takesTexels = false);
 
   const SceneFaces& GetFaces() const { return this->Faces; }
+  /// Whether polygons are those of texels.
+  bool IsOfTexels() const { return this->OfTexels; }
   /// Of each face, flags of SceneFaces::Problem.
   const std::vector<int>& GetProblems() const { return this->Problems; }
   /// What users should know of the polygons, a line each; the same on all ranks.
@@ -67,6 +71,8 @@ public:
   ///@{ The polygons of this rank in their order: which cells, the number of the first of them, and
   /// all patches of them.
   const std::vector<LocalCell>& GetLocalCells() const { return this->LocalCells; }
+  /// Texels of this rank that are polygons of another one.
+  const std::vector<CopiedCell>& GetCopiedCells() const { return this->CopiedCells; }
   vtkIdType GetFirstLocalPolygon() const { return this->FirstLocal; }
   std::vector<vtkIdType> GetLocalPatches() const;
   ///@}
@@ -122,7 +128,9 @@ private:
   SceneFaces Faces;
   std::vector<int> Problems;
   std::vector<std::string> Warnings;
+  bool OfTexels = false;
   std::vector<LocalCell> LocalCells;
+  std::vector<CopiedCell> CopiedCells;
   vtkIdType FirstLocal = 0;
   std::vector<vtkIdType> PlaceOffsets; ///< of each polygon, in Places
   std::vector<vtkIdType> Places;

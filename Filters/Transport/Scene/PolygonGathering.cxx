@@ -4,6 +4,7 @@
 
 #include "Scene/Leaves.h"
 #include "Scene/PatchTree.h"
+#include "Scene/TexelGathering.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
@@ -30,13 +31,6 @@ namespace
 // in double precision from arithmetic of their own.
 constexpr double SinglePrecision = 1.5 * 0x1.0p-24;
 constexpr double DoublePrecision = 4.0 * 0x1.0p-53;
-
-//------------------------------------------------------------------------------
-double GetPrecision(vtkPolyData* data)
-{
-  const bool isDouble = data->GetPoints() && data->GetPoints()->GetDataType() == VTK_DOUBLE;
-  return isDouble ? DoublePrecision : SinglePrecision;
-}
 
 //------------------------------------------------------------------------------
 Outcome FindAtlas(vtkPolyData* data, vtkDataArray*& atlas)
@@ -71,7 +65,8 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
   vtkNew<vtkIdList> corners;
   if (cells->GetNumberOfCells() > 0)
   {
-    polygons.Precision = std::max(polygons.Precision, GetPrecision(data));
+    polygons.Precision = std::max(polygons.Precision,
+      PolygonGathering::GetPrecision(data->GetPoints() ? data->GetPoints()->GetData() : nullptr));
   }
   for (vtkIdType polygon = 0; polygon < cells->GetNumberOfCells(); ++polygon)
   {
@@ -105,10 +100,10 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
 //------------------------------------------------------------------------------
 Outcome CollectLocal(vtkDataObject* input, GatheredPolygons& polygons)
 {
-  const std::vector<vtkPolyData*> leaves = Leaves::Get(input);
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(input);
   for (std::size_t block = 0; block < leaves.size(); ++block)
   {
-    vtkPolyData* data = leaves[block];
+    auto* data = vtkPolyData::SafeDownCast(leaves[block]);
     if (!data)
     {
       return Outcome::Failed(
@@ -143,7 +138,7 @@ Outcome CollectLocal(vtkDataObject* input, GatheredPolygons& polygons)
 // The code of the mean of a patch's corners: blocks of a quadtree are convex.
 Outcome CollectCodes(vtkDataObject* input, GatheredPolygons& polygons)
 {
-  const std::vector<vtkPolyData*> leaves = Leaves::Get(input);
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(input);
   const std::vector<vtkIdType> numbers = Leaves::GetNumbers(input);
   vtkNew<vtkIdList> corners;
   int block = -1;
@@ -151,7 +146,7 @@ Outcome CollectCodes(vtkDataObject* input, GatheredPolygons& polygons)
   for (const LocalCell& local : polygons.LocalCells)
   {
     Pulse::Beat(polygons.Codes.size());
-    vtkPolyData* data = leaves[local.Block];
+    auto* data = vtkPolyData::SafeDownCast(leaves[local.Block]);
     if (local.Block != block)
     {
       block = local.Block;
@@ -207,9 +202,20 @@ Outcome Collect(vtkDataObject* input, bool withAtlas, GatheredPolygons& polygons
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome PolygonGathering::Gather(vtkDataObject* input, const Ranks& ranks, bool withAtlas,
-  GatheredPolygons& polygons)
+double PolygonGathering::GetPrecision(vtkDataArray* coordinates)
 {
+  const bool isDouble = coordinates && coordinates->GetDataType() == VTK_DOUBLE;
+  return isDouble ? DoublePrecision : SinglePrecision;
+}
+
+//------------------------------------------------------------------------------
+Outcome PolygonGathering::Gather(vtkDataObject* input, const Ranks& ranks, bool withAtlas,
+  bool takesTexels, GatheredPolygons& polygons)
+{
+  if (takesTexels && TexelGathering::HasImages(input, ranks))
+  {
+    return TexelGathering::Gather(input, ranks, withAtlas, polygons);
+  }
   Outcome collected = ranks.Agree(Collect(input, withAtlas, polygons));
   if (collected)
   {
@@ -222,6 +228,7 @@ Outcome PolygonGathering::Gather(vtkDataObject* input, const Ranks& ranks, bool 
 bool PolygonGathering::HasAtlas(vtkDataObject* input, const Ranks& ranks)
 {
   GatheredPolygons polygons;
-  return static_cast<bool>(ranks.Agree(Collect(input, true, polygons)));
+  return TexelGathering::HasImages(input, ranks) ||
+    static_cast<bool>(ranks.Agree(Collect(input, true, polygons)));
 }
 } // namespace LightTransport

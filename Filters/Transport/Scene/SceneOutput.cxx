@@ -10,9 +10,9 @@
 #include "Shared/Pulse.h"
 #include "Shared/ZeroedArray.h"
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
@@ -74,7 +74,7 @@ SceneOutput::SceneOutput(const PatchScene& scene, const SmoothPoints* points, vt
   vtkDataObject* output)
   : Scene(scene), Points(points), Output(output)
 {
-  const std::vector<vtkPolyData*> leaves = Leaves::Get(input);
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(input);
   this->Groups.assign(leaves.size(), {});
   std::vector<vtkIdType> firstLocal(leaves.size() + 1, 0);
   for (const LocalCell& local : scene.GetLocalCells())
@@ -86,7 +86,7 @@ SceneOutput::SceneOutput(const PatchScene& scene, const SmoothPoints* points, vt
   auto* compositeIn = vtkCompositeDataSet::SafeDownCast(input);
   if (!compositeIn)
   {
-    this->CopyBlock(leaves[0], 0, 0, vtkPolyData::SafeDownCast(output));
+    this->CopyBlock(leaves[0], 0, 0, vtkDataSet::SafeDownCast(output));
     return;
   }
   auto* compositeOut = vtkCompositeDataSet::SafeDownCast(output);
@@ -97,7 +97,8 @@ SceneOutput::SceneOutput(const PatchScene& scene, const SmoothPoints* points, vt
   int block = 0;
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem(), ++block)
   {
-    vtkNew<vtkPolyData> copy;
+    vtkSmartPointer<vtkDataSet> copy;
+    copy.TakeReference(leaves[block]->NewInstance());
     this->CopyBlock(leaves[block], block, firstLocal[block], copy);
     compositeOut->SetDataSet(leaf, copy);
   }
@@ -115,16 +116,22 @@ SceneOutput::PointGroups SceneOutput::GetGroups(vtkIdType polygon, vtkIdType cor
 }
 
 //------------------------------------------------------------------------------
-// The first smooth groups that meet a point keep it; all further ones get a copy of their own at
-// the end.
-void SceneOutput::CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal,
-  vtkPolyData* output)
+void SceneOutput::CopyBlock(vtkDataSet* input, int block, vtkIdType firstLocal, vtkDataSet* output)
 {
   output->ShallowCopy(input);
-  if (!this->Points)
+  if (this->Points)
   {
-    return;
+    this->DividePoints(vtkPolyData::SafeDownCast(input), block, firstLocal,
+      vtkPolyData::SafeDownCast(output));
   }
+}
+
+//------------------------------------------------------------------------------
+// The first smooth groups that meet a point keep it; all further ones get a copy of their own at
+// the end.
+void SceneOutput::DividePoints(vtkPolyData* input, int block, vtkIdType firstLocal,
+  vtkPolyData* output)
+{
   constexpr PointGroups none{ -1, -1 };
   std::vector<PointGroups>& groups = this->Groups[block];
   groups.assign(input->GetNumberOfPoints(), none);
@@ -212,11 +219,13 @@ void SceneOutput::AddCellArray(const std::string& name, const std::vector<Value>
   int components, int side) const
 {
   std::vector<vtkSmartPointer<Array>> arrays;
-  for (vtkPolyData* data : Leaves::Get(this->Output))
+  for (vtkDataSet* data : Leaves::Get(this->Output))
   {
+    const int kind =
+      this->Scene.IsOfTexels() ? static_cast<int>(vtkDataObject::POINT) : vtkDataObject::CELL;
     arrays.push_back(
-      MakeArray<Array>(GetSideName(name, side), data->GetNumberOfCells(), components));
-    data->GetCellData()->AddArray(arrays.back());
+      MakeArray<Array>(GetSideName(name, side), data->GetNumberOfElements(kind), components));
+    data->GetAttributes(kind)->AddArray(arrays.back());
   }
   const std::vector<LocalCell>& cells = this->Scene.GetLocalCells();
   vtkIdType face =
@@ -227,13 +236,17 @@ void SceneOutput::AddCellArray(const std::string& name, const std::vector<Value>
     arrays[cell.Block]->SetTypedTuple(cell.Cell, &values[face * components]);
     ++face;
   }
+  for (const CopiedCell& copy : this->Scene.GetCopiedCells())
+  {
+    arrays[copy.Cell.Block]->SetTypedTuple(copy.Cell.Cell, &values[copy.Polygon * components]);
+  }
 }
 
 //------------------------------------------------------------------------------
 void SceneOutput::AddPointArray(const std::string& name, const std::vector<double>& means,
   int components, int side) const
 {
-  const std::vector<vtkPolyData*> leaves = Leaves::Get(this->Output);
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(this->Output);
   for (std::size_t block = 0; block < leaves.size(); ++block)
   {
     auto array = MakeArray<vtkDoubleArray>(GetSideName(name, side),

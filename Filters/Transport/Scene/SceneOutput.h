@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Numbers of patches and faces as arrays of a filter's output, which gets the structure and the
- * arrays of the input, with points duplicated where several smooth groups meet at one.
+ * arrays of the input, with points duplicated where several smooth groups meet at one. What is a
+ * cell array of a surface is a point array of a texel image.
  */
 #ifndef SceneOutput_h
 #define SceneOutput_h
@@ -14,6 +15,7 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkDataSet;
 class vtkPolyData;
 
 namespace LightTransport
@@ -24,8 +26,8 @@ class SmoothPoints;
 class SceneOutput
 {
 public:
-  /// Copy `input`, that `scene` was built from, to `output`. Without `points` no point is
-  /// duplicated, and arrays go to cells only. All must outlive this.
+  /// Copy `input`, that `scene` was built from, to `output`. Without `points` (texels have none) no
+  /// point is duplicated, and arrays go to cells only. All must outlive this.
   SceneOutput(const PatchScene& scene, const SmoothPoints* points, vtkDataObject* input,
     vtkDataObject* output);
 
@@ -48,7 +50,8 @@ private:
   /// The smooth groups that have values at a point, of the front and of the back; -1 for none.
   using PointGroups = std::array<vtkIdType, 2>;
 
-  void CopyBlock(vtkPolyData* input, int block, vtkIdType firstLocal, vtkPolyData* output);
+  void CopyBlock(vtkDataSet* input, int block, vtkIdType firstLocal, vtkDataSet* output);
+  void DividePoints(vtkPolyData* input, int block, vtkIdType firstLocal, vtkPolyData* output);
   PointGroups GetGroups(vtkIdType polygon, vtkIdType corner) const;
   template <typename Array, typename Value>
   void AddCellArray(const std::string& name, const std::vector<Value>& values, int components,

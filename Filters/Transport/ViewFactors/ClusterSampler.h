@@ -5,8 +5,8 @@
 #ifndef ClusterSampler_h
 #define ClusterSampler_h
 
+#include "Links/LinkSlots.h"
 #include "Scene/PatchScene.h"
-#include "ViewFactors/LinkSlots.h"
 
 #include <array>
 #include <cstdint>
