@@ -53,6 +53,7 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Read() override;
   Outcome Link() override;
@@ -87,6 +88,14 @@ private:
   /// From light that enters each patch and is reflected first, until it is added.
   std::vector<std::vector<Arrival>> Reflections;
 };
+
+//------------------------------------------------------------------------------
+NumberProperties::List vtkSingleScattering::Run::ListNumbers() const
+{
+  NumberProperties::List numbers = this->LightingRun::ListNumbers();
+  numbers.emplace_back("MinimumContribution", this->Owner->MinimumContribution);
+  return numbers;
+}
 
 //------------------------------------------------------------------------------
 Outcome vtkSingleScattering::Run::Check()
