@@ -60,6 +60,7 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Read() override;
   Outcome Link() override;
@@ -94,6 +95,14 @@ private:
   /// From light that enters each patch and is reflected first, until it is added.
   std::vector<std::vector<Arrival>> Reflections;
 };
+
+//------------------------------------------------------------------------------
+NumberProperties::List vtkSingleScattering::Run::ListNumbers() const
+{
+  NumberProperties::List numbers = this->LightingRun::ListNumbers();
+  numbers.emplace_back("MinimumContribution", this->Owner->MinimumContribution);
+  return numbers;
+}
 
 //------------------------------------------------------------------------------
 Outcome vtkSingleScattering::Run::Check()
