@@ -3,12 +3,12 @@
 """scatter IN OUT: diffuse subsurface scattering."""
 
 from vtklighttransport.shell.files import (
-    IMAGE_READERS, add_output, check_input, check_output, get_extension, read_file, write_patches)
+    add_output, check_input, check_output, is_image, read_file, write_patches)
 from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
 from vtklighttransport.shell.properties import (
     Choice, Color, InputArray, Number, Switch, add_arrays, add_properties, check_properties,
     choose_array, choose_arrays, make_filter)
-from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
+from vtklighttransport.shell.scene import add_scene, check_mesh, is_remeshed, read_scene
 from vtklighttransport.shell.stages import Stage
 from vtklighttransport.summaries import get_summary
 from vtkmodules.vtkCommonCore import reference
@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonCore import reference
 HELP = "diffuse subsurface scattering"
 DESCRIPTION = (
     "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
-    "light, or a mesh with the cell array Irradiance.")
+    "light, or a mesh with the cell array Irradiance, or the texel image of an atlas with it.")
 PROPERTIES = (
     Choice("--material", "Material", "MATERIAL_",
            "measured material; it wins over the three options below"),
@@ -55,12 +55,13 @@ PROPERTIES = (
 )
 IRRADIANCE = InputArray(
     "--irradiance", 0,
-    "without a light: cell array of what falls in [Irradiance, or TransmittedIrradiance]")
+    "without a light: cell array (of texels: point array) of what falls in "
+    "[Irradiance, or TransmittedIrradiance]")
 
 
 def add_options(parser):
-    add_scene(parser)
-    add_output(parser)
+    add_scene(parser, "or texels of its atlas, as vtkSurfaceToAtlas makes them: .vti")
+    add_output(parser, "of texels .vti")
     add_lights(parser)
     add_properties(parser, "vtkSubsurfaceScattering", PROPERTIES)
     add_arrays(parser, [IRRADIANCE])
@@ -72,12 +73,30 @@ def add_options(parser):
 
 
 def check(options):
-    check_input(options)
-    check_output(options)
+    if is_image(options.input):
+        check_texels(options)
+    else:
+        check_input(options)
+        check_output(options)
     check_mesh(options)
     check_properties(options, "vtkSubsurfaceScattering", PROPERTIES)
-    if options.medium and get_extension(options.medium) not in IMAGE_READERS:
+    if options.medium and not is_image(options.medium):
         options.parser.error(f"argument --medium: '{options.medium}' is not a .vti file")
+
+
+def check_texels(options):
+    check_output(options, ".vti")
+    if has_lights(options) or is_remeshed(options):
+        options.parser.error(
+            f"argument input: '{options.input}' is an image of texels, and lights and --mesh need "
+            "the surface")
+
+
+def read_input(options, messages):
+    """The surface, or the texels of one."""
+    if is_image(options.input):
+        return read_file(options.input, "texels", options, messages)
+    return read_scene(options, messages)
 
 
 def run(options, messages):
@@ -86,7 +105,7 @@ def run(options, messages):
     if options.medium:
         scattering.SetInputData(1, read_file(options.medium, "image", options, messages))
     index = find_refractive_index(scattering)
-    surface = light_scene(options, messages, read_scene(options, messages), index)
+    surface = light_scene(options, messages, read_input(options, messages), index)
     if has_lights(options):
         if index > 1.0:
             scattering.SetIncidenceToTransmitted()
