@@ -12,6 +12,7 @@
 #include "Mesher/WantedLengths.h"
 #include "Shared/FilterMonitor.h"
 #include "Shared/InputArrays.h"
+#include "Shared/NumberProperties.h"
 #include "Shared/OutputLikeInput.h"
 
 #include "vtkAbstractArray.h"
@@ -290,6 +291,10 @@ Outcome vtkPatchMesher::CheckProperties() const
     {
       return checked;
     }
+  }
+  if (Outcome angle = NumberProperties::Check({ { "FeatureAngle", this->FeatureAngle } }); !angle)
+  {
+    return angle;
   }
   if (!(this->Grading > 0.0) || !std::isfinite(this->Grading))
   {

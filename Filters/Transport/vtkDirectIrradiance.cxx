@@ -42,6 +42,7 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Read() override;
   Outcome Compute() override;
@@ -67,6 +68,14 @@ private:
   std::vector<double> Unshadowed;
   ///@}
 };
+
+//------------------------------------------------------------------------------
+NumberProperties::List vtkDirectIrradiance::Run::ListNumbers() const
+{
+  NumberProperties::List numbers = this->LightingRun::ListNumbers();
+  numbers.emplace_back("Tolerance", this->Owner->Tolerance);
+  return numbers;
+}
 
 //------------------------------------------------------------------------------
 Outcome vtkDirectIrradiance::Run::Check()

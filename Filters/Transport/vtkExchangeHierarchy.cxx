@@ -2,16 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExchangeHierarchy.h"
 
+#include "Links/RowCompression.h"
 #include "Shared/Pulse.h"
+#include "Support/Ranks.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 #include <new>
 #include <utility>
 
-using LightTransport::Pulse;
+using namespace LightTransport;
 
 vtkStandardNewMacro(vtkExchangeHierarchy);
+
+namespace
+{
+//------------------------------------------------------------------------------
+template <typename Table>
+double GetBytes(const Table& table)
+{
+  return static_cast<double>(table.size() * sizeof(table[0]));
+}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkExchangeHierarchy::vtkExchangeHierarchy() = default;
@@ -35,6 +47,7 @@ void vtkExchangeHierarchy::ClearLinks()
 {
   this->Columns.clear();
   this->Values.clear();
+  this->Coded = {};
   this->NumberOfLinks = 0;
   this->Symmetric = true;
   this->Offsets.assign(this->GetNumberOfSlots() + 1, 0);
@@ -168,6 +181,30 @@ bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vecto
 }
 
 //------------------------------------------------------------------------------
+bool vtkExchangeHierarchy::SetCodedRows(CodedRows rows)
+{
+  const auto areSlots = [slots = this->GetNumberOfSlots()](const std::vector<int>& table)
+  { return std::all_of(table.begin(), table.end(), [=](int s) { return s >= 0 && s < slots; }); };
+  const bool good = areSlots(rows.Rows) && areSlots(rows.Slots) &&
+    rows.Book.size() == static_cast<std::size_t>(CodedRows::BookSize) * this->NumberOfKernels;
+  if (good)
+  {
+    this->NumberOfLinks += static_cast<vtkIdType>(rows.NumberOfLinks - this->Coded.NumberOfLinks);
+    this->Coded = std::move(rows);
+    this->Symmetric = false;
+    this->Modified();
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::CompressRows(double tolerance, vtkMultiProcessController* controller)
+{
+  return this->Coded.Book.empty() ? RowCompression::Compress(*this, tolerance, Ranks(controller))
+                                  : 0.0;
+}
+
+//------------------------------------------------------------------------------
 double vtkExchangeHierarchy::GetEstimatedBytes(double numberOfLinks)
 {
   return GetEstimatedBytesOfRows(2.0 * numberOfLinks, 1);
@@ -196,8 +233,13 @@ double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int kernel) cons
   {
     others.push_back(slot);
   }
-  double sum = 0.0;
+  std::vector<int> rows;
   for (int slot = getSlot(i); slot >= 0; slot = this->Parents[slot])
+  {
+    rows.push_back(slot);
+  }
+  double sum = this->GetCodedValue(rows, others, kernel);
+  for (const int slot : rows)
   {
     for (std::int64_t link = this->Offsets[slot]; link < this->Offsets[slot + 1]; ++link)
     {
@@ -211,12 +253,46 @@ double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int kernel) cons
 }
 
 //------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetCodedValue(const std::vector<int>& rows,
+  const std::vector<int>& others, int kernel) const
+{
+  const auto isIn = [](const std::vector<int>& slots, int slot)
+  { return std::find(slots.begin(), slots.end(), slot) != slots.end(); };
+  double sum = 0.0;
+  for (const CodedRows::Tile& tile : this->Coded.Tiles)
+  {
+    const auto add = [&](int place, int code)
+    {
+      sum += isIn(others, this->Coded.Slots[tile.FirstSlot + place])
+        ? static_cast<double>(this->Coded.Book[code * this->NumberOfKernels + kernel])
+        : 0.0;
+    };
+    this->Coded.VisitPieces(tile,
+      [&](int row, const std::uint8_t* bytes, int pairs)
+      {
+        if (isIn(rows, row))
+        {
+          CodedRows::VisitLinks(tile, bytes, pairs, add);
+        }
+      });
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
 double vtkExchangeHierarchy::GetNumberOfBytes() const
 {
-  const auto bytes = [](const auto& table)
-  { return static_cast<double>(table.size() * sizeof(table[0])); };
-  return bytes(this->Nodes) + bytes(this->Parents) + bytes(this->Weights) + bytes(this->Areas) +
-    bytes(this->Offsets) + bytes(this->Columns) + bytes(this->Values);
+  return GetBytes(this->Nodes) + GetBytes(this->Parents) + GetBytes(this->Weights) +
+    GetBytes(this->Areas) + this->GetNumberOfLinkBytes();
+}
+
+//------------------------------------------------------------------------------
+double vtkExchangeHierarchy::GetNumberOfLinkBytes() const
+{
+  const CodedRows& coded = this->Coded;
+  return GetBytes(this->Offsets) + GetBytes(this->Columns) + GetBytes(this->Values) +
+    GetBytes(coded.Book) + GetBytes(coded.Rows) + GetBytes(coded.Slots) + GetBytes(coded.Tiles) +
+    GetBytes(coded.Pairs) + GetBytes(coded.Bytes);
 }
 
 //------------------------------------------------------------------------------

@@ -23,6 +23,10 @@
  * how large a cluster: SetRows takes links that serve one direction. What is stored is then no
  * longer symmetric, though what it stands for is, within the error of the links.
  *
+ * Where each link has to take few bytes, its values may be an entry of a code book, and its slot an
+ * entry of a short list that neighbouring rows share (CodedRows): two bytes a link, one where all
+ * these rows have it. Links in either form add up.
+ *
  * A tree may come from anywhere (PatchTree, or the quadtree of an atlas).
  */
 #ifndef vtkExchangeHierarchy_h
@@ -31,6 +35,8 @@
 #include "vtkExchange.h"
 
 #include <cstdint> // for std::int64_t
+
+class vtkMultiProcessController;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkExchangeHierarchy : public vtkExchange
 {
@@ -55,6 +61,74 @@ public:
   };
 
   /**
+   * Links in few bytes. A tile is a range of rows with the slots that they are linked with, at most
+   * BookSize of them; the first of these slots, Common of them, are linked with every row of the
+   * tile. Each row of each tile is a piece: the codes of the common slots, then the place in the
+   * tile's slots, and the code, of every other link. Rows with more slots have several tiles.
+   */
+  struct CodedRows
+  {
+    static constexpr int BookSize = 256;
+    /// Common is a multiple of this: whole words for a device that reads them.
+    static constexpr int CommonStep = 16;
+
+    struct Tile
+    {
+      int FirstRow; ///< in Rows
+      int LastRow;
+      int FirstSlot; ///< in Slots
+      int LastSlot;
+      int Common;
+      std::int64_t FirstPiece; ///< in Pairs
+      std::int64_t FirstByte;  ///< in Bytes
+    };
+
+    std::vector<float>
+      Book;                ///< values of entry e: Book[e * kernels + kernel]; of entry 0 they are 0
+    std::vector<int> Rows; ///< slots that receive
+    std::vector<int> Slots;  ///< slots that send
+    std::vector<Tile> Tiles; ///< those of the same rows one after the other
+    std::vector<int> Pairs;  ///< of each piece: links beside the common ones
+    std::vector<std::uint8_t> Bytes;
+    std::int64_t NumberOfLinks = 0;
+
+    /// Whether a tile has the rows of the one before.
+    bool Continues(std::size_t tile) const
+    {
+      return tile > 0 && this->Tiles[tile].FirstRow == this->Tiles[tile - 1].FirstRow;
+    }
+
+    /// visitor(row's slot, its bytes, pairs) for each piece of a tile.
+    template <typename Visitor>
+    void VisitPieces(const Tile& tile, Visitor&& visitor) const
+    {
+      const std::uint8_t* bytes = this->Bytes.data() + tile.FirstByte;
+      for (int row = tile.FirstRow; row < tile.LastRow; ++row)
+      {
+        const int pairs = this->Pairs[tile.FirstPiece + row - tile.FirstRow];
+        visitor(this->Rows[row], bytes, pairs);
+        bytes += tile.Common + 2 * static_cast<std::int64_t>(pairs);
+      }
+    }
+
+    /// visitor(place in the tile's slots, code) for each link of a piece.
+    template <typename Visitor>
+    static void VisitLinks(const Tile& tile, const std::uint8_t* bytes, int pairs,
+      Visitor&& visitor)
+    {
+      for (int place = 0; place < tile.Common; ++place)
+      {
+        visitor(place, bytes[place]);
+      }
+      bytes += tile.Common;
+      for (int pair = 0; pair < pairs; ++pair)
+      {
+        visitor(bytes[2 * pair], bytes[2 * pair + 1]);
+      }
+    }
+  };
+
+  /**
    * The tree, without links. Every slot but the root must be the child of one node;
    * the children of a node must come after it and be on the level below it or patches. Returns
    * false where that does not hold; the hierarchy is then empty.
@@ -70,6 +144,21 @@ public:
   /// one direction. Returns false, and there are no links, where the tables do not fit the tree.
   bool SetRows(std::vector<std::int64_t> offsets, std::vector<int> columns,
     std::vector<float> values);
+
+  /// Rows beside those of SetRows, which drops them. Returns false, and nothing changes, where they
+  /// do not fit the tree.
+  bool SetCodedRows(CodedRows rows);
+
+  /**
+   * Turn rows, SetRows', into coded ones. The code book is trained on them; links that it misses by
+   * more than `tolerance`, where that is above 0, stay rows: of each of the others the error is at
+   * most the tolerance times the mean of the link itself and of all links of its row, each times
+   * the area of its source. So in even light no row's sum is off by more than the tolerance.
+   * Several parts train the same book, with the controller of the ranks that hold them; each must
+   * have whole rows. A second time nothing changes, until there are other rows. Returns the error
+   * that is left: sqrt(sum A_I (A_J dK)^2 / sum A_I (A_J K)^2) over all links, of the worst kernel.
+   */
+  double CompressRows(double tolerance, vtkMultiProcessController* controller = nullptr);
 
   /// Bytes that SetLinks takes for a number of links.
   static double GetEstimatedBytes(double numberOfLinks);
@@ -97,6 +186,11 @@ public:
   const std::vector<int>& GetColumns() const { return this->Columns; }
   const std::vector<float>& GetValues() const { return this->Values; }
   ///@}
+  /// Without tiles unless SetCodedRows has been called.
+  const CodedRows& GetCodedRows() const { return this->Coded; }
+
+  /// Bytes of the links alone.
+  double GetNumberOfLinkBytes() const;
 
   /// G_ij of this part: what the links between the two patches and all nodes above them sum to.
   double GetValue(vtkIdType i, vtkIdType j, int kernel = 0) const override;
@@ -117,6 +211,8 @@ private:
   void operator=(const vtkExchangeHierarchy&) = delete;
 
   bool FindParents();
+  double GetCodedValue(const std::vector<int>& rows, const std::vector<int>& others,
+    int kernel) const;
   void Clear();
   void ClearLinks();
 
@@ -127,6 +223,7 @@ private:
   std::vector<std::int64_t> Offsets;
   std::vector<int> Columns;
   std::vector<float> Values;
+  CodedRows Coded;
   vtkIdType NumberOfLinks = 0;
   bool Symmetric = true;
 };

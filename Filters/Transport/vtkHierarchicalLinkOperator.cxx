@@ -7,6 +7,8 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 using namespace LightTransport;
 
@@ -18,6 +20,7 @@ namespace
 constexpr int MaximumBands = 4;
 // Rows that a thread takes at a time: rows differ in length.
 constexpr vtkIdType RowsPerTask = 1024;
+constexpr vtkIdType TilesPerTask = 16;
 
 //------------------------------------------------------------------------------
 // Y_I = sum of K X_J for bands [0, Count) of `Bands`. Bands share one value of each link, or have
@@ -78,6 +81,86 @@ struct Gather
 };
 
 //------------------------------------------------------------------------------
+// Y_I += sum over the coded links of I, for bands [0, Count) of `Bands`. What a tile's rows hear is
+// copied into one place first, so that nothing else than it, the book and the bytes are read.
+template <int Count>
+struct GatherCodes
+{
+  using CodedRows = vtkExchangeHierarchy::CodedRows;
+  // Three bands take as long as four, which are whole vectors.
+  static constexpr int Lanes = Count + (Count == 3 ? 1 : 0);
+  static constexpr int TileValues = Lanes * CodedRows::BookSize;
+
+  const CodedRows& Coded;
+  int Bands;
+  const double* Sent;
+  double* Received;
+  std::vector<double> Book; ///< as MakeBook makes it
+
+  static std::vector<double> MakeBook(const vtkExchangeHierarchy& hierarchy, int firstKernel)
+  {
+    const std::vector<float>& values = hierarchy.GetCodedRows().Book;
+    const int kernels = hierarchy.GetNumberOfKernels();
+    std::vector<double> book(TileValues, 0.0);
+    for (int code = 0; code < CodedRows::BookSize; ++code)
+    {
+      for (int band = 0; band < Count; ++band)
+      {
+        const int kernel = kernels > 1 ? firstKernel + band : 0;
+        book[code * Lanes + band] = static_cast<double>(values[code * kernels + kernel]);
+      }
+    }
+    return book;
+  }
+
+  // Tiles of the same rows stay on one thread: they add to the same sums.
+  void operator()(vtkIdType begin, vtkIdType end) const
+  {
+    std::vector<double> heard(TileValues, 0.0);
+    const auto skip = [&](vtkIdType tile)
+    {
+      while (tile < static_cast<vtkIdType>(this->Coded.Tiles.size()) && this->Coded.Continues(tile))
+      {
+        ++tile;
+      }
+      return tile;
+    };
+    const vtkIdType last = skip(end);
+    for (vtkIdType tile = skip(begin); tile < last; ++tile)
+    {
+      this->GatherTile(this->Coded.Tiles[tile], heard.data());
+    }
+  }
+
+  void GatherTile(const CodedRows::Tile& tile, double* heard) const
+  {
+    for (int slot = tile.FirstSlot; slot < tile.LastSlot; ++slot)
+    {
+      const double* sent =
+        this->Sent + static_cast<std::int64_t>(this->Coded.Slots[slot]) * this->Bands;
+      std::copy(sent, sent + Count,
+        heard + static_cast<std::int64_t>(slot - tile.FirstSlot) * Lanes);
+    }
+    const double* book = this->Book.data();
+    this->Coded.VisitPieces(tile,
+      [&](int row, const std::uint8_t* bytes, int pairs)
+      {
+        double sums[Lanes] = {};
+        CodedRows::VisitLinks(tile, bytes, pairs,
+          [&](int place, int code)
+          {
+            for (int lane = 0; lane < Lanes; ++lane)
+            {
+              sums[lane] += book[code * Lanes + lane] * heard[place * Lanes + lane];
+            }
+          });
+        double* received = this->Received + static_cast<std::int64_t>(row) * this->Bands;
+        std::transform(sums, sums + Count, received, received, std::plus<double>());
+      });
+  }
+};
+
+//------------------------------------------------------------------------------
 template <int Count>
 void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
   double* received)
@@ -91,6 +174,13 @@ void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, co
   {
     Gather<Count, false> gather{ hierarchy, bands, sent + first, received + first, 0 };
     Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+  }
+  const auto tiles = static_cast<vtkIdType>(hierarchy.GetCodedRows().Tiles.size());
+  if (tiles > 0)
+  {
+    GatherCodes<Count> gather{ hierarchy.GetCodedRows(), bands, sent + first, received + first,
+      GatherCodes<Count>::MakeBook(hierarchy, first) };
+    Threads::For(0, tiles, TilesPerTask, gather);
   }
 }
 
@@ -217,11 +307,41 @@ void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
         this->Hierarchy->GetValues()[link * this->Hierarchy->GetNumberOfKernels() + kernel];
     }
   }
+  this->FillCodedRow(i, kernel);
   this->SweepDown(1);
   const std::vector<double>& weights = this->Hierarchy->GetWeights();
   for (vtkIdType patch = 0; patch < this->NumberOfPatches; ++patch)
   {
     row[patch] = weights[i] * weights[patch] * this->Received[nodes + patch];
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkHierarchicalLinkOperator::FillCodedRow(vtkIdType i, int kernel)
+{
+  using CodedRows = vtkExchangeHierarchy::CodedRows;
+  const CodedRows& coded = this->Hierarchy->GetCodedRows();
+  std::set<int> rows;
+  for (int slot = this->Hierarchy->GetNumberOfNodes() + static_cast<int>(i); slot >= 0;
+       slot = this->Hierarchy->GetParents()[slot])
+  {
+    rows.insert(slot);
+  }
+  for (const CodedRows::Tile& tile : coded.Tiles)
+  {
+    coded.VisitPieces(tile,
+      [&](int row, const std::uint8_t* bytes, int pairs)
+      {
+        if (rows.count(row) > 0)
+        {
+          CodedRows::VisitLinks(tile, bytes, pairs,
+            [&](int place, int code)
+            {
+              this->Received[coded.Slots[tile.FirstSlot + place]] += static_cast<double>(
+                coded.Book[code * this->Hierarchy->GetNumberOfKernels() + kernel]);
+            });
+        }
+      });
   }
 }
 

@@ -37,6 +37,7 @@ private:
 
   void SweepUp(const Vector& x);
   void SweepDown(int bands);
+  void FillCodedRow(vtkIdType i, int kernel);
 
   vtkSmartPointer<vtkExchangeHierarchy> Hierarchy;
   ///@{ What is sent and received: slot after slot, its bands side by side.

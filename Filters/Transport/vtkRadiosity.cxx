@@ -82,6 +82,7 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Gather() override;
   Outcome Read() override;
@@ -121,6 +122,22 @@ private:
   double SolverSeconds = 0.0;
   int Shots = 0; // of the solver that needs no links
 };
+
+//------------------------------------------------------------------------------
+NumberProperties::List vtkRadiosity::Run::ListNumbers() const
+{
+  NumberProperties::List numbers = this->TransportRun::ListNumbers();
+  numbers.emplace_back("Tolerance", this->Owner->Tolerance);
+  numbers.emplace_back("LinkTolerance", this->Owner->LinkTolerance);
+  numbers.emplace_back("ViewFactorTolerance", this->Owner->ViewFactorTolerance);
+  numbers.emplace_back("BackgroundTemperature", this->Owner->BackgroundTemperature);
+  if (vtkViewFactors* given = this->Owner->ViewFactors)
+  {
+    numbers.emplace_back("Tolerance of the given view factors", given->GetTolerance());
+    numbers.emplace_back("LinkTolerance of the given view factors", given->GetLinkTolerance());
+  }
+  return numbers;
+}
 
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Check()

@@ -22,6 +22,7 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -59,7 +60,16 @@ protected:
   void Write() override;
 
 private:
+  /// Flux that leaves a patch.
+  struct Arrival
+  {
+    vtkIdType Patch;
+    std::array<double, LightBands> Flux;
+  };
+
   void ComputePatch(vtkIdType patch);
+  void FollowReflections(vtkIdType patch, const Polygon& shape);
+  void AddReflections(vtkIdType patch);
 
   vtkSingleScattering* Owner;
   double StartTime;
@@ -69,8 +79,13 @@ private:
   std::unique_ptr<RayMarcher> Marcher;
   ///@{ patches x bands
   std::vector<double> Scattered;
-  std::vector<double> Error;
+  std::vector<double> Error; ///< its square, until all is added
+  /// Of what was reflected before it was scattered.
+  std::vector<double> Reflected;
+  std::vector<double> ReflectedVariance;
   ///@}
+  /// From light that enters each patch and is reflected first, until it is added.
+  std::vector<std::vector<Arrival>> Reflections;
 };
 
 //------------------------------------------------------------------------------
@@ -106,7 +121,7 @@ Outcome vtkSingleScattering::Run::Link()
   this->Marcher = std::make_unique<RayMarcher>(this->Scene,
     PhotonScattering::GetMedia(this->Media,
       this->Scene.GetScale() * this->Owner->MillimetersPerUnit),
-    this->Media[0].RefractiveIndex, this->Lights);
+    this->Media[0].RefractiveIndex, this->Lights, this->Owner->MinimumContribution);
   return this->AllRanks.Agree(this->Marcher->Build());
 }
 
@@ -117,14 +132,28 @@ Outcome vtkSingleScattering::Run::Compute()
   const std::size_t patches = this->Scene.GetAreas().size();
   this->Scattered.assign(patches * LightBands, 0.0);
   this->Error.assign(patches * LightBands, 0.0);
-  if (Outcome done = this->ForLocalPatches(RaysOfSample * this->Owner->NumberOfSamples, RaysDone,
-        [this](vtkIdType patch) { this->ComputePatch(patch); });
+  this->Reflected.assign(patches * LightBands, 0.0);
+  this->ReflectedVariance.assign(patches * LightBands, 0.0);
+  this->Reflections.resize(patches);
+  if (Outcome done = this->ForLocalPatches(
+        RaysOfSample * this->Owner->NumberOfSamples, RaysDone,
+        [this](vtkIdType patch) { this->ComputePatch(patch); },
+        [this](vtkIdType patch) { this->AddReflections(patch); });
       !done)
   {
     return done;
   }
+  for (std::size_t k = 0; k < this->Scattered.size(); ++k)
+  {
+    this->Scattered[k] += this->Reflected[k];
+    this->Error[k] += this->ReflectedVariance[k];
+  }
   this->AllRanks.Sum(this->Scattered);
   this->AllRanks.Sum(this->Error);
+  for (double& error : this->Error)
+  {
+    error = std::sqrt(error);
+  }
   return Outcome::Done();
 }
 
@@ -150,9 +179,53 @@ void vtkSingleScattering::Run::ComputePatch(vtkIdType patch)
       sum.Add(radiance, vtkMath::Pi(), 0.0);
     });
   const LightSum light = mean.GetMean(false, Evenness);
-  std::copy_n(light.Incident, LightBands, &this->Scattered[patch * LightBands]);
-  std::transform(light.Variance, light.Variance + LightBands, &this->Error[patch * LightBands],
-    [](double variance) { return std::sqrt(variance); });
+  for (int band = 0; band < LightBands; ++band)
+  {
+    this->Scattered[patch * LightBands + band] = light.Incident[band];
+    this->Error[patch * LightBands + band] = light.Variance[band];
+  }
+  if (this->Marcher->HasReflections())
+  {
+    this->FollowReflections(patch, shape);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Kept until it can be added: sums do not depend on threads.
+void vtkSingleScattering::Run::FollowReflections(vtkIdType patch, const Polygon& shape)
+{
+  const int samples = this->Owner->NumberOfSamples;
+  const auto key = static_cast<std::uint64_t>(patch + this->Scene.GetNumberOfPatches());
+  const PatchSampler surface(key);
+  const ShuffledSampler inside(key);
+  std::vector<Arrival>& arrivals = this->Reflections[patch];
+  const auto receive = [&arrivals](vtkIdType to, const double* flux) {
+    arrivals.push_back({ to, { flux[0], flux[1], flux[2] } });
+  };
+  for (int k = 0; k < samples; ++k)
+  {
+    const RayMarcher::Entrance entrance{ surface.GetPoint(shape, k, 0), patch,
+      this->Scene.GetAreas()[patch] / samples, inside.Get(k, 3), inside.Get(k, 0),
+      { inside.Get(k, 1), inside.Get(k, 2) }, { surface.Get(k, 2), surface.Get(k, 3) },
+      k % LightBands };
+    this->Marcher->Shine(entrance, receive);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSingleScattering::Run::AddReflections(vtkIdType patch)
+{
+  for (const Arrival& arrival : this->Reflections[patch])
+  {
+    const double area = this->Scene.GetAreas()[arrival.Patch];
+    for (int band = 0; band < LightBands; ++band)
+    {
+      const double exitance = arrival.Flux[band] / area;
+      this->Reflected[arrival.Patch * LightBands + band] += exitance;
+      this->ReflectedVariance[arrival.Patch * LightBands + band] += exitance * exitance;
+    }
+  }
+  std::vector<Arrival>().swap(this->Reflections[patch]);
 }
 
 //------------------------------------------------------------------------------
@@ -201,5 +274,6 @@ void vtkSingleScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
   os << indent << "MillimetersPerUnit: " << this->MillimetersPerUnit << "\n";
   print("Anisotropy", this->Anisotropy);
+  os << indent << "MinimumContribution: " << this->MinimumContribution << "\n";
   os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
 }

@@ -124,6 +124,8 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "BurleyFit: " << this->BurleyFit << "\n";
   os << indent << "ComputeThickness: " << this->ComputeThickness << "\n";
+  os << indent << "NumberOfLinks: " << this->NumberOfLinks << "\n";
+  os << indent << "DropLinksThroughAir: " << this->DropLinksThroughAir << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "Incidence: " << this->Incidence << "\n";
   os << indent << "Device: " << this->Device << "\n";

@@ -28,8 +28,9 @@
  * parallelogram around its position, in the plane of its normal, along the steps to its neighbours
  * in the same chart, of exactly its area. Arrays are point arrays, in and out, and the output is
  * the image; texels without surface get 0. What looks into the body (MODEL_MONTE_CARLO,
- * ComputeThickness) needs the surface. On several ranks each may have all of an image, a part, or
- * nothing: texels that two have alike count once.
+ * ComputeThickness, DropLinksThroughAir) needs the surface, and "LinksThroughAir" is not told. On
+ * several ranks each may have all of an image, a part, or nothing: texels that two have alike count
+ * once.
  *
  * Port 1, optional, for MODEL_MONTE_CARLO: the medium where it varies, a vtkImageData placed in the
  * unit of the surface (origin, spacing, direction matrix), with the arrays "Scattering" (the
@@ -58,14 +59,20 @@
  * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
  * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
  * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
- * where links of an earlier run were taken. "ProfileError" (MODEL_TABULATED, 3 components):
- * standard error of the profile's total, relative. Monte Carlo without links has in their place
- * "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters,
- * what goes away for good after scattering) with "LeavingShareError", "UnscatteredShare",
- * "LostShare" (0 but for surfaces that cross themselves and very large bodies),
- * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
- * "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the part of the surface
- * that is thinner than two diffusion lengths).
+ * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, 3
+ * components): of the light that links carry, those that are dropped included, the share that goes
+ * through the air between parts of the body, see DropLinksThroughAir; estimated from some 64 links
+ * of each patch, with one standard error "LinksThroughAirError", exact where they are dropped and
+ * for one convex body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives
+ * back of the light that enters; a body may give back more or less, and a warning tells where it is
+ * more than enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that,
+ * relative; more where less than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts
+ * in LeavingFlux each time it leaves. Monte Carlo without links has in their place "PhotonsTraced",
+ * "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters, what goes away
+ * for good after scattering) with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for
+ * surfaces that cross themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton"
+ * and "WalkSeconds", and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness
+ * "ThinShare" (3 components: the part of the surface that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
@@ -117,7 +124,9 @@ public:
   enum LinkMethodType
   {
     LINK_METHOD_AUTO = 0,
-    LINK_METHOD_DENSE = 1
+    LINK_METHOD_DENSE = 1,
+    LINK_METHOD_UNIFORM = 2,
+    LINK_METHOD_ADAPTIVE = 3
   };
 
   /// Fits of the model of Christensen and Burley.
@@ -248,14 +257,37 @@ public:
 
   ///@{
   /**
-   * Auto (the default) and Dense are the same for profiles. With MODEL_MONTE_CARLO Auto follows the
-   * light as it is, which is the fastest way to one result; Dense makes links of photons that start
-   * everywhere, which are kept, so that new light on the same body costs one product.
+   * From whom a patch receives light:
+   * - Dense: all pairs of patches, n^2 of them;
+   * - Uniform: the same NumberOfLinks clusters of patches for every receiver, chosen so that each
+   *   adds alike to the error, but that the cluster which holds the receiver is divided down to it;
+   * - Adaptive: clusters of each receiver's own, small near by and where the profile is steep.
+   *   They are refined until LinkTolerance holds, or a receiver would have more than NumberOfLinks
+   *   on average, whichever is first (field data "LinksLimitedBy");
+   * - Auto (the default): the cheaper one of Adaptive without a limit on the links, and Dense, with
+   *   the tolerance of each.
+   * A link from a cluster takes its light for the mean (Jensen and Buhler 2002; Carr, Hall and Hart
+   * 2003).
+   *
+   * With MODEL_MONTE_CARLO Auto follows the light as it is, which is the fastest way to one result;
+   * Dense makes links of photons that start everywhere, which are kept, so that new light on the
+   * same body costs one product; the others are refused.
    */
-  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_DENSE);
+  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_ADAPTIVE);
   vtkGetMacro(LinkMethod, int);
   void SetLinkMethodToAuto() { this->SetLinkMethod(LINK_METHOD_AUTO); }
   void SetLinkMethodToDense() { this->SetLinkMethod(LINK_METHOD_DENSE); }
+  void SetLinkMethodToUniform() { this->SetLinkMethod(LINK_METHOD_UNIFORM); }
+  void SetLinkMethodToAdaptive() { this->SetLinkMethod(LINK_METHOD_ADAPTIVE); }
+  ///@}
+
+  ///@{
+  /**
+   * Clusters of Uniform, and links of a receiver of Adaptive, on average, at most. Default 64,
+   * range 1 to 65536.
+   */
+  vtkSetClampMacro(NumberOfLinks, int, 1, 65536);
+  vtkGetMacro(NumberOfLinks, int);
   ///@}
 
   ///@{
@@ -310,10 +342,27 @@ public:
 
   ///@{
   /**
-   * Error that the links of one patch may have together, relative to all that a unit of entering
-   * light gives back (the profile's total). Default 1e-4, range 1e-8 to 0.1.
+   * Leave out links of profiles that go through the air between two parts of the body, or between
+   * two bodies ("LinksThroughAir" tells what they would have carried, exactly then). A link does
+   * where the straight segment between the centroids of its patches leaves the body through one
+   * polygon and enters it through another, and these are turned towards each other: their normals
+   * differ by more than a right angle. The inside of corners and dents that are less does not
+   * count. The light of such links is lost, not given to others: MODEL_MONTE_CARLO, which does not
+   * look at this, follows it. Default off.
    */
-  vtkSetClampMacro(LinkTolerance, double, 1e-8, 0.1);
+  vtkSetMacro(DropLinksThroughAir, bool);
+  vtkGetMacro(DropLinksThroughAir, bool);
+  vtkBooleanMacro(DropLinksThroughAir, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Error that links may have together, relative to all that a unit of entering light gives back
+   * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
+   * surface, of light that differs from its mean over each cluster by half of it. Default 0: 1e-4
+   * for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
+   */
+  vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);
   vtkGetMacro(LinkTolerance, double);
   ///@}
 
@@ -367,7 +416,9 @@ private:
   double TargetError = 1e-2;
   int Seed = 1;
   bool ComputeThickness = false;
-  double LinkTolerance = 1e-4;
+  bool DropLinksThroughAir = false;
+  int NumberOfLinks = 64;
+  double LinkTolerance = 0.0;
   int Incidence = INCIDENCE_DIFFUSE;
   int Device = DEVICE_AUTO;
 };

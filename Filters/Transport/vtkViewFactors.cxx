@@ -33,6 +33,14 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override
+  {
+    NumberProperties::List numbers = this->TransportRun::ListNumbers();
+    numbers.emplace_back("Tolerance", this->Owner->Tolerance);
+    numbers.emplace_back("LinkTolerance", this->Owner->LinkTolerance);
+    return numbers;
+  }
+
   Outcome Gather() override
   {
     return this->Owner->LinksClusters() ? this->GatherForClusters(this->Owner->ClusterTree)

@@ -136,8 +136,15 @@ CASES = {
 }
 
 
-def run_in_little_memory(made, megabytes):
-    """How a child process ended that has this much; it says nothing."""
+def is_number(getter):
+    try:
+        return isinstance(getter(), float)
+    except TypeError:  # it takes arguments
+        return False
+
+
+def run_in_little_memory(made, megabytes, message="ERROR"):
+    """How a child process ended that has this much; it says nothing but an error."""
     child = os.fork()
     if child == 0:
         with open("/proc/self/status", encoding="ascii") as status:
@@ -151,7 +158,7 @@ def run_in_little_memory(made, megabytes):
         else:
             made.Update()
             has_result = made.GetOutputDataObject(0).GetNumberOfElements(CELLS) > 0
-        has_error = "ERROR" in vtkOutputWindow.GetInstance().GetOutput()
+        has_error = message in vtkOutputWindow.GetInstance().GetOutput()
         os._exit(0 if has_result != has_error else 3)
     status = os.waitpid(child, 0)[1]
     return -os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
@@ -175,6 +182,12 @@ class TestHostileInput(unittest.TestCase):
                     with self.subTest(case=name, megabytes=megabytes):
                         self.assertEqual(run_in_little_memory(made, megabytes), 0)
 
+    def test_more_triangles_than_memory(self):
+        for properties in ({"TargetEdgeLength": 1e-3}, {"TargetNumberOfPatches": 10000000}):
+            made = make_filter("vtkPatchMesher", make_box(1), **properties)
+            with self.subTest(**properties):
+                self.assertEqual(run_in_little_memory(made, 500, "triangles need"), 0)
+
     def test_arrays_of_wrong_length(self):
         for name in FILTERS:
             for kind in (vtkDoubleArray, vtkStringArray):
@@ -191,6 +204,22 @@ class TestHostileInput(unittest.TestCase):
                             self.assertIn(f'{association} array "Wrong" has {count + more}', text)
                             self.assertEqual(made.GetOutputDataObject(0).GetNumberOfCells(), 0)
                             self.setUp()
+
+    def test_properties_that_are_no_numbers(self):
+        """VTK's clamping lets them through."""
+        for name in (*FILTERS, "vtkSingleScattering"):
+            made = make_filter(name, make_sphere(8))
+            for key in [entry[3:] for entry in dir(made) if entry.startswith("Set")]:
+                getter = getattr(made, "Get" + key, None)
+                if key.startswith("Progress") or not getter or not is_number(getter):
+                    continue
+                usual = getter()
+                getattr(made, "Set" + key)(math.nan)
+                with self.subTest(filter=name, property=key):
+                    self.assertIn(f"{key} is n", self.update(made))
+                    self.assertEqual(made.GetOutputDataObject(0).GetNumberOfCells(), 0)
+                getattr(made, "Set" + key)(usual)
+                self.setUp()
 
     def test_near_misses(self):
         surface = make_sphere(8)

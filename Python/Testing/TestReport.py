@@ -2,15 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """python3 -m vtklighttransport report: its table, its page, its pictures and its messages."""
 
-import csv
 import math
 import os
 import re
-import signal
-import subprocess
-import sys
 import unittest
-from xml.etree import ElementTree
 
 import numpy
 
@@ -18,13 +13,12 @@ import vtklighttransport as lt
 from vtklighttransport.arrays import (
     divide_triangles, get_area_vectors, get_cell_array, make_surface, set_cell_array)
 
-from TestingTools import (
-    CUBE_CORNERS, CUBE_FACES, FolderTestCase, read_picture, write_surface)
+from ReportTools import ReportTestCase
+from TestingTools import CUBE_CORNERS, CUBE_FACES
 
-NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all", "bytes",
-           "links", "iterations", "error_bound")
+NUMBERS = ("tolerance", "patches", "seconds_links", "seconds_solver", "seconds_all",
+           "seconds_cpu", "bytes", "links", "iterations", "error_bound")
 ERRORS = ("error_l2", "error_max", "error_irradiance")
-COLUMNS = {"method", "solver", "reference", "device", *NUMBERS, *ERRORS}
 
 
 def make_room(bands=3):
@@ -41,38 +35,9 @@ def make_room(bands=3):
     return room
 
 
-class TestReport(FolderTestCase):
-    def save(self, name, surface):
-        self.assertTrue(write_surface(self.path(name), surface))
-        return self.path(name)
-
-    def make_command(self, source, *arguments, folder="report"):
-        return [sys.executable, "-m", "vtklighttransport", "report", source, self.path(folder),
-                "--device", "cpu", *arguments]
-
-    def run_command(self, *arguments, window="", **options):
-        environment = dict(os.environ)
-        if window:
-            environment["VTK_DEFAULT_OPENGL_WINDOW"] = window
-        return subprocess.run(self.make_command(*arguments, **options), capture_output=True,
-                              text=True, timeout=200, check=False, env=environment)
-
-    def read_table(self):
-        with open(self.path("report", "report.csv"), newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(stream)
-            self.assertEqual(set(reader.fieldnames), COLUMNS)
-            return list(reader)
-
-    def read_page(self):
-        """The page must be well-formed; returns its text and the pictures that it shows."""
-        page = ElementTree.parse(self.path("report", "report.html")).getroot()
-        return " ".join(page.itertext()), [image.get("src") for image in page.iter("img")]
-
-    def check_pictures(self, names):
-        for name in names:
-            values = read_picture(self.path("report", name)).reshape(-1, 3)
-            self.assertGreater(values.std(), 5.0, name)
-            self.assertGreater(len(numpy.unique(values, axis=0)), 10, name)
+class TestReport(ReportTestCase):
+    ARGUMENTS = ("--device", "cpu")
+    COLUMNS = {"method", "solver", "reference", "device", *NUMBERS, *ERRORS}
 
     def check_rows(self, rows):
         for row in rows:
@@ -162,39 +127,27 @@ class TestReport(FolderTestCase):
         source = self.save("room.vtp", make_room())
         command = self.make_command(source, "--levels", "5", "--dense-tolerances", "1e-1,1e-4",
                                     "--reference-tolerance", "1e-5")
-        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              text=True) as process:
-            while " 56 " not in (line := process.stdout.readline()):
-                self.assertNotEqual(line, "", "it ended by itself")
-            process.send_signal(signal.SIGINT)
-            _rest, errors = process.communicate(timeout=100)
-        self.assertEqual(process.returncode, 130, errors)
-        self.assertNotIn("Traceback", errors)
+        self.interrupt(command, " 56 ")
         rows = self.read_table()
         self.check_rows(rows)
         self.assertEqual({row["patches"] for row in rows}, {"14", "56"})
-        self.assertIn("The run was interrupted", self.read_page()[0])
 
     def test_failures(self):
         bare = self.save("bare.vtp", make_surface([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
         room = self.save("room.vtp", make_room())
         with open(self.path("taken"), "w", encoding="utf-8"):
             pass
-        for arguments, folder, code, message in (
-                ((bare,), "report", 1, "error: There is no reflectance"),
-                ((self.path("none.vtp"),), "report", 1, "none.vtp: no such file"),
-                ((room,), "taken", 1, "taken: it is a file, not a folder"),
-                ((room,), "taken/report", 1, "taken/report: Not a directory"),
-                ((room, "--levels", "-1"), "report", 2, "--levels: -1 is out of range"),
-                ((room, "--dense-tolerances", "1e-2,5"), "report", 2, "tolerances: 5 is out of"),
-                ((room, "--dense-tolerances", "1e-2;5"), "report", 2, "'1e-2;5' is no list of"),
-                ((room, "--solvers", "auto,magic"), "report", 2, "'magic' is none of auto, "),
-                ((room, "--view", "1,2"), "report", 2, "'1,2' is not X,Y,Z")):
-            result = self.run_command(*arguments, folder=folder)
-            self.assertEqual(result.returncode, code, result.stderr)
-            self.assertIn(message, result.stderr)
-            self.assertNotIn("Traceback", result.stderr)
-            self.assertFalse(os.path.exists(self.path("report", "report.html")))
+        self.check_failures((
+            ((bare,), "report", 1, "error: There is no reflectance"),
+            ((self.path("none.vtp"),), "report", 1, "none.vtp: no such file"),
+            ((room,), "taken", 1, "taken: it is a file, not a folder"),
+            ((room,), "taken/report", 1, "taken/report: Not a directory"),
+            ((room, "--levels", "-1"), "report", 2, "--levels: -1 is out of range"),
+            ((room, "--dense-tolerances", "1e-2,5"), "report", 2, "tolerances: 5 is out of"),
+            ((room, "--dense-tolerances", "1e-2;5"), "report", 2, "'1e-2;5' is no list of"),
+            ((room, "--solvers", "auto,magic"), "report", 2, "'magic' is none of auto, "),
+            ((room, "--material", "marble"), "report", 2, "--material: goes with --scatter"),
+            ((room, "--view", "1,2"), "report", 2, "'1,2' is not X,Y,Z")))
 
 
 class TestArrays(unittest.TestCase):

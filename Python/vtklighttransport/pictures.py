@@ -18,7 +18,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkWindowToImageFilter)
+    vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkWindowToImageFilter)
 
 # Of a whole circle, in degrees: that of the eye for a picture held at arm's length.
 VIEW_ANGLE = 36.0
@@ -96,9 +96,10 @@ def make_actor(surface):
     return actor
 
 
-def render_light(file, surface, exposure, look, size=(512, 512)):
-    """Radiosity as light, by vtkRadiosityPass. `look` places the camera."""
+def render_light(file, surface, exposure, look, size=(512, 512), name="Radiosity"):
+    """What leaves the surface as light, by vtkRadiosityPass. `look` places the camera."""
     light = lt.vtkRadiosityPass()
+    light.SetArrayName(name)
     light.SetExposure(exposure)
     renderer = vtkRenderer()
     renderer.AddActor(make_actor(surface))
@@ -109,14 +110,27 @@ def render_light(file, surface, exposure, look, size=(512, 512)):
     window.Finalize()
 
 
-def color_by_array(actor, name, color_range, cells=False, logarithmic=False):
-    """As ParaView colours a surface by an array: a lookup table, blue to red, which is returned."""
+def make_colors(color_range, logarithmic):
+    """From blue to red, through green; where the range begins below 0, which then is its midst,
+    through white."""
+    if color_range[0] < 0.0:
+        colors = vtkColorTransferFunction()
+        colors.SetColorSpaceToDiverging()
+        colors.AddRGBPoint(color_range[0], 0.12, 0.22, 0.72)
+        colors.AddRGBPoint(color_range[1], 0.72, 0.05, 0.12)
+        return colors
     table = vtkLookupTable()
     table.SetHueRange(0.667, 0.0)
     if logarithmic:
         table.SetScaleToLog10()
     table.SetTableRange(color_range)
     table.Build()
+    return table
+
+
+def color_by_array(actor, name, color_range, cells=False, logarithmic=False):
+    """As ParaView colours a surface by an array: by a table of colours, which is returned."""
+    table = make_colors(color_range, logarithmic)
     mapper = actor.GetMapper()
     mapper.ScalarVisibilityOn()
     if cells:
@@ -135,7 +149,8 @@ def make_color_bar(table, title):
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(title)
-    bar.SetNumberOfLabels(4)
+    # An odd number where there is a midst to tell.
+    bar.SetNumberOfLabels(5 if table.GetRange()[0] < 0.0 else 4)
     bar.SetLabelFormat("%.2g")
     bar.UnconstrainedFontSizeOn()
     for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 18)):

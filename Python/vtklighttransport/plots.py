@@ -22,55 +22,84 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 SIZE = (1200, 800)
 MARKERS = (vtkPlotPoints.CIRCLE, vtkPlotPoints.SQUARE, vtkPlotPoints.DIAMOND)
 # Told apart by people with any colour vision, next to one another and from white.
-HUES = (0.58, 0.06, 0.42, 0.82)
+HUES = (0.58, 0.06, 0.42, 0.82, 0.14, 0.7)
 
 
 class Line:
-    """Points to join: a family has its hue and its marker, members of it go from light to dark."""
+    """Points to join: a family has its hue and its marker, members of it go from light to dark.
 
-    def __init__(self, label, x, y, family=0, shade=1.0):
+    Bars reach from `low` to `high` where they are given.
+    """
+
+    def __init__(self, label, x, y, family=0, shade=1.0, low=None, high=None):
         self.label = label
         self.x = numpy.asarray(x, dtype=float)
         self.y = numpy.asarray(y, dtype=float)
+        self.low = self.y if low is None else numpy.asarray(low, dtype=float)
+        self.high = self.y if high is None else numpy.asarray(high, dtype=float)
         self.marker = MARKERS[family % len(MARKERS)]
         self.color = colorsys.hsv_to_rgb(HUES[family % len(HUES)], 0.45 + 0.5 * shade,
                                          0.95 - 0.4 * shade)
 
 
 def plot_lines(file, lines, x_title, y_title, title="", size=SIZE):
-    """A PNG of the lines. Points that a logarithmic axis cannot show are left out."""
+    """A PNG of the lines. Points that a logarithmic axis cannot show are left out; a bar that goes
+    on below them ends with the axis."""
     chart = vtkChartXY()
     chart.SetTitle(title)
     chart.GetTitleProperties().SetFontSize(22)
-    points = []
-    for line in lines:
-        shown = (line.x > 0.0) & (line.y > 0.0) & numpy.isfinite(line.x) & numpy.isfinite(line.y)
-        if shown.any():
-            order = numpy.flatnonzero(shown)
-            points.append(numpy.stack([line.x[order], line.y[order]]))
-            add_line(chart, line, *points[-1])
-    if not points:
+    x = numpy.concatenate([line.x[can_show(line.x, ends)] for line in lines
+                           for ends in (line.y, line.high)])
+    y = numpy.concatenate([ends[can_show(line.x, ends)] for line in lines
+                           for ends in (line.y, line.high)])
+    if not len(y):
         raise ValueError("there is nothing to plot")
-    together = numpy.concatenate(points, axis=1)
-    set_axis(chart.GetAxis(vtkAxis.BOTTOM), x_title, together[0])
-    set_axis(chart.GetAxis(vtkAxis.LEFT), y_title, together[1])
+    set_axis(chart.GetAxis(vtkAxis.BOTTOM), x_title, x)
+    set_axis(chart.GetAxis(vtkAxis.LEFT), y_title, y)
+    bottom = 10.0 ** find_range(y)[0]
+    for line in lines:
+        add_bars(chart, line, bottom)
+        add_line(chart, line)
     set_legend(chart)
     draw(file, chart, size)
 
 
-def add_line(chart, line, x, y):
+def can_show(x, y):
+    return (x > 0.0) & (y > 0.0) & numpy.isfinite(x) & numpy.isfinite(y)
+
+
+def add_line(chart, line):
+    shown = can_show(line.x, line.y)
+    plot = add_plot(chart, vtkChart.LINE if shown.sum() > 1 else vtkChart.POINTS, line,
+                    line.x[shown], line.y[shown])
+    plot.SetLabel(line.label)
+    plot.SetWidth(3.0)
+    plot.SetMarkerStyle(line.marker)
+    plot.SetMarkerSize(11.0)
+
+
+def add_bars(chart, line, bottom):
+    shown = can_show(line.x, line.high) & (line.low < line.high)
+    if not shown.any():
+        return
+    ends = numpy.stack([numpy.maximum(line.low, bottom), line.high], axis=1)[shown]
+    plot = add_plot(chart, vtkChart.LINE, line, numpy.repeat(line.x[shown], 2), ends.ravel())
+    plot.PolyLineOff()
+    plot.SetWidth(5.0)
+    plot.SetOpacity(0.4)
+    plot.SetLegendVisibility(False)
+
+
+def add_plot(chart, kind, line, x, y):
     table = vtkTable()
     for name, values in (("x", x), ("y", y)):
         column = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
         column.SetName(name)
         table.AddColumn(column)
-    plot = chart.AddPlot(vtkChart.LINE if len(x) > 1 else vtkChart.POINTS)
+    plot = chart.AddPlot(kind)
     plot.SetInputData(table, 0, 1)
-    plot.SetLabel(line.label)
     plot.GetPen().SetColorF(*line.color)
-    plot.SetWidth(3.0)
-    plot.SetMarkerStyle(line.marker)
-    plot.SetMarkerSize(11.0)
+    return plot
 
 
 def find_range(values):

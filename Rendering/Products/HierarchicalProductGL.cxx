@@ -24,7 +24,8 @@ HierarchicalProductGL::HierarchicalProductGL(FloatTextures& engine, const Layout
 Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const Pause& pause)
 {
   const HierarchyLayout tables(*hierarchy, this->Vectors.Width, this->Vectors.MaximumSize);
-  if (!tables.Fits())
+  const CodedLayout codes(*hierarchy, tables, this->Vectors.Width, this->Vectors.MaximumSize);
+  if (!tables.Fits() || !codes.Fits())
   {
     return Outcome::Failed(std::to_string(hierarchy->GetNumberOfLinks()) + " links between " +
       std::to_string(hierarchy->GetNumberOfSlots()) +
@@ -35,7 +36,14 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
   this->Patches = tables.GetPatches();
   this->Tiles = tables.GetTiles();
   this->PieceLines = tables.GetNumberOfPieceLines();
-  double bytes = 0.0;
+  this->LinksPerTexel = tables.GetLinksPerTexel();
+  this->TexelsPerLink = tables.GetTexelsPerLink();
+  this->CodedLine = this->PieceLines + tables.GetNumberOfNodeLines();
+  if (!codes.GetParts().empty())
+  {
+    this->Codes = std::make_unique<CodedGatherGL>(this->Engine, this->Vectors);
+  }
+  double bytes = CodedGatherGL::GetNumberOfBytes(codes, this->Vectors.Width);
   for (const Tile& tile : this->Tiles)
   {
     bytes += static_cast<double>(tile.Height) * this->Vectors.Width * FloatTextures::BytesPerTexel;
@@ -49,7 +57,26 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
     return this->RefuseMemory();
   }
   this->Upload(tables, pause);
-  return Outcome::Done();
+  return this->InitializeCodes(codes, pause);
+}
+
+//------------------------------------------------------------------------------
+Outcome HierarchicalProductGL::InitializeCodes(const CodedLayout& tables, const Pause& pause)
+{
+  if (!this->Codes)
+  {
+    return Outcome::Done();
+  }
+  // Slots without coded rows are not drawn.
+  this->Engine.Clear(this->Parts);
+  return this->Codes->Initialize(tables, pause) ? Outcome::Done() : this->RefuseMemory();
+}
+
+//------------------------------------------------------------------------------
+int HierarchicalProductGL::GetNumberOfLinkTextures() const
+{
+  return static_cast<int>(this->Links.size()) +
+    (this->Codes ? this->Codes->GetNumberOfTextures() : 0);
 }
 
 //------------------------------------------------------------------------------
@@ -71,7 +98,7 @@ Outcome HierarchicalProductGL::Allocate(const HierarchyLayout& tables)
   allocate(this->Rows, 1, width, slotLines);
   allocate(this->Sent, groups, width, slotLines);
   allocate(this->Beside, groups, width, nodeLines);
-  allocate(this->Parts, groups, width, this->PieceLines + nodeLines);
+  allocate(this->Parts, groups, width, this->CodedLine + (this->Codes ? slotLines : 0));
   allocate(this->Lines, 1, 1, std::max(this->PieceLines, 1));
   for (const Tile& tile : this->Tiles)
   {
@@ -174,8 +201,9 @@ Outcome HierarchicalProductGL::SweepUp(const Group& source)
 Outcome HierarchicalProductGL::GatherLinks()
 {
   vtkShaderProgram* program = nullptr;
-  const Outcome used =
-    this->Use(program, "GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS);
+  Outcome used = this->Use(program, "GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS,
+    "#define LINKS_PER_TEXEL " + std::to_string(this->LinksPerTexel) +
+      "\n#define TEXELS_PER_LINK " + std::to_string(this->TexelsPerLink) + "\n");
   for (std::size_t tile = 0; used && tile < this->Tiles.size(); ++tile)
   {
     this->Engine.SetTextures(program, "links", this->Links[tile]);
@@ -188,7 +216,7 @@ Outcome HierarchicalProductGL::GatherLinks()
     // it for seconds.
     glFlush();
   }
-  return used;
+  return used && this->Codes ? this->Codes->Draw(this->Parts, this->CodedLine, this->Sent) : used;
 }
 
 //------------------------------------------------------------------------------
@@ -218,11 +246,16 @@ Outcome HierarchicalProductGL::UseSums(vtkShaderProgram*& program, bool ofPatche
 {
   const Outcome used = this->Use(program, ofPatches ? "SumPiecesOfPatches" : "SumPieces",
     vtkLightTransportProductsHierarchySumPiecesFS,
-    ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n");
+    std::string(ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n") +
+      (this->Codes ? "#define CODED 1\n" : "#define CODED 0\n"));
   if (used)
   {
     this->Engine.SetTextures(program, "rows", this->Rows);
     this->Engine.SetTextures(program, "parts", this->Parts);
+    if (this->Codes)
+    {
+      program->SetUniformi("codedLine", this->CodedLine);
+    }
   }
   return used;
 }

@@ -4,6 +4,8 @@
  * The product with a vtkExchangeHierarchy: up-sweep, gather and down-sweep, with the tables of
  * HierarchyLayout.
  *
+ * Coded rows are gathered by CodedGatherGL, their sums are added to those of the pieces.
+ *
  * OpenGL 3.2 does not let a texture be read while it is drawn into: what a sweep draws for one
  * level of the tree is drawn beside and copied in. Gathering sums pieces of rows, and the
  * down-sweep adds them up, compensated.
@@ -11,6 +13,7 @@
 #ifndef HierarchicalProductGL_h
 #define HierarchicalProductGL_h
 
+#include "Products/CodedGatherGL.h"
 #include "Products/HierarchyLayout.h"
 #include "Products/ProductGL.h"
 
@@ -23,12 +26,13 @@ public:
 
   Outcome Initialize(vtkExchangeHierarchy* hierarchy, const Pause& pause);
   Outcome Draw(Group& target, const Group& source) override;
-  int GetNumberOfLinkTextures() const override { return static_cast<int>(this->Links.size()); }
+  int GetNumberOfLinkTextures() const override;
 
 private:
   using Range = HierarchyLayout::Range;
   using Tile = HierarchyLayout::Tile;
 
+  Outcome InitializeCodes(const CodedLayout& tables, const Pause& pause);
   Outcome Allocate(const HierarchyLayout& tables);
   void Upload(const HierarchyLayout& tables, const Pause& pause);
   void UploadTable(const Group& table, const std::vector<float>& texels);
@@ -45,13 +49,17 @@ private:
   std::vector<Range> Levels; ///< of nodes
   Range Patches{};
   int PieceLines = 0;
+  int LinksPerTexel = 0;
+  int TexelsPerLink = 0;
+  int CodedLine = 0;                    ///< where sums of coded rows begin
+  std::unique_ptr<CodedGatherGL> Codes; ///< where there are coded rows
   std::vector<Tile> Tiles;
   std::vector<Group> Links; ///< of each tile
   Group Children;
   Group Rows;
   Group Lines;
   Group Sent;   ///< by slots
-  Group Parts;  ///< sums by pieces, then what nodes receive
+  Group Parts;  ///< sums by pieces, then what nodes receive, then sums of coded rows by slots
   Group Beside; ///< a level of either
 };
 } // namespace LightTransport

@@ -11,21 +11,16 @@ namespace LightTransport
 {
 namespace
 {
-constexpr int LinksPerTexel = 2;
-constexpr int MostTexelsPerPiece = 32;
-
-//------------------------------------------------------------------------------
-int CountTexels(std::int64_t links)
-{
-  return FloatTextures::DivideUp(links, LinksPerTexel);
-}
+constexpr int MostLinksPerPiece = 64;
 } // namespace
 
 //------------------------------------------------------------------------------
 HierarchyLayout::HierarchyLayout(const vtkExchangeHierarchy& hierarchy, int width,
   int maximumHeight)
   : Hierarchy(hierarchy), Width(width),
-    MaximumHeight(std::min(maximumHeight, static_cast<int>(FloatTextures::MaximumTexels / width)))
+    MaximumHeight(std::min(maximumHeight, static_cast<int>(FloatTextures::MaximumTexels / width))),
+    LinksPerTexel(hierarchy.GetNumberOfKernels() == 1 ? 2 : 1),
+    TexelsPerLink(FloatTextures::DivideUp(1 + hierarchy.GetNumberOfKernels(), 4))
 {
   this->PlaceSlots();
   this->CutRows();
@@ -33,10 +28,18 @@ HierarchyLayout::HierarchyLayout(const vtkExchangeHierarchy& hierarchy, int widt
 }
 
 //------------------------------------------------------------------------------
+int HierarchyLayout::CountTexels(std::int64_t links) const
+{
+  return FloatTextures::DivideUp(links, this->LinksPerTexel) * this->TexelsPerLink;
+}
+
+//------------------------------------------------------------------------------
 bool HierarchyLayout::Fits() const
 {
-  const int received = this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines();
-  return std::max(this->GetNumberOfSlotLines(), received) <= this->MaximumHeight;
+  const int coded = this->Hierarchy.GetCodedRows().Tiles.empty() ? 0 : this->GetNumberOfSlotLines();
+  const int received = this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines() + coded;
+  return std::max({ this->GetNumberOfSlotLines(), received, this->TexelsPerLink }) <=
+    this->MaximumHeight;
 }
 
 //------------------------------------------------------------------------------
@@ -70,13 +73,16 @@ void HierarchyLayout::CutRows()
 {
   const std::vector<std::int64_t>& offsets = this->Hierarchy.GetOffsets();
   const auto slots = static_cast<std::size_t>(this->Hierarchy.GetNumberOfSlots());
-  const int most = std::min(MostTexelsPerPiece, this->MaximumHeight);
+  const int most = std::max(
+    std::min(MostLinksPerPiece / this->LinksPerTexel, this->MaximumHeight / this->TexelsPerLink),
+    1);
   std::vector<int> lengths(slots);
   for (std::size_t slot = 0; slot < slots; ++slot)
   {
-    const int texels = CountTexels(offsets[slot + 1] - offsets[slot]);
-    const int pieces = std::max(FloatTextures::DivideUp(texels, most), 1);
-    lengths[slot] = LinksPerTexel * FloatTextures::DivideUp(texels, pieces);
+    const int bunches =
+      FloatTextures::DivideUp(offsets[slot + 1] - offsets[slot], this->LinksPerTexel);
+    const int pieces = std::max(FloatTextures::DivideUp(bunches, most), 1);
+    lengths[slot] = this->LinksPerTexel * FloatTextures::DivideUp(bunches, pieces);
   }
   std::vector<std::size_t> order(slots);
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -108,7 +114,7 @@ void HierarchyLayout::PlacePieces()
     int height = 0;
     for (std::size_t piece = first; piece < last; ++piece)
     {
-      height = std::max(height, CountTexels(this->Pieces[piece].Links));
+      height = std::max(height, this->CountTexels(this->Pieces[piece].Links));
     }
     if (this->Tiles.empty() || this->Tiles.back().Height + height > this->MaximumHeight)
     {
@@ -188,19 +194,25 @@ HierarchyLayout::Texels HierarchyLayout::MakeLinks(int lineOfPieces) const
   Texels texels(std::size_t(4) * this->Width * height, 0.0f);
   const std::size_t first = static_cast<std::size_t>(lineOfPieces) * this->Width;
   const std::size_t last = std::min(first + this->Width, this->Pieces.size());
+  const int kernels = this->Hierarchy.GetNumberOfKernels();
   for (std::size_t piece = first; piece < last; ++piece)
   {
     const Piece& links = this->Pieces[piece];
-    for (int link = 0; link < LinksPerTexel * height; ++link)
+    for (int link = 0; link < this->LinksPerTexel * height / this->TexelsPerLink; ++link)
     {
       const bool inside = link < links.Links;
       const auto source = static_cast<std::size_t>(links.First + std::min(link, links.Links - 1));
-      float* texel = texels.data() +
-        4 * (std::size_t(link / LinksPerTexel) * this->Width + piece - first) +
-        2 * (link % LinksPerTexel);
+      const auto line = std::size_t(link / this->LinksPerTexel) * this->TexelsPerLink;
+      float* texel =
+        texels.data() + 4 * (line * this->Width + piece - first) + 2 * (link % this->LinksPerTexel);
       texel[0] = static_cast<float>(
         this->SlotTexels[static_cast<std::size_t>(this->Hierarchy.GetColumns()[source])]);
-      texel[1] = inside ? this->Hierarchy.GetValues()[source] : 0.0f;
+      for (int kernel = 0; inside && kernel < kernels; ++kernel)
+      {
+        const std::size_t below = std::size_t((1 + kernel) / 4) * this->Width;
+        texel[4 * below + (1 + kernel) % 4] =
+          this->Hierarchy.GetValues()[source * kernels + kernel];
+      }
     }
   }
   return texels;

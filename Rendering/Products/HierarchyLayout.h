@@ -12,6 +12,9 @@
  * lies side by side in memory, and next to nothing is filled up (sliced ELLPACK: M. Kreutzer et
  * al., SIAM J. Sci. Comput. 36, C401, 2014). The links of several lines share a texture, a tile.
  *
+ * A texel holds two links of one kernel, each the texel of a slot and a value. With more kernels a
+ * link is the texel of a slot and all its values, four numbers a texel, in texels below each other.
+ *
  * Texels are numbered line by line; single precision holds these numbers exactly up to
  * FloatTextures::MaximumTexels.
  */
@@ -48,12 +51,18 @@ public:
 
   HierarchyLayout(const vtkExchangeHierarchy& hierarchy, int width, int maximumHeight);
 
+  ///@{ How links lie in texels: several of them in one, or one in several.
+  int GetLinksPerTexel() const { return this->LinksPerTexel; }
+  int GetTexelsPerLink() const { return this->TexelsPerLink; }
+  ///@}
+
   /// False when some texture would be too large.
   bool Fits() const;
 
   const std::vector<Range>& GetLevels() const { return this->Levels; }
   const Range& GetPatches() const { return this->Patches; }
   const std::vector<Tile>& GetTiles() const { return this->Tiles; }
+  int GetSlotTexel(int slot) const { return this->SlotTexels[static_cast<std::size_t>(slot)]; }
   int GetNumberOfSlotLines() const { return this->Patches.FirstLine + this->Patches.Lines; }
   int GetNumberOfNodeLines() const { return this->Patches.FirstLine; }
   int GetNumberOfPieceLines() const { return static_cast<int>(this->Heights.size()); }
@@ -63,8 +72,7 @@ public:
    * The tables: of each node, the texel of the first child and how many there are; of each slot,
    * its first piece, how many there are, the texel of its parent (-1 without), counted behind the
    * lines of pieces, and its weight; of each line of pieces, its first line in the tile's texture
-   * and how many there are; and these lines, with the texel of a slot and a value, twice, in each
-   * texel.
+   * and how many there are; and the links in these lines.
    */
   Texels MakeChildren() const;
   Texels MakeRows() const;
@@ -80,6 +88,7 @@ private:
     int Links;
   };
 
+  int CountTexels(std::int64_t links) const;
   void PlaceSlots();
   Range PlaceRange(int first, int last);
   void CutRows();
@@ -88,6 +97,8 @@ private:
   const vtkExchangeHierarchy& Hierarchy;
   const int Width;
   const int MaximumHeight;
+  const int LinksPerTexel;
+  const int TexelsPerLink;
   std::vector<Range> Levels;
   Range Patches{};
   std::vector<int> SlotTexels;

@@ -23,6 +23,29 @@ namespace
 {
 /// What drivers need beside a texture, to draw with it.
 constexpr double BytesBesideTextures = 67108864.0;
+
+struct Format
+{
+  int Components;
+  unsigned int Internal;
+  unsigned int External;
+};
+
+//------------------------------------------------------------------------------
+Format GetFormat(FloatTextures::Texel texel)
+{
+  switch (texel)
+  {
+    case FloatTextures::Texel::Word:
+      return { 1, GL_R32UI, GL_RED_INTEGER };
+    case FloatTextures::Texel::TwoWords:
+      return { 2, GL_RG32UI, GL_RG_INTEGER };
+    case FloatTextures::Texel::FourWords:
+      return { 4, GL_RGBA32UI, GL_RGBA_INTEGER };
+    default:
+      return { 4, GL_RGBA32F, GL_RGBA };
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -79,12 +102,13 @@ int FloatTextures::GetMaximumGroupSize() const
 }
 
 //------------------------------------------------------------------------------
-Outcome FloatTextures::Allocate(Group& group, std::size_t count, int width, int height)
+Outcome FloatTextures::Allocate(Group& group, std::size_t count, int width, int height, Texel texel)
 {
   group.clear();
+  const Format format = GetFormat(texel);
   // Drivers end the process where memory is refused to them.
-  const double texels = static_cast<double>(count) * width * height;
-  if (!TransportMemory::IsWithinLimits(4.0 * sizeof(float) * texels + BytesBesideTextures))
+  const double values = static_cast<double>(count) * width * height * format.Components;
+  if (!TransportMemory::IsWithinLimits(sizeof(float) * values + BytesBesideTextures))
   {
     return Outcome::Failed("out of memory");
   }
@@ -94,8 +118,13 @@ Outcome FloatTextures::Allocate(Group& group, std::size_t count, int width, int 
     texture->SetContext(this->Window);
     texture->SetWrapS(vtkTextureObject::ClampToEdge);
     texture->SetWrapT(vtkTextureObject::ClampToEdge);
-    texture->Allocate2D(static_cast<unsigned int>(width), static_cast<unsigned int>(height), 4,
-      VTK_FLOAT);
+    if (texel != Texel::Floats)
+    {
+      texture->SetInternalFormat(format.Internal);
+      texture->SetFormat(format.External);
+    }
+    texture->Allocate2D(static_cast<unsigned int>(width), static_cast<unsigned int>(height),
+      format.Components, texel == Texel::Floats ? VTK_FLOAT : VTK_UNSIGNED_INT);
     if (Outcome allocated = DeviceErrors::Check(); !allocated)
     {
       group.clear();
@@ -110,12 +139,27 @@ Outcome FloatTextures::Allocate(Group& group, std::size_t count, int width, int 
 void FloatTextures::Upload(vtkTextureObject* texture, const int region[4], int rowLength,
   const float* rgba)
 {
+  this->Upload(texture, region, rowLength, GL_RGBA, GL_FLOAT, rgba);
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Upload(vtkTextureObject* texture, const int region[4], int rowLength,
+  const std::uint32_t* words)
+{
+  const auto format = texture->GetFormat(VTK_UNSIGNED_INT, texture->GetComponents(), true);
+  this->Upload(texture, region, rowLength, format, GL_UNSIGNED_INT, words);
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Upload(vtkTextureObject* texture, const int region[4], int rowLength,
+  unsigned int format, unsigned int type, const void* values)
+{
   vtkOpenGLState* state = this->Window->GetState();
   texture->Activate();
   state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   state->vtkglPixelStorei(GL_UNPACK_ROW_LENGTH, rowLength);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, region[0], region[1], region[2], region[3], GL_RGBA, GL_FLOAT,
-    rgba);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, region[0], region[1], region[2], region[3], format, type,
+    values);
   state->vtkglPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   state->vtkglPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   texture->Deactivate();

@@ -15,6 +15,7 @@
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -31,6 +32,15 @@ class FloatTextures
 public:
   /// Textures of one size that are read and written together.
   using Group = std::vector<vtkSmartPointer<vtkTextureObject>>;
+
+  /// What a texel holds: four floats, or unsigned integers of 32 bits, for tables.
+  enum class Texel
+  {
+    Floats,
+    Word,
+    TwoWords,
+    FourWords
+  };
 
   static constexpr int BytesPerTexel = 4 * sizeof(float);
   /// No texture for large tables has more: drivers refuse huge ones long before the memory is full.
@@ -63,7 +73,8 @@ public:
   int GetMaximumGroupSize() const;
 
   /// Textures of undefined contents. Where the memory is not there, the group is empty.
-  Outcome Allocate(Group& group, std::size_t count, int width, int height);
+  Outcome Allocate(Group& group, std::size_t count, int width, int height,
+    Texel texel = Texel::Floats);
 
   /// Set all texels of a group to zero.
   void Clear(const Group& group);
@@ -71,6 +82,8 @@ public:
   /// Write a region (x, y, width, height) of a texture; `rowLength` texels lie between the starts
   /// of two rows of `rgba`.
   void Upload(vtkTextureObject* texture, const int region[4], int rowLength, const float* rgba);
+  void Upload(vtkTextureObject* texture, const int region[4], int rowLength,
+    const std::uint32_t* words);
 
   /// Copy a region (x, y, width, height) to (x, line) between groups of as many textures.
   void Copy(const Group& target, int line, const Group& source, const int region[4]);
@@ -102,6 +115,8 @@ public:
 
 private:
   void Attach(const Group& group);
+  void Upload(vtkTextureObject* texture, const int region[4], int rowLength, unsigned int format,
+    unsigned int type, const void* values);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkSmartPointer<vtkTextureObject> Witness;

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The sum over a piece of a row of links. Fragment (x, y) takes column x of the lines that the y-th line of pieces has in the texture
-// of links, whose texels hold two links: texel of the slot, value, twice.
+// of links. A texel holds two links: texel of the slot, value, twice. Or, with a kernel for each band, a link takes several texels below
+// each other: texel of the slot, then the values.
 uniform sampler2D links[1];
 uniform sampler2D lines[1];
 uniform sampler2D sent[GROUPS];
 
 // Texels summed plainly before their sum is added with compensation.
-const int BLOCK = 16;
+const int BLOCK = 16 * TEXELS_PER_LINK;
 
 void main()
 {
@@ -25,12 +26,22 @@ void main()
 #define CLEAR_PART(g) part[g] = vec4(0.0);
     FOR_ALL_GROUPS(CLEAR_PART)
     int last = min(block + BLOCK, end);
-    for (int line = block; line < last; ++line)
+    for (int line = block; line < last; line += TEXELS_PER_LINK)
     {
+#if LINKS_PER_TEXEL == 2
       vec4 pair = texelFetch(links[0], ivec2(place.x, line), 0);
       ivec2 first = GetPlace(int(pair.x));
       ivec2 second = GetPlace(int(pair.z));
 #define ADD(g) part[g] += pair.y * texelFetch(sent[g], first, 0) + pair.w * texelFetch(sent[g], second, 0);
+#else
+      vec4 texel = texelFetch(links[0], ivec2(place.x, line), 0);
+      ivec2 slot = GetPlace(int(texel.x));
+      vec4 next;
+#define ADD(g) \
+      next = g + 1 < TEXELS_PER_LINK ? texelFetch(links[0], ivec2(place.x, line + g + 1), 0) : vec4(0.0); \
+      part[g] += vec4(texel.yzw, next.x) * texelFetch(sent[g], slot, 0); \
+      texel = next;
+#endif
       FOR_ALL_GROUPS(ADD)
     }
 #define ADD_PART(g) AddCompensated(sum[g], lost[g], part[g]);

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What slots receive: the sum over the pieces of their row, and what the parent received, which is kept behind the pieces: 16 textures
-// are all that OpenGL 3.2 promises. With PATCHES the result is theirs, weighted; their lines begin at firstLine.
+// are all that OpenGL 3.2 promises. With CODED also the sum of the coded row, kept from codedLine on. With PATCHES the result is theirs, weighted; their lines begin at firstLine.
 uniform sampler2D rows[1];
 uniform sampler2D parts[GROUPS];
 #if PATCHES
 uniform int firstLine;
 #else
 const int firstLine = 0;
+#endif
+
+#if CODED
+uniform int codedLine;
 #endif
 
 void main()
@@ -26,6 +30,11 @@ void main()
 #define ADD(g) AddCompensated(sum[g], lost[g], texelFetch(parts[g], place, 0));
     FOR_ALL_GROUPS(ADD)
   }
+#if CODED
+  ivec2 codedPlace = ivec2(gl_FragCoord.xy) + ivec2(0, firstLine + codedLine);
+#define ADD_CODED(g) AddCompensated(sum[g], lost[g], texelFetch(parts[g], codedPlace, 0));
+  FOR_ALL_GROUPS(ADD_CODED)
+#endif
 #if PATCHES
 #define STORE(g) result[g] = row.w * (sum[g] + lost[g]);
 #else

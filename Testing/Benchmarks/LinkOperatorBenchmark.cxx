@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Iterations per second of the Jacobi step B <- E + rho G B / A, on the CPU and with OpenGL: dense
- * for given numbers of patches, and hierarchical for given numbers of random links between
- * clusters. Beside each stands the bandwidth that this amounts to, in bytes of links as they are
- * stored, and what the same memory does without computing, measured in turn: on the CPU a plain
- * loop that reads the same bytes with the same number of threads; with OpenGL copying, as bytes
- * read and written by a shader that multiplies a vector of 64 MB with itself.
+ * for given numbers of patches, hierarchical for given numbers of random links between clusters,
+ * and for given numbers of receivers with rows of links as scattering has them (three kernels):
+ * uniform and adaptive, as they are and coded. Beside each stands the bandwidth that this amounts
+ * to, in bytes of links as they are stored, and what the same memory does without computing,
+ * measured in turn: on the CPU a plain loop that reads the same bytes with the same number of
+ * threads; with OpenGL copying, as bytes read and written by a shader that multiplies a vector of
+ * 64 MB with itself.
  *
  * Not a test: timings depend on the machine and on what else it does. For orientation, Carr, Hall
  * and Hart (Graphics Hardware 2003) report about 30 iterations per second on their GPU and 40 on
@@ -34,6 +36,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -45,10 +48,12 @@
 namespace
 {
 constexpr const char* Usage =
-  "usage: LinkOperatorBenchmark [--sizes N,N,...] [--links N,N,...] [--bands N,N,...]\n"
+  "usage: LinkOperatorBenchmark [--sizes N,N,...] [--links N,N,...] [--rows N,N,...] [--bands "
+  "N,N,...]\n"
   "                             [--device all|cpu|opengl] [--seconds S] [--csv FILE]\n"
   "  --sizes    numbers of patches of a dense matrix, 0 for none (1530,4096,16384)\n"
   "  --links    numbers of links between clusters, 0 for none (1000000)\n"
+  "  --rows     numbers of receivers, 0 for none (0)\n"
   "  --bands    numbers of bands (1,3)\n"
   "  --device   what to measure (all); a software OpenGL renderer is measured up to 4,096 "
   "patches,\n"
@@ -67,6 +72,7 @@ struct Options
 {
   std::vector<int> Sizes = { 1530, 4096, 16384 };
   std::vector<int> Links = { 1000000 };
+  std::vector<int> Rows = { 0 };
   std::vector<int> Bands = { 1, 3 };
   std::string Device = "all";
   double Seconds = 2.0;
@@ -148,6 +154,10 @@ bool ParseOptions(int argc, char* argv[], Options& options)
     else if (name == "--links")
     {
       valid = ParseIntegers(value, options.Links);
+    }
+    else if (name == "--rows")
+    {
+      valid = ParseIntegers(value, options.Rows);
     }
     else if (name == "--bands")
     {
@@ -287,6 +297,63 @@ bool FillHierarchy(vtkExchangeHierarchy* hierarchy, int links)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Rows of three kernels with sums of about 1: each patch hears the nodes of one level (uniform), or
+ * the patches of its leaf and the siblings of all that is above it.
+ */
+bool FillRows(vtkExchangeHierarchy* hierarchy, int patches, bool uniform)
+{
+  constexpr int kernels = 3;
+  if (!hierarchy->SetTree(std::vector<double>(patches, 1.0), MakeTree(patches), 0, 1, kernels))
+  {
+    return false;
+  }
+  const std::vector<int>& levels = hierarchy->GetLevels();
+  const std::size_t level = std::min<std::size_t>(levels.size() - 2, 2);
+  const int nodes = hierarchy->GetNumberOfNodes();
+  std::vector<double> areas(nodes, 0.0);
+  areas.resize(hierarchy->GetNumberOfSlots(), 1.0);
+  for (int slot = hierarchy->GetNumberOfSlots() - 1; slot > 0; --slot)
+  {
+    areas[hierarchy->GetParents()[slot]] += areas[slot];
+  }
+  std::vector<std::int64_t> offsets(nodes + 1, 0);
+  std::vector<int> columns;
+  std::vector<float> values;
+  for (int patch = 0; patch < patches; ++patch)
+  {
+    const std::size_t first = columns.size();
+    for (int node = levels[level]; uniform && node < levels[level + 1]; ++node)
+    {
+      columns.push_back(node);
+    }
+    for (int slot = nodes + patch; !uniform && slot > 0; slot = hierarchy->GetParents()[slot])
+    {
+      const vtkExchangeHierarchy::Node& siblings =
+        hierarchy->GetNodes()[hierarchy->GetParents()[slot]];
+      for (int other = siblings.First; other < siblings.Last; ++other)
+      {
+        if (other != slot || slot == nodes + patch)
+        {
+          columns.push_back(other);
+        }
+      }
+    }
+    for (std::size_t link = first; link < columns.size(); ++link)
+    {
+      const double share = (0.5 + static_cast<double>(PairValue(patch, columns[link]))) /
+        static_cast<double>(columns.size() - first);
+      for (int kernel = 0; kernel < kernels; ++kernel)
+      {
+        values.push_back(static_cast<float>(share / areas[columns[link]] / (1 + kernel)));
+      }
+    }
+    offsets.push_back(static_cast<std::int64_t>(columns.size()));
+  }
+  return hierarchy->SetRows(offsets, columns, values);
+}
+
+//------------------------------------------------------------------------------
 std::vector<Block> GetBlocks(const vtkExchangeMatrix* matrix)
 {
   std::vector<Block> blocks;
@@ -303,14 +370,20 @@ std::vector<Block> GetBlocks(const vtkExchangeMatrix* matrix)
 std::vector<Block> GetBlocks(const vtkExchangeHierarchy* hierarchy)
 {
   std::vector<Block> blocks;
-  const std::size_t values = hierarchy->GetValues().size();
-  const std::size_t most = 65536;
-  for (std::size_t first = 0; first < values; first += most)
+  const auto cut = [&](const auto& table)
   {
-    const std::size_t bytes = 4 * std::min(most, values - first);
-    blocks.push_back({ hierarchy->GetColumns().data() + first, bytes });
-    blocks.push_back({ hierarchy->GetValues().data() + first, bytes });
-  }
+    const std::size_t most = 262144;
+    const std::size_t bytes = table.size() * sizeof(table[0]);
+    for (std::size_t first = 0; first < bytes; first += most)
+    {
+      blocks.push_back(
+        { reinterpret_cast<const char*>(table.data()) + first, std::min(most, bytes - first) });
+    }
+  };
+  cut(hierarchy->GetColumns());
+  cut(hierarchy->GetValues());
+  cut(hierarchy->GetCodedRows().Slots);
+  cut(hierarchy->GetCodedRows().Bytes);
   return blocks;
 }
 
@@ -589,7 +662,7 @@ public:
   {
     std::cout << "Instruction set of the CPU operator: "
               << vtkDenseLinkOperator::GetInstructionSet() << ", " << this->Threads
-              << " threads. One kernel, single precision. Medians of " << NumberOfSamples
+              << " threads. Single precision. Medians of " << NumberOfSamples
               << " samples. Plain: reading on the CPU, copying with OpenGL.\n";
     if (this->Settings.Device != "cpu")
     {
@@ -605,6 +678,12 @@ public:
     for (std::size_t i = 0; i < this->Settings.Links.size() && done; ++i)
     {
       done = this->Settings.Links[i] == 0 || this->RunHierarchy(this->Settings.Links[i]);
+    }
+    for (std::size_t i = 0; i < this->Settings.Rows.size() && done; ++i)
+    {
+      done = this->Settings.Rows[i] == 0 ||
+        (this->RunRows(this->Settings.Rows[i], true) &&
+          this->RunRows(this->Settings.Rows[i], false));
     }
     if (done && !this->Settings.File.empty() &&
       !WriteTable(this->Settings.File, this->Rows, this->Threads))
@@ -663,6 +742,38 @@ private:
     Row row{ "", hierarchy->GetNumberOfPatches(), count, 0, reading.Bytes, {}, {} };
     vtkNew<vtkHierarchicalLinkOperator> links;
     return this->RunOperators(hierarchy, links, reading, reading.Bytes, row);
+  }
+
+  //------------------------------------------------------------------------------
+  /// As they are, and coded.
+  bool RunRows(int patches, bool uniform)
+  {
+    vtkNew<vtkExchangeHierarchy> hierarchy;
+    if (!FillRows(hierarchy, patches, uniform))
+    {
+      std::cerr << "Not enough memory for " << patches << " rows: leave this number out.\n";
+      return false;
+    }
+    const std::vector<int> bands = std::exchange(this->Settings.Bands, std::vector<int>{ 3 });
+    bool done = true;
+    for (const bool coded : { false, true })
+    {
+      std::cout << (uniform ? "uniform" : "adaptive") << (coded ? ", coded" : "");
+      if (coded)
+      {
+        const double begin = GetSeconds();
+        const double error = hierarchy->CompressRows(0.0);
+        std::cout << std::setprecision(4) << " in " << GetSeconds() - begin << " s, error "
+                  << error;
+      }
+      std::cout << "\n";
+      const PlainWork reading = MakeReading(GetBlocks(hierarchy), this->Threads);
+      Row row{ "", patches, hierarchy->GetNumberOfLinks(), 0, reading.Bytes, {}, {} };
+      vtkNew<vtkHierarchicalLinkOperator> links;
+      done = done && this->RunOperators(hierarchy, links, reading, reading.Bytes, row);
+    }
+    this->Settings.Bands = bands;
+    return done;
   }
 
   //------------------------------------------------------------------------------

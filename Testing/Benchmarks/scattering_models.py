@@ -1,14 +1,17 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models of subsurface scattering against Monte Carlo in the same body: error and CPU seconds.
+"""Monte Carlo in the mesh, and models of subsurface scattering: speed, error against CPU seconds.
 
-    scattering_models.py speed                  photons per millisecond of one thread
-    scattering_models.py models [--error 0.01]  all models on three bodies
+    scattering_models.py speed [--threads 1] [--photons 400000]
+    scattering_models.py models FOLDER [--error 0.03]
+    scattering_models.py bunny FOLDER [--error 0.02]
 
+`speed` prints photons per millisecond: by body, by albedo and size, and where CPU seconds go up
+with the threads. `models` runs the report of `python3 -m vtklighttransport report --scatter` on
+three bodies, in marble and skim milk; `bunny` draws what it says of a bunny of three sizes.
 Bodies are so many mean free paths across (of red); light falls in from one side, as diffuse light
-of that flux. Errors are area-weighted, relative, root mean square over the surface; that of Monte
-Carlo itself is taken off, and stands beside.
+of that flux. --error is TargetError of the Monte Carlo reference.
 """
 
 import argparse
@@ -18,6 +21,11 @@ import time
 
 import numpy as np
 import vtklighttransport as lt
+from vtklighttransport.plots import Line, plot_lines
+from vtklighttransport.report.record import Record
+from vtklighttransport.report.scattering import Scattering
+from vtklighttransport.report.study import Study
+from vtklighttransport.shell.stages import Messages
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -30,7 +38,8 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 MATERIALS = {"marble": 6, "skim milk": 8}
 # Of the cubes with which Monte Carlo codes for tissue are measured: index of a custom material.
 CUBES = {"index 1": 1.0, "index 1.37": 1.37}
-MODELS = {"Dipole": 0, "BetterDipole": 1, "PhotonBeamDiffusion": 2, "ChristensenBurley": 3}
+# Of the bunny in README, in mm.
+HEIGHTS = (15, 50, 150)
 BUNNY = pathlib.Path(__file__).parents[2] / "Data" / "bunny.ply"
 
 
@@ -105,46 +114,53 @@ def add_light(surface, bands):
     return areas
 
 
-def set_medium(scattering, material, across):
-    """The body is so many mean free paths of red long where it is one unit long."""
-    if material in CUBES:
-        scattering.SetScatteringCoefficient(1.0, 1.0, 1.0)
-        scattering.SetAbsorptionCoefficient(0.005, 0.005, 0.005)
-        scattering.SetRefractiveIndex(CUBES[material])
-        extinction = 1.005
-    else:
-        coefficients = [0.0] * 3, [0.0] * 3
-        scattering.SetMaterial(MATERIALS[material])
-        scattering.GetMaterialProperties(MATERIALS[material], *coefficients, reference(0.0))
-        extinction = coefficients[0][0] + coefficients[1][0]
-    scattering.SetMillimetersPerUnit(across / extinction)
+class Medium:
+    """Of a filter: coefficients of a material, of the cubes, or of an albedo at an index of 1.3."""
+
+    def __init__(self, material):
+        self.material = MATERIALS.get(material, 0)
+        self.index = CUBES.get(material, 1.3)
+        self.coefficients = [1.0] * 3, [0.005] * 3
+        if self.material:
+            self.coefficients, index = ([0.0] * 3, [0.0] * 3), reference(0.0)
+            lt.vtkSubsurfaceScattering.GetMaterialProperties(
+                self.material, *self.coefficients, index)
+            self.index = index.get()
+        elif isinstance(material, float):
+            self.coefficients = [material] * 3, [1.0 - material] * 3
+
+    def set_on(self, scattering, across):
+        """The body is so many mean free paths of red long where it is one unit long."""
+        scattering.SetMaterial(self.material)
+        scattering.SetScatteringCoefficient(self.coefficients[0])
+        scattering.SetAbsorptionCoefficient(self.coefficients[1])
+        scattering.SetRefractiveIndex(self.index)
+        scattering.SetMillimetersPerUnit(across / self.get_extinction())
+
+    def get_extinction(self):
+        return self.coefficients[0][0] + self.coefficients[1][0]
 
 
-class Run:
-    """A result of a model, its CPU seconds, and the filter's field data."""
+class Walks:
+    """Photons that walk, the seconds that they take, and the filter's field data."""
 
-    def __init__(self, surface, material, across, model, **properties):
+    def __init__(self, surface, material, across, photons):
         self.filter = lt.vtkSubsurfaceScattering()
         self.filter.SetInputData(surface)
-        set_medium(self.filter, material, across)
-        self.filter.SetModel(model)
-        for name, value in properties.items():
-            getattr(self.filter, "Set" + name)(value)
-        begin = time.process_time()
+        Medium(material).set_on(self.filter, across)
+        self.filter.SetModelToMonteCarlo()
+        self.filter.SetNumberOfPhotons(photons)
+        begin, cpu_begin = time.perf_counter(), time.process_time()
         self.filter.Update()
-        self.seconds = time.process_time() - begin
-        self.output = self.filter.GetOutput()
-
-    def get(self, name="ScatteredIrradiance"):
-        return vtk_to_numpy(self.output.GetCellData().GetArray(name))
+        self.seconds = time.perf_counter() - begin
+        self.cpu_seconds = time.process_time() - cpu_begin
 
     def field(self, name):
-        return vtk_to_numpy(self.output.GetFieldData().GetArray(name)).ravel()
+        return vtk_to_numpy(self.filter.GetOutput().GetFieldData().GetArray(name)).ravel()
 
 
 def print_speed(photons):
-    os.environ.setdefault("VTK_SMP_MAX_THREADS", "1")
-    bodies = (
+    bodies = [
         ("sphere", make_sphere(3), "marble", 16.5),
         ("sphere", make_sphere(3), "skim milk", 55.0),
         ("sphere, 20,480 triangles", make_sphere(5), "marble", 16.5),
@@ -152,58 +168,120 @@ def print_speed(photons):
         ("cube", make_box(1, 1, 1, 0), "index 1.37", 60.3),
         ("slab 10 by 10 by 1", make_box(10, 10, 1, 0), "marble", 43.8),
         ("bunny", make_bunny(), "marble", 100.0),
-    )
-    print(f"{'body':26} {'material':10} {'across':>6} {'scatterings':>11} {'photons/ms':>10}")
+    ]
+    bodies += [("sphere", make_sphere(3), albedo, across)
+               for across in (10.0, 100.0) for albedo in (0.5, 0.9, 0.99, 0.999)]
+    print(f"{'body':26} {'medium':10} {'across':>6} {'scatterings':>11} {'photons/CPU ms':>14} "
+          f"{'photons/ms':>10}")
     for name, surface, material, across in bodies:
         add_light(surface, (1, 0, 0))
         # The first run brings in what is loaded once, and the short one what a run costs anyway.
-        Run(surface, material, across, 4, NumberOfPhotons=1000)
-        little = Run(surface, material, across, 4, NumberOfPhotons=1000)
-        run = Run(surface, material, across, 4, NumberOfPhotons=photons)
-        speed = (photons - 1000) / (run.seconds - little.seconds) / 1000.0
-        print(f"{name:26} {material:10} {across:6g} {run.field('ScatteringsPerPhoton')[0]:11.1f} "
+        Walks(surface, material, across, 1000)
+        little = Walks(surface, material, across, 1000)
+        walks = Walks(surface, material, across, photons)
+        cpu_speed, speed = (
+            (photons - 1000) / (seconds - before) / 1000.0 for seconds, before in
+            ((walks.cpu_seconds, little.cpu_seconds), (walks.seconds, little.seconds)))
+        scatterings = walks.field("ScatteringsPerPhoton")[0]
+        print(f"{name:26} {material!s:10} {across:6g} {scatterings:11.1f} {cpu_speed:14.0f} "
               f"{speed:10.0f}", flush=True)
 
 
-def print_models(error):
-    print(f"{'body':7} {'material':10} {'across':>6} {'model':20} {'CPU s':>7} "
-          f"{'leaving share':>21} {'off by, %':>18} {'MC error, %':>12}")
+def make_report(folder, name, surface, prepare, **values):
+    """Rows of the report's table, NAME.csv. `prepare` sets the medium of a filter."""
+    options = argparse.Namespace(
+        **{"levels": 0, "repeat": 1, "quiet": True, "models": None,
+           "link_tolerances": [1e-1, 1e-2, 1e-3], "target_errors": [0.1, 0.05]} | values)
+
+    def make_filter():
+        scattering = lt.vtkSubsurfaceScattering()
+        prepare(scattering)
+        return scattering
+
+    subject = Scattering(options, make_filter)
+    os.makedirs(folder, exist_ok=True)
+    record = Record(folder, subject.COLUMNS, quiet=True)
+    record.file = os.path.join(folder, name + ".csv")
+    Study(options, Messages(), record, subject).run(surface)
+    return record.rows
+
+
+def measure_models(folder, error):
     bodies = {"sphere": lambda: make_sphere(3), "plate": lambda: make_box(1, 1, 0.1, 4),
               "bunny": make_bunny}
+    print(f"{'body':7} {'material':10} {'across':>6} {'model':20} {'tolerance':>9} {'CPU s':>7} "
+          f"{'error, %':>20} {'worst band':>10} {'total':>7}")
     for name, make in bodies.items():
         for material in MATERIALS:
             for across in (20, 100):
                 surface = make()
-                areas = add_light(surface, (1, 1, 1))
-                exact = Run(surface, material, across, 4, TargetError=error)
-                own = np.array(exact.field("RelativeError"))
-                print_row((name, material, across, "MonteCarlo"), exact, np.zeros(3), own)
-                norm = np.sqrt(areas @ exact.get()**2)
-                for model, value in MODELS.items():
-                    run = Run(surface, material, across, value)
-                    off = np.sqrt(areas @ (run.get() - exact.get())**2) / norm
-                    print_row((name, material, across, model), run,
-                              np.sqrt(np.maximum(off**2 - own**2, 0.0)), own)
+                add_light(surface, (1, 1, 1))
+                rows = make_report(
+                    folder, f"{name}_{material.replace(' ', '')}_{across}", surface,
+                    lambda scattering, m=material, a=across: Medium(m).set_on(scattering, a),
+                    reference_error=error)
+                for row in rows:
+                    print_row((name, material, across), row)
 
 
-def print_row(what, run, off, own):
-    shares = np.array(run.field("LeavingFlux")) / np.array(run.field("EnteringFlux"))
-    print(f"{what[0]:7} {what[1]:10} {what[2]:6g} {what[3]:20} {run.seconds:7.2f} "
-          + " ".join(f"{share:6.3f}" for share in shares) + "  "
-          + " ".join(f"{100 * value:5.1f}" for value in off) + "  "
-          + " ".join(f"{100 * value:4.2f}" for value in own), flush=True)
+def print_row(what, row):
+    ends = [100.0 * (row[name] or 0.0) for name in ("error_l2", "error_l2_low", "error_l2_high")]
+    print(f"{what[0]:7} {what[1]:10} {what[2]:6g} {row['method']:20} {row['tolerance']:9g} "
+          f"{row['seconds_cpu']:7.2f} " + "{:6.2f} ({:5.2f}, {:5.2f})".format(*ends) +
+          f" {100.0 * (row['error_worst_band'] or 0.0):10.2f} {row['ratio_total'] or 1.0:7.4f}",
+          flush=True)
+
+
+def draw_bunny(folder, error):
+    """A line for each model and material through the sizes."""
+    surface = make_bunny()
+    add_light(surface, (1, 1, 1))
+    bounds = surface.GetBounds()
+    height = bounds[3] - bounds[2]
+    tables = {}
+    for material, number in MATERIALS.items():
+        for millimeters in HEIGHTS:
+            def prepare(scattering, number=number, scale=millimeters / height):
+                scattering.SetMaterial(number)
+                scattering.SetMillimetersPerUnit(scale)
+            rows = make_report(
+                folder, f"bunny_{material.replace(' ', '')}_{millimeters}mm", surface, prepare,
+                reference_error=error, target_errors=[0.05], link_tolerances=[1e-3])[1:]
+            for row in rows:
+                print_row(("bunny", material, millimeters), row)
+                tables.setdefault((row["method"], material), []).append(row)
+    methods = list(dict.fromkeys(method for method, _material in tables))
+    lines = [make_line(method, material, rows, methods.index(method))
+             for (method, material), rows in sorted(
+                 tables.items(), key=lambda item: methods.index(item[0][0]))]
+    plot_lines(os.path.join(folder, "bunny_models.png"), lines, "height of the bunny in mm",
+               "error in % (root mean square over the area)")
+
+
+def make_line(method, material, rows, family):
+    seconds = [row["seconds_cpu"] for row in rows]
+    percent = [[100.0 * row[name] for row in rows]
+               for name in ("error_l2", "error_l2_low", "error_l2_high")]
+    return Line(f"{method}, {material} ({np.median(seconds):.2g} s)", HEIGHTS, percent[0], family,
+                1.0 if material == "marble" else 0.3, *percent[1:])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=("speed", "models"))
-    parser.add_argument("--error", type=float, default=0.01, help="TargetError of Monte Carlo")
-    parser.add_argument("--photons", type=int, default=400000)
+    commands = parser.add_subparsers(dest="what", required=True)
+    speed = commands.add_parser("speed")
+    speed.add_argument("--photons", type=int, default=400000)
+    speed.add_argument("--threads", default="1")
+    for name, error in (("models", 0.03), ("bunny", 0.02)):
+        command = commands.add_parser(name)
+        command.add_argument("folder")
+        command.add_argument("--error", type=float, default=error)
     options = parser.parse_args()
     if options.what == "speed":
+        os.environ.update(VTK_SMP_BACKEND_IN_USE="STDThread", VTK_SMP_MAX_THREADS=options.threads)
         print_speed(options.photons)
     else:
-        print_models(options.error)
+        {"models": measure_models, "bunny": draw_bunny}[options.what](options.folder, options.error)
 
 
 if __name__ == "__main__":

@@ -62,12 +62,12 @@ void AddGridPolygons(Choices& choices, Soup& soup)
 
 //------------------------------------------------------------------------------
 // A sheet of n x m squares that is bent to a tube, a torus, a sphere or a Moebius strip: of quads
-// or triangles, with its edges welded or not.
-void AddBentSheet(Choices& choices, Soup& soup)
+// or triangles, its edges not welded.
+void AddBentSheet(Choices& choices, Soup& soup, bool closed)
 {
   constexpr double turn = 6.283185307179586;
   const int n = choices.Index(8) + 1, m = choices.Index(8) + 1;
-  const int shape = choices.Index(5);
+  const int shape = closed ? 2 + choices.Index(2) : choices.Index(5);
   const auto place = [&](int i, int j) -> Point
   {
     const double u = turn * (i % (shape == 0 ? n + 1 : n)) / n, v = 1.0 * j / m;
@@ -101,7 +101,9 @@ void AddBentSheet(Choices& choices, Soup& soup)
   {
     for (int j = 0; j < m; ++j)
     {
-      const vtkIdType a = first + i * (m + 1) + j, b = a + m + 1;
+      // Closed ones are seen from outside.
+      const vtkIdType from = first + i * (m + 1) + j, to = from + m + 1;
+      const vtkIdType a = closed ? to : from, b = closed ? from : to;
       if (triangles)
       {
         soup.Polygons.push_back({ a, b, b + 1 });
@@ -116,10 +118,10 @@ void AddBentSheet(Choices& choices, Soup& soup)
 }
 
 //------------------------------------------------------------------------------
-// A box, seen from outside or inside, often one that touches the box before.
-void AddBox(Choices& choices, Soup& soup)
+// A box, seen from outside or inside (not if `closed`), often one that touches the box before.
+void AddBox(Choices& choices, Soup& soup, bool closed)
 {
-  const double thick = choices.Among({ 1.0, 1.0, 0.1, 1e-3, 1e-6, 0.0 });
+  const double thick = choices.Among({ 1.0, 1.0, 0.1, 1e-3, 1e-6, closed ? 1e-9 : 0.0 });
   const Point corner = { 1.0 * choices.Index(3), 1.0 * choices.Index(3), 0.0 };
   std::array<vtkIdType, 8> ids;
   for (int k = 0; k < 8; ++k)
@@ -128,7 +130,7 @@ void AddBox(Choices& choices, Soup& soup)
   }
   constexpr int faces[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 },
     { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
-  const bool inside = choices.Chance(2);
+  const bool inside = !closed && choices.Chance(2);
   for (const auto& face : faces)
   {
     Polygon polygon = { ids[face[0]], ids[face[1]], ids[face[2]], ids[face[3]] };
@@ -193,7 +195,7 @@ void Transform(Choices& choices, Soup& soup)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> MakeSurface(Choices& choices, const Soup& soup)
+vtkSmartPointer<vtkPolyData> MakeSurface(Choices& choices, const Soup& soup, bool strips)
 {
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -209,7 +211,7 @@ vtkSmartPointer<vtkPolyData> MakeSurface(Choices& choices, const Soup& soup)
   }
   surface->SetPoints(points);
   // A strip has a triangle for each corner after the second.
-  if (choices.Chance(10))
+  if (strips)
   {
     surface->SetStrips(polygons);
   }
@@ -246,23 +248,29 @@ double ChooseValue(Choices& choices, const std::string& name, bool extreme)
   return name == "vtkGhostType" ? choices.Among({ 0, 0, 0, 1, 32, 255 }) : choices.Share();
 }
 
+} // namespace
+
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkAbstractArray> MakeArray(Choices& choices, const std::string& name,
   vtkIdType tuples)
 {
   const bool ghosts = name == "vtkGhostType";
+  const bool calm = choices.IsCalm();
   const int type = ghosts ? VTK_UNSIGNED_CHAR
-                          : choices.Among({ VTK_DOUBLE, VTK_DOUBLE, VTK_DOUBLE, VTK_FLOAT, VTK_INT,
-                              VTK_ID_TYPE, VTK_UNSIGNED_CHAR, VTK_BIT, VTK_STRING });
+    : calm                ? choices.Among({ VTK_DOUBLE, VTK_FLOAT })
+           : choices.Among({ VTK_DOUBLE, VTK_DOUBLE, VTK_DOUBLE, VTK_FLOAT, VTK_INT, VTK_ID_TYPE,
+               VTK_UNSIGNED_CHAR, VTK_BIT, VTK_STRING });
   const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
   array->SetName(name.c_str());
-  array->SetNumberOfComponents(ghosts ? 1 : choices.Among({ 1, 1, 1, 1, 2, 3, 3, 4, 9 }));
-  if (choices.Chance(12))
+  array->SetNumberOfComponents(ghosts ? 1
+      : calm                          ? choices.Among({ 1, 3 })
+                                      : choices.Among({ 1, 1, 1, 1, 2, 3, 3, 4, 9 }));
+  if (choices.Strange(12))
   {
     tuples = std::max<vtkIdType>(0, tuples + choices.Among({ -1, 1, -7, 100 }));
   }
   array->SetNumberOfTuples(tuples);
-  const bool extreme = choices.Chance(6);
+  const bool extreme = choices.Strange(6);
   for (vtkIdType k = 0; k < array->GetNumberOfValues(); ++k)
   {
     const double value = ChooseValue(choices, name, extreme);
@@ -273,6 +281,8 @@ vtkSmartPointer<vtkAbstractArray> MakeArray(Choices& choices, const std::string&
   return array;
 }
 
+namespace
+{
 //------------------------------------------------------------------------------
 void AddArrays(Choices& choices, vtkPolyData* surface)
 {
@@ -295,48 +305,60 @@ void AddArrays(Choices& choices, vtkPolyData* surface)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> MakeAnySurface(Choices& choices)
+vtkSmartPointer<vtkPolyData> MakeAnySurface(Choices& choices, const Needs& needs)
 {
-  if (choices.Chance(20))
+  if (choices.Strange(20))
   {
     return vtkSmartPointer<vtkPolyData>::New();
   }
+  const bool closed = needs.IsClosed && choices.IsCalm();
   Soup soup;
   for (int parts = choices.Index(3); parts >= 0; --parts)
   {
     switch (choices.Index(4))
     {
       case 0:
-        AddGridPolygons(choices, soup);
+        closed ? AddBox(choices, soup, closed) : AddGridPolygons(choices, soup);
         break;
       case 1:
-        AddBentSheet(choices, soup);
+        AddBentSheet(choices, soup, closed);
         break;
       default:
-        AddBox(choices, soup);
+        AddBox(choices, soup, closed);
         break;
     }
   }
-  Damage(choices, soup);
-  Transform(choices, soup);
-  vtkSmartPointer<vtkPolyData> surface = MakeSurface(choices, soup);
-  AddArrays(choices, surface);
+  if (!choices.IsCalm())
+  {
+    Damage(choices, soup);
+    Transform(choices, soup);
+  }
+  vtkSmartPointer<vtkPolyData> surface = MakeSurface(choices, soup, choices.Strange(10));
+  if (!choices.IsCalm())
+  {
+    AddArrays(choices, surface);
+    return surface;
+  }
+  for (const char* name : needs.Arrays)
+  {
+    surface->GetCellData()->AddArray(MakeArray(choices, name, surface->GetNumberOfCells()));
+  }
   return surface;
 }
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkDataObject> MakeAnyInput(Choices& choices, bool composite)
+vtkSmartPointer<vtkDataObject> MakeAnyInput(Choices& choices, bool composite, const Needs& needs)
 {
   if (!composite || !choices.Chance(4))
   {
-    return MakeAnySurface(choices);
+    return MakeAnySurface(choices, needs);
   }
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   const int count = choices.Index(4);
   for (int block = 0; block < count; ++block)
   {
-    blocks->SetBlock(block, choices.Chance(6) ? nullptr : MakeAnySurface(choices));
+    blocks->SetBlock(block, choices.Strange(6) ? nullptr : MakeAnySurface(choices, needs));
   }
   return blocks;
 }

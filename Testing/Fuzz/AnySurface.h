@@ -6,14 +6,35 @@
 
 #include "vtkSmartPointer.h"
 
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+class vtkAbstractArray;
 class vtkDataObject;
 
 namespace LightTransportFuzz
 {
 class Choices;
 
-/// A vtkPolyData, or (where `composite`, now and then) a vtkMultiBlockDataSet of up to three.
-vtkSmartPointer<vtkDataObject> MakeAnyInput(Choices& choices, bool composite);
+/// Of any type and number of components, mostly with as many tuples, and values that are usual for
+/// the name, or extreme.
+vtkSmartPointer<vtkAbstractArray> MakeArray(Choices& choices, const std::string& name,
+  vtkIdType tuples);
+
+/// What a filter refuses surfaces without.
+struct Needs
+{
+  bool IsClosed = false;
+  std::vector<const char*> Arrays; ///< of cells
+
+  bool AreSome() const { return this->IsClosed || !this->Arrays.empty(); }
+};
+
+/// A vtkPolyData, or (where `composite`, now and then) a vtkMultiBlockDataSet of up to three. Calm
+/// choices give it what is needed.
+vtkSmartPointer<vtkDataObject> MakeAnyInput(Choices& choices, bool composite, const Needs& needs);
 } // namespace LightTransportFuzz
 
 #endif

@@ -31,6 +31,15 @@ public:
   }
   bool Chance(int of) { return this->Index(of) == 0; }
 
+  ///@{
+  /// Nothing is wrong on purpose from here on: filters look at their input before they begin, and
+  /// one strange thing in it keeps them from it.
+  void CalmDown() { this->Calm = true; }
+  bool IsCalm() const { return this->Calm; }
+  /// A chance of something strange.
+  bool Strange(int of) { return !this->Calm && this->Chance(of); }
+  ///@}
+
   template <typename Value>
   Value Among(std::initializer_list<Value> values)
   {
@@ -69,6 +78,7 @@ private:
     return static_cast<int>((this->State ^ this->State >> 29) >> 32 & 0xFF);
   }
 
+  bool Calm = false;
   const std::uint8_t* Next;
   const std::uint8_t* End;
   std::uint64_t State = 0xcbf29ce484222325;

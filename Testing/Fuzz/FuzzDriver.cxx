@@ -171,12 +171,12 @@ void RunOnce(const Bytes& bytes)
 
 //------------------------------------------------------------------------------
 // Signals end the process unless the run ends before: by processor time, and by the clock for one
-// that waits for ever (a busy machine has a few times as long).
+// that waits for ever (a busy machine may give it little time).
 void Watch(long seconds)
 {
   const itimerval processor = { {}, { seconds, 0 } };
   setitimer(ITIMER_PROF, &processor, nullptr);
-  alarm(static_cast<unsigned int>(seconds * 12));
+  alarm(static_cast<unsigned int>(seconds * 60));
 }
 
 //------------------------------------------------------------------------------

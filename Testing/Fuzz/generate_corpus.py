@@ -85,12 +85,15 @@ def write_view_factors():
 
 
 def write_choices():
-    """Bytes that choose (see Choices.h); a few for each filter."""
+    """Bytes that choose (see Choices.h): the filter, and what comes next, or hardly that much, so
+    that a mutation changes everything."""
     numbers = random.Random(1)
-    for filter_number, k in itertools.product(range(8), range(3)):
-        bytes_after = bytes(numbers.randrange(256) for _ in range(60 * k))
-        (CORPUS / "Filters" / f"{filter_number}-{k}").write_bytes(
-            bytes([filter_number]) + bytes_after)
+    files = [(f"{k}", 60 * k) for k in range(3)], [(f"short-{k}", 2) for k in range(4)]
+    for group in files:
+        for filter_number, (name, size) in itertools.product(range(9), group):
+            bytes_after = bytes(numbers.randrange(256) for _ in range(size))
+            (CORPUS / "Filters" / f"{filter_number}-{name}").write_bytes(
+                bytes([filter_number]) + bytes_after)
 
 
 if __name__ == "__main__":

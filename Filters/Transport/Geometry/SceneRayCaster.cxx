@@ -82,6 +82,8 @@ struct Segment
 
   Hit Front;
   Hit Back;
+  // Where all that is met is wanted; else nullptr.
+  std::vector<SceneRayCaster::Crossing>* All = nullptr;
 
   Segment(const Vector& origin, const Vector& target)
     : Origin(origin), Target(target), Direction(target - origin), Length(this->Direction.norm())
@@ -204,7 +206,16 @@ void TestIntersected(const RTCIntersectFunctionNArguments* arguments)
   auto* segment = reinterpret_cast<Segment*>(arguments->context);
   const Candidate& candidate = segment->Candidates[arguments->primID];
   double from, to;
-  if (segment->Crosses(candidate, from, to))
+  if (!segment->Crosses(candidate, from, to))
+  {
+    return;
+  }
+  if (segment->All)
+  {
+    segment->All->push_back(
+      { from / (from - to), candidate.Rounding / std::abs(from - to), candidate.Patch });
+  }
+  else
   {
     segment->AddHit(candidate, from, to);
     // Embree may leave out what is certainly further away.
@@ -322,5 +333,17 @@ vtkIdType SceneRayCaster::FindHit(const Vector& origin, const Vector& direction,
   this->Internal->Tree.Intersect(segment.Context, hit);
   front = segment.IsFrontFirst();
   return front ? segment.Front.Patch : segment.Back.Patch;
+}
+
+//------------------------------------------------------------------------------
+void SceneRayCaster::FindCrossings(const Vector& origin, const Vector& target, vtkIdType from,
+  vtkIdType to, std::vector<Crossing>& found) const
+{
+  found.clear();
+  Segment segment = this->Internal->MakeSegment(origin, target, from, to);
+  segment.All = &found;
+  RTCRayHit hit;
+  segment.SetRay(hit.ray);
+  this->Internal->Tree.Intersect(segment.Context, hit);
 }
 } // namespace LightTransport

@@ -26,6 +26,14 @@ namespace LightTransport
 class SceneRayCaster
 {
 public:
+  /// Where a segment goes through a patch.
+  struct Crossing
+  {
+    double Fraction; ///< of its length
+    double Rounding; ///< of that
+    vtkIdType Patch;
+  };
+
   SceneRayCaster();
   ~SceneRayCaster();
   SceneRayCaster(const SceneRayCaster&) = delete;
@@ -49,6 +57,10 @@ public:
    */
   vtkIdType FindHit(const PatchScene::Vector& origin, const PatchScene::Vector& direction,
     vtkIdType from, bool& front) const;
+
+  /// Replace `found` by all patches other than `from` and `to` between two points, in no order.
+  void FindCrossings(const PatchScene::Vector& origin, const PatchScene::Vector& target,
+    vtkIdType from, vtkIdType to, std::vector<Crossing>& found) const;
 
 private:
   struct Internals;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/ShaftCuller.h"
 
+#include "Geometry/PlaneSides.h"
 #include "Scene/PatchTree.h"
 #include "Shared/Pulse.h"
 #include "Support/InstructionSets.h"
@@ -103,7 +104,7 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
     {
       this->PatchBounds[patch].Add(scene.GetCorner(patch, corner));
     }
-    this->Occluders[patch] = this->IsOccluder(patch);
+    this->Occluders[patch] = IsAnyBehind(scene, scene.GetPlane(patch));
     this->NumberOfOccluders += this->Occluders[patch] ? 1 : 0;
   }
   const auto& nodes = scene.GetTree().GetNodes();
@@ -127,44 +128,6 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
       this->OccluderBounds[k].Add(this->OccluderBounds[node.Left + child]);
     }
   }
-}
-
-//------------------------------------------------------------------------------
-// A plane has the scene in front of it when nothing is certainly behind it.
-bool ShaftCuller::IsOccluder(vtkIdType patch) const
-{
-  const PatchPlane plane = this->Scene.GetPlane(patch);
-  std::vector<int> open(1, 0);
-  while (!open.empty())
-  {
-    const PatchTree::Node& node = this->Scene.GetTree().GetNode(open.back());
-    open.pop_back();
-    const Vector lowest =
-      (plane.Normal.array() > 0.0).select(node.Lower.array(), node.Upper.array()).matrix();
-    const double nearest =
-      (node.Lower - plane.Origin).cwiseMax(plane.Origin - node.Upper).cwiseMax(0.0).norm();
-    if (plane.GetHeight(lowest) >= -plane.GetLeastTolerance(nearest))
-    {
-      continue;
-    }
-    if (!node.IsLeaf())
-    {
-      open.push_back(node.Left);
-      open.push_back(node.Left + 1);
-      continue;
-    }
-    for (vtkIdType other = node.First; other < node.Last; ++other)
-    {
-      for (int corner = 0; corner < this->Scene.GetNumberOfCorners(other); ++corner)
-      {
-        if (plane.GetCertainHeight(this->Scene.GetCorner(other, corner)) < 0.0)
-        {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -83,7 +83,6 @@ public:
 
 private:
   using Vector = PatchScene::Vector;
-  bool IsOccluder(vtkIdType patch) const;
   template <typename Visit>
   void Search(const Shaft& shaft, const Visit& visit) const;
   void Search(const Shaft& shaft, std::vector<vtkIdType>& found) const;

@@ -23,6 +23,14 @@ constexpr double RaysOfBatch = 4e6;
 } // namespace
 
 //------------------------------------------------------------------------------
+NumberProperties::List LightingRun::ListNumbers() const
+{
+  NumberProperties::List numbers = this->TransportRun::ListNumbers();
+  numbers.emplace_back("LightAngularDiameter", this->Lighting->GetLightAngularDiameter());
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
 Outcome LightingRun::ReadLights(std::vector<PunctualLight>& lights) const
 {
   for (int index = 0; index < this->Lighting->GetNumberOfLights(); ++index)
@@ -56,7 +64,7 @@ Outcome LightingRun::ReadLights(std::vector<PunctualLight>& lights) const
 
 //------------------------------------------------------------------------------
 Outcome LightingRun::ForLocalPatches(double rays, double done,
-  const std::function<void(vtkIdType)>& compute)
+  const std::function<void(vtkIdType)>& compute, const std::function<void(vtkIdType)>& finish)
 {
   const std::vector<vtkIdType> locals = this->Scene.GetLocalPatches();
   const auto count = static_cast<vtkIdType>(locals.size());
@@ -77,6 +85,10 @@ Outcome LightingRun::ForLocalPatches(double rays, double done,
     const vtkIdType first = count * batch / batches;
     const vtkIdType last = count * (batch + 1) / batches;
     Threads::For(first, last, std::min<vtkIdType>(16, 1 + (last - first) / 16), computeSome);
+    if (finish)
+    {
+      std::for_each(locals.begin() + first, locals.begin() + last, finish);
+    }
     if (!monitor.Report(static_cast<double>(batch + 1) / static_cast<double>(batches)))
     {
       return Outcome::Aborted();

@@ -23,13 +23,16 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
+
   /// Take over the lights that are on. A warning tells where there is no light at all.
   Outcome ReadLights(std::vector<PunctualLight>& lights) const;
 
   /// Do something with each patch of this rank that costs about as much as `rays` rays, with
-  /// progress up to a fraction.
+  /// progress up to a fraction. `finish`: then to be done with each, one after another.
   Outcome ForLocalPatches(double rays, double done,
-    const std::function<void(vtkIdType patch)>& compute);
+    const std::function<void(vtkIdType patch)>& compute,
+    const std::function<void(vtkIdType patch)>& finish = {});
 
 private:
   vtkLightingAlgorithm* Lighting;

@@ -6,6 +6,7 @@
 #include "Support/Ranks.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDeviceLinkOperator.h"
+#include "vtkExchangeHierarchy.h"
 #include "vtkExchangeMatrix.h"
 
 namespace LightTransport
@@ -72,11 +73,11 @@ Outcome RefuseOpenGL(const std::string& reason)
 
 //------------------------------------------------------------------------------
 Outcome LinkOperators::AllocateMatrix(const std::vector<double>& areas, int numberOfKernels,
-  const Ranks& ranks, vtkSmartPointer<vtkExchangeMatrix>& matrix)
+  const std::string& remedy, const Ranks& ranks, vtkSmartPointer<vtkExchangeMatrix>& matrix)
 {
   const double bytes = vtkExchangeMatrix::GetEstimatedBytes(static_cast<vtkIdType>(areas.size()),
     numberOfKernels, ranks.GetNumber());
-  return Allocate(areas.size(), bytes, "", ranks, matrix,
+  return Allocate(areas.size(), bytes, remedy, ranks, matrix,
     [&](vtkExchangeMatrix* empty)
     { return empty->Allocate(areas, numberOfKernels, ranks.GetMine(), ranks.GetNumber()); });
 }
@@ -94,6 +95,21 @@ Outcome LinkOperators::AllocateSparseMatrix(const std::vector<double>& areas,
       empty->AllocateSparse(areas, 1, ranks.GetMine(), ranks.GetNumber());
       return true;
     });
+}
+
+//------------------------------------------------------------------------------
+// While they are put into one table they are there twice.
+Outcome LinkOperators::CheckRows(double numberOfLinks, int numberOfKernels, const Ranks& ranks)
+{
+  const double bytes =
+    2.0 * vtkExchangeHierarchy::GetEstimatedBytesOfRows(numberOfLinks, numberOfKernels);
+  const double available = TransportMemory::GetAvailableBytes();
+  return ranks.Agree(bytes / ranks.GetNumber() <= available
+      ? Outcome::Done()
+      : Outcome::Failed("The links between clusters need " + TransportMemory::Format(bytes) +
+          " of memory and " + TransportMemory::Format(available) +
+          " are free: raise LinkTolerance, lower NumberOfLinks, use fewer patches or processes on "
+          "more machines (each holds a part)."));
 }
 
 //------------------------------------------------------------------------------

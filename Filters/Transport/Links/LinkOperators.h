@@ -32,14 +32,19 @@ enum class LinkDevice
 namespace LinkOperators
 {
 /// An empty exchange matrix for these patch areas, or this rank's part of it. Fails, on all ranks
-/// alike, where the memory is not there.
-Outcome AllocateMatrix(const std::vector<double>& areas, int numberOfKernels, const Ranks& ranks,
-  vtkSmartPointer<vtkExchangeMatrix>& matrix);
+/// alike, where the memory is not there; `remedy` is what helps beside fewer patches, "do this, or
+/// ".
+Outcome AllocateMatrix(const std::vector<double>& areas, int numberOfKernels,
+  const std::string& remedy, const Ranks& ranks, vtkSmartPointer<vtkExchangeMatrix>& matrix);
 
 /// Likewise with one kernel and no tile stored yet. `numberOfTiles` is the most that this rank will
 /// store; the memory for them must be there.
 Outcome AllocateSparseMatrix(const std::vector<double>& areas, vtkIdType numberOfTiles,
   const Ranks& ranks, vtkSmartPointer<vtkExchangeMatrix>& matrix);
+
+/// Fails, on all ranks alike, where there is no memory for rows of a vtkExchangeHierarchy.
+/// `numberOfLinks` is that of all ranks.
+Outcome CheckRows(double numberOfLinks, int numberOfKernels, const Ranks& ranks);
 
 /// Fails when the device is OpenGL and cannot be had. Asked before any work starts: a user who
 /// insists on a device does not want to wait for the links to hear that it is not there.

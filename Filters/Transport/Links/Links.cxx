@@ -34,6 +34,10 @@ void Links::AddSummaries(vtkFieldData* fields) const
   {
     FieldValues::Add(fields, summary.first.c_str(), summary.second);
   }
+  for (const auto& remark : this->Remarks)
+  {
+    FieldValues::Add(fields, remark.first.c_str(), remark.second);
+  }
   if (this->Hierarchy)
   {
     FieldValues::Add(fields, "ClusterTreeUsed", this->ClusterTree);

@@ -52,13 +52,29 @@ struct Links
   std::vector<double> BackHits;
   ///@}
 
-  /// Where links are counts of photons: what one of them adds, of each band.
+  ///@{ Where links are counts of photons, of each band: what one of them adds, and the area on
+  /// which one has started.
   std::vector<double> PhotonSizes;
-  /// Where links are those of a profile: standard error of its total, relative, of each band.
+  std::vector<double> PhotonAreas;
+  ///@}
+  ///@{ Where links are those of a profile: its total, and the standard error of that, relative, of
+  /// each band.
+  std::vector<double> ProfileTotals;
   std::vector<double> ProfileErrors;
+  ///@}
+  ///@{ Of those, what goes through air (AirShare has it): per patch and band what its links through
+  /// air carry for a unit of light on it, the variance of that, and of each band what one link that
+  /// was looked at stands for at most (0: all were). Dropped ones are not among the links.
+  std::vector<double> ThroughAir;
+  std::vector<double> ThroughAirVariances;
+  std::vector<double> AirSamples;
+  bool AreThroughAirDropped = false;
+  ///@}
 
   /// Names and values of the field data arrays that summarise how the links were made.
   std::vector<std::pair<std::string, double>> Summaries;
+  /// And those that are text.
+  std::vector<std::pair<std::string, std::string>> Remarks;
   std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"
   /// Not empty where users should doubt the links: why, and the remedy.
   std::string Warning;

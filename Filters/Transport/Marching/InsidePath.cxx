@@ -9,14 +9,14 @@ namespace LightTransport
 {
 //------------------------------------------------------------------------------
 InsidePath::InsidePath(const PhotonBoundary& boundary, const PhotonInterface& interface,
-  const std::vector<PhotonMedium>& media, const Vector& origin, const Vector& direction,
-  vtkIdType from)
+  const std::vector<PhotonMedium>& media, double leastWeight, const Vector& origin,
+  const Vector& direction, vtkIdType from)
 {
   std::transform(media.begin(), media.end(), this->Extinction.begin(),
     [](const PhotonMedium& medium) { return medium.GetExtinction(); });
   Leg leg{ origin, direction, 0.0, 0.0, 1.0, from, Vector::Zero() };
   while (this->NumberOfLegs < MostLegs &&
-    leg.Weight * this->GetMeanTransmission(leg.Begin) > LeastWeight)
+    leg.Weight * this->GetMeanTransmission(leg.Begin) > leastWeight)
   {
     PhotonCrossing crossing;
     if (!boundary.FindCrossing(
@@ -78,20 +78,35 @@ double InsidePath::FindLength(const Leg& leg, double u) const
 }
 
 //------------------------------------------------------------------------------
-InsidePath::Place InsidePath::Choose(double u) const
+double InsidePath::GetShare(const Leg& leg) const
+{
+  return leg.Weight * (this->GetMeanTransmission(leg.Begin) - this->GetMeanTransmission(leg.End));
+}
+
+//------------------------------------------------------------------------------
+double InsidePath::GetShare(int first) const
+{
+  double share = 0.0;
+  for (int k = first; k < this->NumberOfLegs; ++k)
+  {
+    share += this->GetShare(this->Legs[k]);
+  }
+  return share;
+}
+
+//------------------------------------------------------------------------------
+InsidePath::Place InsidePath::Choose(double u, int first) const
 {
   std::array<double, MostLegs> ends;
   double total = 0.0;
-  for (int k = 0; k < this->NumberOfLegs; ++k)
+  for (int k = first; k < this->NumberOfLegs; ++k)
   {
-    const Leg& leg = this->Legs[k];
-    total +=
-      leg.Weight * (this->GetMeanTransmission(leg.Begin) - this->GetMeanTransmission(leg.End));
+    total += this->GetShare(this->Legs[k]);
     ends[k] = total;
   }
   const auto last = ends.begin() + this->NumberOfLegs - 1;
-  const auto chosen = std::upper_bound(ends.begin(), last, u * total) - ends.begin();
-  const double before = chosen > 0 ? ends[chosen - 1] : 0.0;
+  const auto chosen = std::upper_bound(ends.begin() + first, last, u * total) - ends.begin();
+  const double before = chosen > first ? ends[chosen - 1] : 0.0;
   const double width = ends[chosen] - before;
   const Leg& leg = this->Legs[chosen];
   const double length =

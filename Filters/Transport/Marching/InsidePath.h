@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A ray inside a body, followed against the light: from where it has been refracted inwards to the
- * surface, and on from there, reflected, with what is reflected. Until next to nothing is left.
+ * A ray inside a body, followed against the light or with it: from where it has been refracted
+ * inwards to the surface, and on from there, reflected, with what is reflected. Until next to
+ * nothing is left.
  */
 #ifndef InsidePath_h
 #define InsidePath_h
@@ -43,24 +44,29 @@ public:
     double Weights[Bands];
   };
 
-  /// `from`: the patch that the ray starts on, or -1.
+  /// `from`: the patch that the ray starts on, or -1. What is worth less than `leastWeight`, on
+  /// average over the bands, is not followed.
   InsidePath(const PhotonBoundary& boundary, const PhotonInterface& interface,
-    const std::vector<PhotonMedium>& media, const Vector& origin, const Vector& direction,
-    vtkIdType from);
+    const std::vector<PhotonMedium>& media, double leastWeight, const Vector& origin,
+    const Vector& direction, vtkIdType from);
 
   int GetNumberOfLegs() const { return this->NumberOfLegs; }
   const Leg& GetLeg(int leg) const { return this->Legs[leg]; }
 
-  /// A point for a number evenly spread in (0, 1): as dense as light of all bands reaches it. Not
-  /// where there is no leg.
-  Place Choose(double u) const;
+  /// What part of the light that starts is lost on the leg `first` and behind: absorbed, or
+  /// scattered.
+  double GetShare(int first) const;
+
+  /// A point for a number evenly spread in (0, 1), on the leg `first`, which there must be, or
+  /// behind: as dense as light of all bands reaches it.
+  Place Choose(double u, int first = 0) const;
 
 private:
-  /// More reflections are not followed, nor what is worth less.
-  static constexpr int MostLegs = 32;
-  static constexpr double LeastWeight = 1e-4;
+  /// More reflections are not followed.
+  static constexpr int MostLegs = 256;
 
   double GetMeanTransmission(double length) const;
+  double GetShare(const Leg& leg) const;
   double FindLength(const Leg& leg, double u) const;
 
   std::array<double, Bands> Extinction;

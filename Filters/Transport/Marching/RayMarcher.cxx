@@ -15,8 +15,26 @@ namespace
 {
 /// Of mean free paths of the clearest band: of what comes from further away 1e-8 is left.
 constexpr double MostFreePaths = 18.0;
+/// How often light is scattered that is all reflected before.
+constexpr double ScatteringsPerRay = 8.0;
+/// Multiples of them, and where they start, are evenly spread in three dimensions (M. Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
+constexpr double Steps[3] = { 0.8191725133961645, 0.6710436067037893, 0.5497004779019703 };
 /// Coordinates of scenes are worth that, as MeshBoundary says.
 constexpr double Margin = 4e-6;
+
+//------------------------------------------------------------------------------
+void Scale(const double* values, double factor, double scaled[LightBands])
+{
+  std::transform(values, values + LightBands, scaled,
+    [factor](double value) { return factor * value; });
+}
+
+//------------------------------------------------------------------------------
+double Shift(double number, double step)
+{
+  return std::fmod(number + step, 1.0);
+}
 
 //------------------------------------------------------------------------------
 double GetReach(const std::vector<PhotonMedium>& media)
@@ -32,9 +50,9 @@ double GetReach(const std::vector<PhotonMedium>& media)
 
 //------------------------------------------------------------------------------
 RayMarcher::RayMarcher(const PatchScene& scene, const std::vector<PhotonMedium>& media,
-  double refractiveIndex, const Lights& lights)
-  : Scene(scene), Media(media), Index(refractiveIndex), Sources(lights), Interface(refractiveIndex),
-    Search(scene, refractiveIndex), Reach(GetReach(media))
+  double refractiveIndex, const Lights& lights, double leastWeight)
+  : Scene(scene), Media(media), Index(refractiveIndex), Sources(lights), LeastWeight(leastWeight),
+    Interface(refractiveIndex), Search(scene, refractiveIndex), Reach(GetReach(media))
 {
 }
 
@@ -43,8 +61,7 @@ void RayMarcher::March(const Sample& sample, double radiance[LightBands]) const
 {
   const Vector& normal = this->Scene.GetNormal(sample.Patch);
   const Vector inwards = this->Interface.RefractInwards(-sample.Outwards, normal);
-  const InsidePath path(this->Boundary, this->Interface, this->Media, sample.Point, inwards,
-    sample.Patch);
+  const InsidePath path = this->Follow(sample.Point, inwards, sample.Patch);
   if (path.GetNumberOfLegs() == 0)
   {
     return;
@@ -65,11 +82,9 @@ void RayMarcher::March(const Sample& sample, double radiance[LightBands]) const
       this->AddPoint(light, place, radiance);
       continue;
     }
-    const Vector direction = light.GetDirection(this->Sources.Radius, sample.Sky[0], sample.Sky[1]);
     double irradiance[LightBands];
-    std::transform(light.Color, light.Color + LightBands, irradiance,
-      [factor = 1.0 / direction.dot(light.Axis)](double color) { return factor * color; });
-    this->AddDistant(-direction, irradiance, place, radiance);
+    const Vector towards = this->GetTowards(light, sample.Sky, irradiance);
+    this->AddDistant(towards, irradiance, place, radiance);
   }
   const Panorama* environment = this->Sources.Environment;
   if (environment && environment->HasPeaks())
@@ -85,6 +100,16 @@ void RayMarcher::March(const Sample& sample, double radiance[LightBands]) const
 }
 
 //------------------------------------------------------------------------------
+// Towards a directional light, and its irradiance across that.
+RayMarcher::Vector RayMarcher::GetTowards(const PunctualLight& light, const double* disc,
+  double* irradiance) const
+{
+  const Vector direction = light.GetDirection(this->Sources.Radius, disc[0], disc[1]);
+  Scale(light.Color, 1.0 / direction.dot(light.Axis), irradiance);
+  return -direction;
+}
+
+//------------------------------------------------------------------------------
 void RayMarcher::AddPoint(const PunctualLight& light, const Scattering& place,
   double* radiance) const
 {
@@ -96,10 +121,8 @@ void RayMarcher::AddPoint(const PunctualLight& light, const Scattering& place,
     {
       continue;
     }
-    const double strength = light.GetStrength(entry.Point, this->Scene.GetScale());
     double irradiance[LightBands];
-    std::transform(light.Color, light.Color + LightBands, irradiance,
-      [strength](double color) { return strength * color; });
+    Scale(light.Color, light.GetStrength(entry.Point, this->Scene.GetScale()), irradiance);
     this->AddEntry(entry, irradiance, (light.Position - entry.Point).norm(), place, radiance);
   }
 }
@@ -143,9 +166,8 @@ void RayMarcher::AddBackground(const Sample& sample, const Scattering& place,
   double* radiance) const
 {
   double weights[LightBands];
-  const Vector direction = this->ChooseDirection(sample, place.Direction, weights);
-  const InsidePath path(this->Boundary, this->Interface, this->Media, place.Position, direction,
-    -1);
+  const Vector direction = this->ChooseDirection(sample.Band, sample.Sky, place.Direction, weights);
+  const InsidePath path = this->Follow(place.Position, direction, -1);
   for (int k = 0; k < path.GetNumberOfLegs(); ++k)
   {
     const InsidePath::Leg& leg = path.GetLeg(k);
@@ -169,11 +191,10 @@ void RayMarcher::AddBackground(const Sample& sample, const Scattering& place,
 
 //------------------------------------------------------------------------------
 // As dense as the mean of all bands' phase functions; `weights`: each band's over that mean.
-RayMarcher::Vector RayMarcher::ChooseDirection(const Sample& sample, const Vector& axis,
+RayMarcher::Vector RayMarcher::ChooseDirection(int chosen, const double* turn, const Vector& axis,
   double* weights) const
 {
-  const double cosine =
-    HenyeyGreenstein::GetCosine(this->Media[sample.Band].Anisotropy, sample.Sky[0]);
+  const double cosine = HenyeyGreenstein::GetCosine(this->Media[chosen].Anisotropy, turn[0]);
   double mean = 0.0;
   for (int band = 0; band < LightBands; ++band)
   {
@@ -182,11 +203,111 @@ RayMarcher::Vector RayMarcher::ChooseDirection(const Sample& sample, const Vecto
   }
   std::for_each(weights, weights + LightBands, [mean](double& weight) { weight /= mean; });
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  const double angle = 2.0 * vtkMath::Pi() * sample.Sky[1];
+  const double angle = 2.0 * vtkMath::Pi() * turn[1];
   const Vector tangent = axis.unitOrthogonal();
   return (
     cosine * axis + sine * (std::cos(angle) * tangent + std::sin(angle) * axis.cross(tangent)))
     .normalized();
+}
+
+//------------------------------------------------------------------------------
+bool RayMarcher::HasReflections() const
+{
+  const Panorama* environment = this->Sources.Environment;
+  return this->Index > 1.0 &&
+    (!this->Sources.Punctual.empty() || (environment && environment->HasPeaks()));
+}
+
+//------------------------------------------------------------------------------
+void RayMarcher::Shine(const Entrance& entrance, const Receive& receive) const
+{
+  double irradiance[LightBands];
+  for (const PunctualLight& light : this->Sources.Punctual)
+  {
+    if (!light.IsPositional)
+    {
+      const Vector towards = this->GetTowards(light, entrance.Sky, irradiance);
+      this->ShineFrom(towards, PhotonBoundary::Unlimited, irradiance, entrance, receive);
+    }
+    else if (light.IsInCone(entrance.Point))
+    {
+      const Vector path = light.Position - entrance.Point;
+      Scale(light.Color, light.GetStrength(entrance.Point, this->Scene.GetScale()), irradiance);
+      this->ShineFrom(path.normalized(), path.norm(), irradiance, entrance, receive);
+    }
+  }
+  const Panorama* environment = this->Sources.Environment;
+  if (environment && environment->HasPeaks())
+  {
+    const Vector towards = environment->GetPeak(entrance.Sky[0], entrance.Sky[1], irradiance);
+    this->ShineFrom(towards, PhotonBoundary::Unlimited, irradiance, entrance, receive);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Straight inwards March looks; what follows is what has been reflected.
+void RayMarcher::ShineFrom(const Vector& towards, double distance, const double* irradiance,
+  const Entrance& entrance, const Receive& receive) const
+{
+  const Vector& normal = this->Scene.GetNormal(entrance.Patch);
+  const double cosine = towards.dot(normal);
+  if (!(cosine > 0.0) || !this->IsLit(entrance.Point, towards, distance, entrance.Patch))
+  {
+    return;
+  }
+  const InsidePath path =
+    this->Follow(entrance.Point, this->Interface.RefractInwards(-towards, normal), entrance.Patch);
+  if (path.GetNumberOfLegs() < 2 || !(path.GetShare(1) > 0.0))
+  {
+    return;
+  }
+  // The more often the larger its part of what is scattered, so that all that leaves weighs about
+  // the same.
+  const double expected = ScatteringsPerRay * path.GetShare(1) / path.GetShare(0);
+  const int times = static_cast<int>(expected + entrance.Number);
+  const double entering =
+    entrance.Area * cosine * (1.0 - this->Interface.GetExternalReflectance(cosine)) / expected;
+  for (int k = 0; k < times; ++k)
+  {
+    const InsidePath::Place chosen = path.Choose(Shift(entrance.Place, k * Steps[0]), 1);
+    const double turn[2] = { Shift(entrance.Turn[0], k * Steps[1]),
+      Shift(entrance.Turn[1], k * Steps[2]) };
+    Scattering place{ chosen.Position, chosen.Direction, {} };
+    for (int band = 0; band < LightBands; ++band)
+    {
+      place.Weights[band] =
+        entering * irradiance[band] * this->Media[band].Scattering * chosen.Weights[band];
+    }
+    this->SendOut(place, (entrance.Band + k) % LightBands, turn, receive);
+  }
+}
+
+//------------------------------------------------------------------------------
+// In a direction that the phase function chooses, and reflected from there: at each end some
+// leaves.
+void RayMarcher::SendOut(const Scattering& place, int chosen, const double* turn,
+  const Receive& receive) const
+{
+  double weights[LightBands];
+  const Vector direction = this->ChooseDirection(chosen, turn, place.Direction, weights);
+  const InsidePath path = this->Follow(place.Position, direction, -1);
+  for (int k = 0; k < path.GetNumberOfLegs(); ++k)
+  {
+    const InsidePath::Leg& leg = path.GetLeg(k);
+    const double leaving =
+      leg.Weight * (1.0 - this->Interface.GetInternalReflectance(leg.Direction.dot(leg.Normal)));
+    if (leaving == 0.0)
+    {
+      continue;
+    }
+    double flux[LightBands];
+    for (int band = 0; band < LightBands; ++band)
+    {
+      flux[band] = place.Weights[band] * weights[band] * leaving *
+        std::exp(-this->Media[band].GetExtinction() * leg.End);
+    }
+    receive(leg.Patch, flux);
+  }
 }
 
 //------------------------------------------------------------------------------

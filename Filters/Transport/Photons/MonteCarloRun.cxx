@@ -22,9 +22,13 @@ namespace LightTransport
 {
 namespace
 {
-// Light that photons lose on their way: of less nobody need know, and with more nothing is known.
+// Light that photons lose on their way: of less nobody need know, and with more nothing is known. A
+// few of them may be chance.
 constexpr double LostShareToTell = 1e-4;
 constexpr double LostShareToFail = 0.02;
+constexpr double LostPhotonsToTell = 3.0;
+// Free paths from end to end of the scene that are finer than coordinates are worth.
+constexpr double MostFreePaths = 1e6;
 
 //------------------------------------------------------------------------------
 double GetLargest(const std::vector<double>& values)
@@ -49,6 +53,14 @@ PhotonScattering::Settings MonteCarloRun::GetSettings() const
 //------------------------------------------------------------------------------
 Outcome MonteCarloRun::Check()
 {
+  if (const int method = this->Owner->GetLinkMethod();
+      method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM ||
+      method == vtkSubsurfaceScattering::LINK_METHOD_ADAPTIVE)
+  {
+    return Outcome::Failed("LinkMethod is Uniform or Adaptive, links between clusters, which Model "
+                           "MonteCarlo has not: set it to Auto, or to Dense for links that are "
+                           "kept.");
+  }
   if (this->FollowsPhotons() && this->Owner->GetDevice() == vtkSubsurfaceScattering::DEVICE_OPENGL)
   {
     return Outcome::Failed("Device is OpenGL, which applies links: photons are followed on the "
@@ -104,12 +116,41 @@ std::unique_ptr<LinkBuilder> MonteCarloRun::MakeBuilder() const
 //------------------------------------------------------------------------------
 Outcome MonteCarloRun::Link()
 {
+  this->CheckSize();
   if (this->FollowsPhotons())
   {
     return ClosedSurface::Check(this->Scene);
   }
   Outcome linked = this->ScatteringRun::Link();
-  return linked ? this->CheckLost(this->Cache.Get().GetSummary("LostShare")) : linked;
+  return linked ? this->CheckLost(this->Cache.Get().GetSummary("LostShare"),
+                    this->Cache.Get().GetSummary("PhotonsTraced"))
+                : linked;
+}
+
+//------------------------------------------------------------------------------
+void MonteCarloRun::CheckSize() const
+{
+  double largest = 0.0;
+  for (const PhotonMedium& medium : this->GetMedia())
+  {
+    largest = std::max(largest, medium.GetExtinction());
+  }
+  if (largest > MostFreePaths)
+  {
+    std::ostringstream text;
+    text << "The surface is " << largest << " free paths from end to end. More than "
+         << MostFreePaths
+         << " are finer than its coordinates are worth: some percent of the light may be missing "
+            "or too much. Check MillimetersPerUnit, or use Model Tabulated.";
+    this->WarnOnce({ text.str() });
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<PhotonMedium> MonteCarloRun::GetMedia() const
+{
+  return PhotonScattering::GetMedia(this->Media,
+    this->Scene.GetScale() * this->Owner->GetMillimetersPerUnit());
 }
 
 //------------------------------------------------------------------------------
@@ -127,15 +168,15 @@ Outcome MonteCarloRun::FollowPhotons()
     return Outcome::Failed("The irradiance is negative on some polygons, which photons cannot be: "
                            "set LinkMethod to Dense for differences of light.");
   }
-  const PhotonScattering scattering(this->Scene,
-    PhotonScattering::GetMedia(this->Media,
-      this->Scene.GetScale() * this->Owner->GetMillimetersPerUnit()),
-    this->Media[0].RefractiveIndex, this->Image.get());
+  const PhotonScattering scattering(this->Scene, this->GetMedia(), this->Media[0].RefractiveIndex,
+    this->Image.get());
   Outcome done = scattering.Run(entering, this->GetSettings(), this->AllRanks,
     this->Progress.GetMonitor().GetStage(0.0, LinksDone), this->Photons);
   this->DeviceUsed = "CPU";
   this->DeviceExplanation = "photons are followed on the CPU";
-  return done ? this->CheckLost(GetLargest(this->Photons.LostShares)) : done;
+  return done ? this->CheckLost(GetLargest(this->Photons.LostShares),
+                  static_cast<double>(this->Photons.Photons))
+              : done;
 }
 
 //------------------------------------------------------------------------------
@@ -149,14 +190,15 @@ Outcome MonteCarloRun::ApplyWithErrors()
   Outcome applied = this->ApplyLinks({ &this->Scattered, &squares });
   if (applied)
   {
-    this->Errors = PhotonLinks::GetErrors(this->Cache.Get(), light, squares, this->AllRanks);
+    this->Errors =
+      PhotonLinks::GetErrors(this->Cache.Get(), light, this->Scattered, squares, this->AllRanks);
   }
   return applied;
 }
 
 //------------------------------------------------------------------------------
 // Of the light that photons have lost.
-Outcome MonteCarloRun::CheckLost(double share) const
+Outcome MonteCarloRun::CheckLost(double share, double photons) const
 {
   std::ostringstream text;
   text
@@ -169,7 +211,7 @@ Outcome MonteCarloRun::CheckLost(double share) const
   {
     return Outcome::Failed(text.str());
   }
-  if (share > LostShareToTell)
+  if (share > LostShareToTell && share * photons > LostPhotonsToTell)
   {
     this->WarnOnce({ text.str() });
   }

@@ -33,7 +33,9 @@ private:
   Outcome ReadMedium();
   Outcome FollowPhotons();
   Outcome ApplyWithErrors();
-  Outcome CheckLost(double share) const;
+  std::vector<PhotonMedium> GetMedia() const;
+  void CheckSize() const;
+  Outcome CheckLost(double share, double photons) const;
   void WritePhotons(const SceneOutput& output) const;
 
   /// Where the medium varies; else nullptr.

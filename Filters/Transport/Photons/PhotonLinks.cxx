@@ -200,8 +200,9 @@ Outcome PhotonLinks::Build(const PatchScene& scene, const Ranks& ranks, const Mo
     surface += area;
   }
   Outcome done = ClosedSurface::Check(scene);
-  done = done ? LinkOperators::AllocateMatrix(areas, static_cast<int>(bands), ranks, links.Matrix)
-              : done;
+  done = done
+    ? LinkOperators::AllocateMatrix(areas, static_cast<int>(bands), "", ranks, links.Matrix)
+    : done;
   if (!done)
   {
     return done;
@@ -216,13 +217,12 @@ Outcome PhotonLinks::Build(const PatchScene& scene, const Ranks& ranks, const Mo
   {
     return done;
   }
-  std::vector<double> factors;
   for (std::size_t band = 0; band < bands; ++band)
   {
-    factors.push_back(surface / photons.PhotonsOfBands[band]);
-    links.PhotonSizes.push_back(factors[band] * photons.MeanWeights[band]);
+    links.PhotonAreas.push_back(surface / photons.PhotonsOfBands[band]);
+    links.PhotonSizes.push_back(links.PhotonAreas[band] * photons.MeanWeights[band]);
   }
-  double count = ScaleTiles(links.Matrix, factors);
+  double count = ScaleTiles(links.Matrix, links.PhotonAreas);
   ranks.Sum(&count, 1);
   links.Tolerance = this->Settings.TargetError;
   links.Summaries = { { "NumberOfLinks", count }, { "LinksLeftOut", 0.0 },
@@ -236,31 +236,38 @@ Outcome PhotonLinks::Build(const PatchScene& scene, const Ranks& ranks, const Mo
 
 //------------------------------------------------------------------------------
 std::vector<double> PhotonLinks::GetErrors(const Links& links, const std::vector<double>& light,
-  const std::vector<double>& squares, const Ranks& ranks)
+  const std::vector<double>& scattered, const std::vector<double>& squares, const Ranks& ranks)
 {
   const std::vector<double>& areas = links.Matrix->GetAreas();
   const std::size_t bands = links.PhotonSizes.size();
+  // What comes back where it has entered.
   std::vector<double> own(light.size());
   for (std::size_t k = 0; k < own.size(); ++k)
   {
     const auto patch = static_cast<vtkIdType>(k / bands);
-    own[k] = links.Matrix->GetValue(patch, patch, static_cast<int>(k % bands)) * light[k] *
-      light[k] / areas[patch];
+    own[k] =
+      links.Matrix->GetValue(patch, patch, static_cast<int>(k % bands)) * light[k] / areas[patch];
   }
   ranks.Sum(own);
   std::vector<double> largest(bands, 0.0);
   for (std::size_t k = 0; k < light.size(); ++k)
   {
-    largest[k % bands] = std::max(largest[k % bands], light[k]);
+    largest[k % bands] = std::max(largest[k % bands], std::abs(light[k]));
   }
   std::vector<double> errors(light.size());
   for (std::size_t k = 0; k < errors.size(); ++k)
   {
-    // Links to others are means of two counts.
+    // Links to others are means of two counts. How many photons start on a patch is not left to
+    // chance: what leaves of all that enter it, and of those that enter and leave it, has the
+    // variance of a share of them.
     const double perPhoton = links.PhotonSizes[k % bands] / areas[k / bands];
-    const double variance = perPhoton * 0.5 * (squares[k] + own[k]);
-    // Where no photon has linked any light, the next one may.
-    errors[k] = variance > 0.0 ? std::sqrt(variance) : perPhoton * largest[k % bands];
+    const double chosen = links.PhotonAreas[k % bands] / areas[k / bands];
+    const double variance = perPhoton * 0.5 * (squares[k] + own[k] * light[k]) -
+      0.25 * chosen * (scattered[k] + own[k]) * (scattered[k] + own[k]);
+    // One photon is never certain; and where none has linked any light, the next one may.
+    const double one = perPhoton * perPhoton * squares[k];
+    errors[k] =
+      squares[k] > 0.0 ? std::sqrt(std::max(variance, one)) : perPhoton * largest[k % bands];
   }
   return errors;
 }

@@ -28,12 +28,12 @@ public:
     Links& links) const override;
 
   /**
-   * Standard errors of what the links give, from `squares`, what they give for the square of the
-   * light (patches x bands, as `light` is): a pair that k photons have linked is known to the root
-   * of k. Collective.
+   * Standard errors of what the links give, `scattered`, from `squares`, what they give for the
+   * square of the light (patches x bands, as `light` is): a pair that k photons have linked is
+   * known to the root of k. Collective.
    */
   static std::vector<double> GetErrors(const Links& links, const std::vector<double>& light,
-    const std::vector<double>& squares, const Ranks& ranks);
+    const std::vector<double>& scattered, const std::vector<double>& squares, const Ranks& ranks);
 
 private:
   std::vector<ScatteringMedium> Bands;

@@ -20,8 +20,9 @@ namespace
 {
 // Balls without surface need not be larger than this many free paths: few steps are longer.
 constexpr double FreePathsPerBall = 4.0;
-// What one thread takes at a time, and one rank.
-constexpr long long PhotonsPerTurn = 64;
+// What one thread takes at a time, and one rank: pairs for each of up to three bands.
+constexpr long long PhotonsPerPart = 60;
+constexpr long long FewestPhotons = 64;
 // Photons of the first look at the error, and at most by how much their number grows from look to
 // look.
 constexpr long long FirstPhotons = 1 << 14;
@@ -63,6 +64,7 @@ public:
 
 private:
   void Trace(long long count, std::uint64_t seed, const Ranks& ranks, PhotonRecorder* recorder);
+  double GetDeviationOfNext(double left, std::size_t band) const;
   void Follow(const PhotonStart& start, int leader, PhotonRandom& random, PhotonListener& listener,
     PhotonWalk::Counts& counts) const;
 
@@ -204,7 +206,7 @@ Outcome PhotonScattering::Group::Run(const Settings& settings, const Ranks& rank
     const long long count = std::min(turn, planned - this->Photons);
     this->Trace(count, settings.Seed, ranks, recorder);
     const double work = WorkPerPhoton + double(this->Counts.Scatterings) / this->Photons;
-    turn = std::max(static_cast<long long>(ScatteringsPerReport / work), PhotonsPerTurn);
+    turn = std::max(static_cast<long long>(ScatteringsPerReport / work), FewestPhotons);
     if (settings.NumberOfPhotons == 0 && this->Photons == planned)
     {
       Result result = this->Owner.MakeResult();
@@ -235,9 +237,11 @@ void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const R
   {
     PhotonWalk::Counts counts;
     std::vector<PhotonRecorder::Event> events;
+    // Those of one leader are alike.
+    std::vector<PhotonTally::Pair> pairs(this->Paths.GetNumber(), PhotonTally::Pair(this->Tally));
     for (vtkIdType k = begin; k < end; ++k)
     {
-      if (k / PhotonsPerTurn % ranks.GetNumber() != ranks.GetMine())
+      if (k / PhotonsPerPart % ranks.GetNumber() != ranks.GetMine())
       {
         continue;
       }
@@ -246,14 +250,20 @@ void PhotonScattering::Group::Trace(long long count, std::uint64_t seed, const R
       const PhotonSource::Photon photon =
         this->Source.Start((k + random.Get()) / count, this->Walk, random);
       const auto leader = static_cast<int>((this->Photons + k) % this->Paths.GetNumber());
-      PhotonTally::Listener listener(this->Tally, photon, recorder ? &events : nullptr);
+      PhotonTally::Listener listener(this->Tally, photon, pairs[leader],
+        recorder ? &events : nullptr);
       this->Follow(photon.Start, leader, random, listener, counts);
+      pairs[leader].End();
+    }
+    for (PhotonTally::Pair& pair : pairs)
+    {
+      pair.Close();
     }
     const std::lock_guard<std::mutex> lock(mutex);
     all.Add(counts);
     allEvents.insert(allEvents.end(), events.begin(), events.end());
   };
-  Threads::For(0, count, PhotonsPerTurn, work);
+  Threads::For(0, count, PhotonsPerPart, work);
   if (recorder)
   {
     recorder->Add(allEvents, this->Bands);
@@ -280,6 +290,14 @@ void PhotonScattering::Group::Follow(const PhotonStart& start, int leader, Photo
 }
 
 //------------------------------------------------------------------------------
+// Where no two photons have done different things: what nothing has reached may be reached by the
+// next one, and what few have reached by one less.
+double PhotonScattering::Group::GetDeviationOfNext(double left, std::size_t band) const
+{
+  return left > 0.0 ? std::min(left, 1.0) : (this->CanScatter[band] ? 1.0 : 0.0);
+}
+
+//------------------------------------------------------------------------------
 // Write the bands of this group to those of all.
 void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
 {
@@ -288,16 +306,12 @@ void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
   const std::size_t all = result.RelativeErrors.size();
   const std::size_t mine = this->Bands.size();
   const auto count = static_cast<double>(this->Photons);
-  // Of a sum over photons, from that of squares.
-  const auto getDeviation = [count](double sum, double squares)
-  { return std::sqrt(std::max(squares - sum * sum / count, 0.0)); };
   for (std::size_t k = 0; k < mine; ++k)
   {
     const int band = this->Bands[k];
     double squares = 0.0;
     double errors = 0.0;
     double allLeft = 0.0;
-    double allSquares = 0.0;
     for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
     {
       const double left = totals.Left[face * mine + k];
@@ -307,26 +321,23 @@ void PhotonScattering::Group::Collect(const Ranks& ranks, Result& result) const
         continue;
       }
       const double perPhoton = this->Source.GetFlux(static_cast<int>(k)) / (count * area);
-      // What nothing has reached may be reached by the next photon.
-      const double deviation = left > 0.0 ? getDeviation(left, totals.LeftSquares[face * mine + k])
-                                          : (this->CanScatter[k] ? 1.0 : 0.0);
+      const double variance = totals.LeftVariances[face * mine + k];
       const double value = perPhoton * left;
-      const double error = perPhoton * deviation;
+      const double error =
+        perPhoton * (variance > 0.0 ? std::sqrt(variance) : this->GetDeviationOfNext(left, k));
       result.Scattered[face * all + band] = value;
       result.Errors[face * all + band] = error;
       squares += area * value * value;
       errors += area * error * error;
       allLeft += left;
-      allSquares += totals.LeftSquares[face * mine + k];
     }
     result.RelativeErrors[band] = errors > 0.0 ? std::sqrt(errors / squares) : 0.0;
     result.LeavingShares[band] = totals.Leaving[k] / count;
-    result.LeavingShareErrors[band] =
-      getDeviation(totals.Leaving[k], totals.LeavingSquares[k]) / count;
+    result.LeavingShareErrors[band] = std::sqrt(totals.LeavingVariances[k]) / count;
     result.UnscatteredShares[band] = totals.Unscattered[k] / count;
     result.LostShares[band] = totals.Lost[k] / count;
     result.PhotonsOfBands[band] = count;
-    result.MeanWeights[band] = allLeft > 0.0 ? allSquares / allLeft : 0.0;
+    result.MeanWeights[band] = allLeft > 0.0 ? totals.WeightSquares[k] / allLeft : 0.0;
   }
   result.Photons += this->Photons;
   result.Counts.Add(this->Counts);

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Photons/PhotonTally.h"
 
+#include <algorithm>
+
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
 PhotonTally::PhotonTally(const SceneFaces& faces, int bands)
   : Faces(faces), Bands(bands), Left(faces.GetNumberOfFaces() * bands),
-    LeftSquares(faces.GetNumberOfFaces() * bands)
+    LeftVariances(faces.GetNumberOfFaces() * bands)
 {
   for (std::vector<Sum>& share : this->Shares)
   {
@@ -38,9 +40,62 @@ std::vector<double> PhotonTally::Collect(const std::vector<Sum>& sums, const Ran
 //------------------------------------------------------------------------------
 PhotonTally::Totals PhotonTally::Collect(const Ranks& ranks) const
 {
-  return { Collect(this->Left, ranks), Collect(this->LeftSquares, ranks),
-    Collect(this->Shares[LEAVING], ranks), Collect(this->Shares[LEAVING_SQUARES], ranks),
-    Collect(this->Shares[UNSCATTERED], ranks), Collect(this->Shares[LOST], ranks) };
+  return { Collect(this->Left, ranks), Collect(this->LeftVariances, ranks),
+    Collect(this->Shares[LEAVING], ranks), Collect(this->Shares[LEAVING_VARIANCES], ranks),
+    Collect(this->Shares[UNSCATTERED], ranks), Collect(this->Shares[LOST], ranks),
+    Collect(this->Shares[WEIGHT_SQUARES], ranks) };
+}
+
+//------------------------------------------------------------------------------
+void PhotonTally::Pair::AddExit(vtkIdType face, const double* weights)
+{
+  auto exit = std::find_if(this->Exits.begin(), this->Exits.end(),
+    [face](const Exit& other) { return other.Face == face; });
+  if (exit == this->Exits.end())
+  {
+    exit = this->Exits.insert(exit, { face, {} });
+  }
+  for (int band = 0; band < this->Tally.Bands; ++band)
+  {
+    exit->Weights[band] += this->Sign * weights[band];
+  }
+}
+
+//------------------------------------------------------------------------------
+void PhotonTally::Pair::AddLeaving(const double* weights)
+{
+  for (int band = 0; band < this->Tally.Bands; ++band)
+  {
+    this->Leaving[band] += this->Sign * weights[band];
+  }
+}
+
+//------------------------------------------------------------------------------
+void PhotonTally::Pair::End()
+{
+  this->Sign = -this->Sign;
+  if (this->Sign > 0.0)
+  {
+    this->Close();
+  }
+}
+
+//------------------------------------------------------------------------------
+void PhotonTally::Pair::Close()
+{
+  const int bands = this->Tally.Bands;
+  for (int band = 0; band < bands; ++band)
+  {
+    for (const Exit& exit : this->Exits)
+    {
+      this->Tally.LeftVariances[exit.Face * bands + band].Add(
+        exit.Weights[band] * exit.Weights[band]);
+    }
+    this->Tally.Shares[LEAVING_VARIANCES][band].Add(this->Leaving[band] * this->Leaving[band]);
+    this->Leaving[band] = 0.0;
+  }
+  this->Exits.clear();
+  this->Sign = 1.0;
 }
 
 //------------------------------------------------------------------------------
@@ -53,9 +108,10 @@ void PhotonTally::Listener::Leave(vtkIdType patch, const Eigen::Vector3d&, const
   {
     const double weight = weights[band] * this->Photon.Scales[band];
     this->Tally.Left[face * bands + band].Add(weight);
-    this->Tally.LeftSquares[face * bands + band].Add(weight * weight);
+    this->Tally.Shares[WEIGHT_SQUARES][band].Add(weight * weight);
     event.Weights[band] = weight;
   }
+  this->InPair.AddExit(face, event.Weights);
   if (this->Events)
   {
     this->Events->push_back(event);
@@ -65,14 +121,15 @@ void PhotonTally::Listener::Leave(vtkIdType patch, const Eigen::Vector3d&, const
 //------------------------------------------------------------------------------
 void PhotonTally::Listener::Escape(bool isScattered, const double* weights)
 {
+  double scaled[MostPhotonBands] = {};
   for (int band = 0; band < this->Tally.Bands; ++band)
   {
-    const double weight = weights[band] * this->Photon.Scales[band];
-    this->Tally.Shares[isScattered ? LEAVING : UNSCATTERED][band].Add(weight);
-    if (isScattered)
-    {
-      this->Tally.Shares[LEAVING_SQUARES][band].Add(weight * weight);
-    }
+    scaled[band] = weights[band] * this->Photon.Scales[band];
+    this->Tally.Shares[isScattered ? LEAVING : UNSCATTERED][band].Add(scaled[band]);
+  }
+  if (isScattered)
+  {
+    this->InPair.AddLeaving(scaled);
   }
 }
 

@@ -5,6 +5,11 @@
  * good, ran through without being scattered, or was lost. In whole numbers of a small unit, so that
  * sums are the same in whichever order photons come, on any number of threads and ranks. A photon
  * weighs 1 where it starts, on average over all photons.
+ *
+ * Photons start evenly spread, one in each of many equal parts of the light, so that how much
+ * enters each patch is not left to chance. Variances are those of the differences between photons
+ * of neighbouring parts: squares of what each photon did would count as chance what they have in
+ * common, in large bodies that absorb little several times as much as the rest.
  */
 #ifndef PhotonTally_h
 #define PhotonTally_h
@@ -28,15 +33,18 @@ public:
   /// Sums of all ranks.
   struct Totals
   {
-    ///@{ faces x bands: what left, and the squares of what each photon did.
+    ///@{ faces x bands: what left, and its variance.
     std::vector<double> Left;
-    std::vector<double> LeftSquares;
+    std::vector<double> LeftVariances;
     ///@}
-    ///@{ Of each band: what went away for good after scattering, the squares, and the rest.
+    ///@{ Of each band: what went away for good after scattering, its variance, and the rest; and
+    /// the
+    /// squares of all weights that left.
     std::vector<double> Leaving;
-    std::vector<double> LeavingSquares;
+    std::vector<double> LeavingVariances;
     std::vector<double> Unscattered;
     std::vector<double> Lost;
+    std::vector<double> WeightSquares;
     ///@}
   };
 
@@ -45,6 +53,7 @@ public:
   int GetNumberOfBands() const { return this->Bands; }
   Totals Collect(const Ranks& ranks) const;
 
+  class Pair;
   /// Takes what becomes of one photon.
   class Listener;
 
@@ -66,9 +75,10 @@ private:
   enum Share
   {
     LEAVING,
-    LEAVING_SQUARES,
+    LEAVING_VARIANCES,
     UNSCATTERED,
     LOST,
+    WEIGHT_SQUARES,
     NUMBER_OF_SHARES
   };
   static std::vector<double> Collect(const std::vector<Sum>& sums, const Ranks& ranks);
@@ -76,17 +86,45 @@ private:
   const SceneFaces& Faces;
   int Bands;
   std::vector<Sum> Left;
-  std::vector<Sum> LeftSquares;
+  std::vector<Sum> LeftVariances;
   std::vector<Sum> Shares[NUMBER_OF_SHARES]; ///< of each band
+};
+
+/// Two photons that start next to each other, and what one did minus what the other did.
+class PhotonTally::Pair
+{
+public:
+  explicit Pair(PhotonTally& tally) : Tally(tally) {}
+
+  ///@{ Of the photon that walks.
+  void AddExit(vtkIdType face, const double* weights);
+  void AddLeaving(const double* weights);
+  ///@}
+  /// The photon has ended. Adds to the tally after the second one.
+  void End();
+  /// No second one will come.
+  void Close();
+
+private:
+  struct Exit
+  {
+    vtkIdType Face;
+    double Weights[MostPhotonBands];
+  };
+
+  PhotonTally& Tally;
+  double Sign = 1.0;
+  std::vector<Exit> Exits; ///< one for each face
+  double Leaving[MostPhotonBands] = {};
 };
 
 class PhotonTally::Listener : public PhotonListener
 {
 public:
   /// `events`: where it enters and leaves is added there, unless nullptr.
-  Listener(PhotonTally& tally, const PhotonSource::Photon& photon,
+  Listener(PhotonTally& tally, const PhotonSource::Photon& photon, Pair& pair,
     std::vector<PhotonRecorder::Event>* events)
-    : Tally(tally), Photon(photon), Events(events)
+    : Tally(tally), Photon(photon), InPair(pair), Events(events)
   {
   }
 
@@ -97,6 +135,7 @@ public:
 private:
   PhotonTally& Tally;
   const PhotonSource::Photon& Photon;
+  Pair& InPair;
   std::vector<PhotonRecorder::Event>* Events;
 };
 } // namespace LightTransport

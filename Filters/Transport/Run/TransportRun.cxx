@@ -44,8 +44,9 @@ Outcome TransportRun::Go()
 {
   const Pulse pulse([this]() { return this->Progress.Repeat(); }, this->ProgressInterval);
   Outcome outcome = Outcome::Done();
-  for (const auto step : { &TransportRun::Check, &TransportRun::Gather, &TransportRun::WarnOfScene,
-         &TransportRun::Read, &TransportRun::Link, &TransportRun::Compute, &TransportRun::Finish })
+  for (const auto step : { &TransportRun::CheckNumbers, &TransportRun::Check, &TransportRun::Gather,
+         &TransportRun::WarnOfScene, &TransportRun::Read, &TransportRun::Link,
+         &TransportRun::Compute, &TransportRun::Finish })
   {
     if (outcome)
     {
@@ -53,6 +54,18 @@ Outcome TransportRun::Go()
     }
   }
   return outcome;
+}
+
+//------------------------------------------------------------------------------
+NumberProperties::List TransportRun::ListNumbers() const
+{
+  return { { "FeatureAngle", this->Filter->GetFeatureAngle() } };
+}
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::CheckNumbers()
+{
+  return NumberProperties::Check(this->ListNumbers());
 }
 
 //------------------------------------------------------------------------------

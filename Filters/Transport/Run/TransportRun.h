@@ -11,6 +11,7 @@
 #include "Run/FilterProgress.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Monitor.h"
+#include "Shared/NumberProperties.h"
 #include "Shared/Outcome.h"
 #include "Support/Ranks.h"
 
@@ -47,6 +48,8 @@ public:
   static const Advice& GetAdvice();
 
 protected:
+  /// Properties that VTK clamps, for all that are no numbers to be refused first.
+  virtual NumberProperties::List ListNumbers() const;
   /// Properties that contradict each other or are out of range, before any work.
   virtual Outcome Check() { return Outcome::Done(); }
   /// The scene from the input; in the spatial order, unless a filter needs another.
@@ -88,6 +91,7 @@ protected:
 private:
   double ProgressInterval;
 
+  Outcome CheckNumbers();
   Outcome WarnOfScene();
   Outcome Finish();
   Outcome CheckResults() const;

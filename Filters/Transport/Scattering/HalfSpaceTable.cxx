@@ -42,8 +42,6 @@ constexpr double LevelPenalty = 100.0;
 constexpr double CentrePenalty = 2.0;
 ///@}
 
-// The least that is absorbed, else walks have no mean length.
-constexpr double LeastAbsorption = 1e-4;
 ///@{ Scatterings that a walk may have in all, and what a photon costs beside.
 constexpr double MostWork = 5e7;
 constexpr double WorkPerPhoton = 10.0;
@@ -57,6 +55,26 @@ constexpr long long FirstPhotons = 512;
 constexpr int NumberOfMoments = 128;
 
 constexpr std::size_t MostTables = 64;
+
+/// What is kept, of the whole process.
+struct Shelf
+{
+  std::mutex Mutex;
+  std::deque<std::pair<HalfSpaceTable::Settings, std::shared_ptr<const HalfSpaceTable>>> Tables;
+};
+
+//------------------------------------------------------------------------------
+Shelf& GetShelf()
+{
+  static Shelf shelf;
+  return shelf;
+}
+
+//------------------------------------------------------------------------------
+double GetFall(double x)
+{
+  return (1.0 + x) * std::exp(-x);
+}
 
 //------------------------------------------------------------------------------
 double GetRadius(double position)
@@ -92,6 +110,14 @@ public:
 
   Rings() : Left(NumberOfRings, 0), Squares(NumberOfRings, 0) {}
 
+  /// Of all ranks.
+  double GetScatterings(const Ranks& ranks) const
+  {
+    auto scatterings = static_cast<double>(this->Counts.Scatterings);
+    ranks.Sum(&scatterings, 1);
+    return scatterings;
+  }
+
   void Leave(vtkIdType, const Eigen::Vector3d& position, const double* weights) override
   {
     const double radius = std::hypot(position.x(), position.y());
@@ -112,17 +138,24 @@ public:
     }
     this->Counts.Add(other.Counts);
   }
+  void Sum(const Ranks& ranks)
+  {
+    ranks.Sum(this->Left);
+    ranks.Sum(this->Squares);
+  }
 
   double GetLeft(int ring) const { return double(this->Left[ring]) / PhotonUnits::PerPhoton; }
   double GetSquares(int ring) const { return double(this->Squares[ring]) / PhotonUnits::PerPhoton; }
 
 private:
-  std::vector<std::int64_t> Left;
-  std::vector<std::int64_t> Squares;
+  // The type that ranks exchange.
+  std::vector<vtkIdType> Left;
+  std::vector<vtkIdType> Squares;
 };
 
 //------------------------------------------------------------------------------
-HalfSpaceTable::HalfSpaceTable(const Settings& settings) : Controls(NumberOfRings, 0.0)
+HalfSpaceTable::HalfSpaceTable(const Settings& settings, const Ranks& ranks)
+  : Controls(NumberOfRings, 0.0)
 {
   const double absorption = std::max(1.0 - settings.Albedo, LeastAbsorption);
   const double decay = GetDecay(absorption, settings.Anisotropy);
@@ -138,6 +171,10 @@ HalfSpaceTable::HalfSpaceTable(const Settings& settings) : Controls(NumberOfRing
     Rings rings;
     for (vtkIdType k = begin; k < end; ++k)
     {
+      if (k / PhotonsPerTurn % ranks.GetNumber() != ranks.GetMine())
+      {
+        continue;
+      }
       Pulse::Beat();
       PhotonRandom random(settings.Seed, k);
       UniformPath path(bands, 0);
@@ -148,11 +185,11 @@ HalfSpaceTable::HalfSpaceTable(const Settings& settings) : Controls(NumberOfRing
     const std::lock_guard<std::mutex> lock(mutex);
     all.Add(rings);
   };
+  double scatterings = 0.0;
   const auto isDone = [&]()
   {
-    return settings.NumberOfPhotons > 0
-      ? this->Photons >= settings.NumberOfPhotons
-      : all.Counts.Scatterings + WorkPerPhoton * this->Photons >= MostWork;
+    return settings.NumberOfPhotons > 0 ? this->Photons >= settings.NumberOfPhotons
+                                        : scatterings + WorkPerPhoton * this->Photons >= MostWork;
   };
   long long count = FirstPhotons;
   while (!isDone())
@@ -163,9 +200,11 @@ HalfSpaceTable::HalfSpaceTable(const Settings& settings) : Controls(NumberOfRing
     }
     Threads::For(this->Photons, this->Photons + count, PhotonsPerTurn, follow);
     this->Photons += count;
-    const double work = WorkPerPhoton + double(all.Counts.Scatterings) / this->Photons;
+    scatterings = all.GetScatterings(ranks);
+    const double work = WorkPerPhoton + scatterings / this->Photons;
     count = std::max(static_cast<long long>(WorkPerLook / work), PhotonsPerTurn);
   }
+  all.Sum(ranks);
   this->Fit(all, medium.GetExtinction(), decay);
 }
 
@@ -236,14 +275,6 @@ double HalfSpaceTable::GetDecay(double absorption, double anisotropy)
 }
 
 //------------------------------------------------------------------------------
-double HalfSpaceTable::GetShape(double radius, double decay)
-{
-  const double x = radius * decay;
-  const double turned = radius / Turn;
-  return (1.0 + x) * std::exp(-x) / (radius * (1.0 + turned * turned));
-}
-
-//------------------------------------------------------------------------------
 /// Where no control is it is that at the end.
 double HalfSpaceTable::Interpolate(double position) const
 {
@@ -264,10 +295,18 @@ double HalfSpaceTable::Interpolate(double position) const
 }
 
 //------------------------------------------------------------------------------
-double HalfSpaceTable::Evaluate(double radius, double decay) const
+double HalfSpaceTable::Evaluate(double radius, double decay, double walkDecay, double gain) const
 {
+  double fall = GetFall(radius * decay);
+  if (gain != 1.0)
+  {
+    const double walked = GetFall(radius * walkDecay);
+    fall = walked + gain * (fall - walked);
+  }
+  const double turned = radius / Turn;
+  const double shape = fall / (radius * (1.0 + turned * turned));
   const double position = RingsPerUnit * (std::log(radius) - FirstLogarithm);
-  return GetShape(radius, decay) * std::exp(this->Interpolate(position));
+  return shape * std::exp(this->Interpolate(position));
 }
 
 //------------------------------------------------------------------------------
@@ -325,30 +364,42 @@ void HalfSpaceTable::LimitRise()
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const HalfSpaceTable> HalfSpaceTable::Get(const Settings& settings)
+std::shared_ptr<const HalfSpaceTable> HalfSpaceTable::Find(const Settings& settings)
 {
-  using Kept = std::pair<Settings, std::shared_ptr<const HalfSpaceTable>>;
-  static std::mutex mutex;
-  static std::deque<Kept> tables;
+  Shelf& shelf = GetShelf();
+  const std::lock_guard<std::mutex> lock(shelf.Mutex);
+  const auto found = std::find_if(shelf.Tables.begin(), shelf.Tables.end(),
+    [&settings](const auto& kept) { return kept.first == settings; });
+  return found != shelf.Tables.end() ? found->second : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void HalfSpaceTable::Keep(const Settings& settings,
+  const std::shared_ptr<const HalfSpaceTable>& table)
+{
+  Shelf& shelf = GetShelf();
+  const std::lock_guard<std::mutex> lock(shelf.Mutex);
+  shelf.Tables.emplace_back(settings, table);
+  if (shelf.Tables.size() > MostTables)
+  {
+    shelf.Tables.pop_front();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const HalfSpaceTable> HalfSpaceTable::Get(const Settings& settings,
+  const Ranks& ranks)
+{
   // Media that absorb less share their walk.
   Settings wanted = settings;
   wanted.Albedo = std::min(settings.Albedo, 1.0 - LeastAbsorption);
+  auto table = Find(wanted);
+  // What one rank lacks all of them make.
+  if (ranks.GetLargest(table ? 0 : 1) > 0)
   {
-    const std::lock_guard<std::mutex> lock(mutex);
-    const auto found = std::find_if(tables.begin(), tables.end(),
-      [&wanted](const Kept& kept) { return kept.first == wanted; });
-    if (found != tables.end())
-    {
-      return found->second;
-    }
+    table = std::make_shared<const HalfSpaceTable>(wanted, ranks);
+    Keep(wanted, table);
   }
-  auto made = std::make_shared<const HalfSpaceTable>(wanted);
-  const std::lock_guard<std::mutex> lock(mutex);
-  tables.emplace_back(wanted, made);
-  if (tables.size() > MostTables)
-  {
-    tables.pop_front();
-  }
-  return made;
+  return table;
 }
 } // namespace LightTransport

@@ -16,11 +16,14 @@
  * enough photons have reached the spline goes on as a constant, so that the profile goes on as M.
  * It is made to fall everywhere, and its total is that of the walk.
  *
- * Where less than 1e-4 is absorbed the walk is that of 1e-4, which ends in bounded time, and g that
- * of the medium: what the walk lacks leaves so far away that diffusion is exact.
+ * Where less than 1e-4 is absorbed (LeastAbsorption) the walk is that of 1e-4, which ends in
+ * bounded time: what it lacks leaves far away, by diffusion, as g of the medium says
+ * (TabulatedProfile).
  */
 #ifndef HalfSpaceTable_h
 #define HalfSpaceTable_h
+
+#include "Support/Ranks.h"
 
 #include <cstdint>
 #include <memory>
@@ -43,25 +46,33 @@ public:
     bool IsNormal = false;
   };
 
-  explicit HalfSpaceTable(const Settings& settings);
+  /// The least that is absorbed of what is scattered or absorbed, else walks have no mean length.
+  static constexpr double LeastAbsorption = 1e-4;
 
-  /// The same table where it is kept from before, by this process: the last few are. Thread-safe.
-  static std::shared_ptr<const HalfSpaceTable> Get(const Settings& settings);
+  /// Each rank takes some of the photons; the bits are the same on any number. Collective.
+  explicit HalfSpaceTable(const Settings& settings, const Ranks& ranks = Ranks());
+
+  /// The same table where it is kept from before, by this process: the last few are. Thread-safe;
+  /// collective.
+  static std::shared_ptr<const HalfSpaceTable> Get(const Settings& settings,
+    const Ranks& ranks = Ranks());
 
   /// kappa. `absorption` is 1 - albedo, which that difference may not hold to all digits.
   static double GetDecay(double absorption, double anisotropy);
 
-  /// Of what entered, per unit area. `decay` is that of the medium.
-  double Evaluate(double radius, double decay) const;
+  /// Of what entered, per unit area. `decay` is that of the medium. With a `gain` that is not 1
+  /// only this part of what differs from a medium with `walkDecay` is there.
+  double Evaluate(double radius, double decay, double walkDecay = 0.0, double gain = 1.0) const;
 
-  /// Standard error of what leaves in all, relative.
+  /// Standard error of what leaves of the walk in all, relative.
   double GetError() const { return this->Error; }
   long long GetNumberOfPhotons() const { return this->Photons; }
 
 private:
   class Rings;
 
-  static double GetShape(double radius, double decay);
+  static std::shared_ptr<const HalfSpaceTable> Find(const Settings& settings);
+  static void Keep(const Settings& settings, const std::shared_ptr<const HalfSpaceTable>& table);
   double Interpolate(double position) const;
   double SumRing(int ring, double decay) const;
   void Fit(const Rings& rings, double extinction, double decay);

@@ -59,6 +59,12 @@ void IntegratedProfile::AddInterval(std::size_t interval, double sums[3]) const
 void IntegratedProfile::Integrate(double scale)
 {
   this->Scale = scale;
+  this->Decay = 0.0;
+  this->Total = 0.0;
+  for (std::vector<Knot>& knots : this->Table)
+  {
+    knots.clear();
+  }
   if (this->Evaluate(this->GetRadius(0.0)) > 0.0)
   {
     this->IntegrateMoments();

@@ -25,7 +25,8 @@ public:
   double GetDecay() const override { return this->Decay; }
 
 protected:
-  /// To be called at the end of a constructor, when Evaluate works. `scale` is that of the profile.
+  /// To be called at the end of a constructor, when Evaluate works, and again when it has changed.
+  /// `scale` is that of the profile.
   void Integrate(double scale);
 
 private:

@@ -3,6 +3,7 @@
 #include "Scattering/ProfileRun.h"
 
 #include "Links/LinkCache.h"
+#include "Scattering/AirShare.h"
 #include "Scattering/ScatteringLinks.h"
 #include "Shared/FieldValues.h"
 #include "vtkSubsurfaceScattering.h"
@@ -30,12 +31,29 @@ bool ProfileRun::IsTabulated() const
 //------------------------------------------------------------------------------
 Outcome ProfileRun::Check()
 {
+  if (this->Owner->GetDropLinksThroughAir() &&
+    this->Owner->GetLinkMethod() > vtkSubsurfaceScattering::LINK_METHOD_DENSE)
+  {
+    return Outcome::Failed(
+      "DropLinksThroughAir looks at pairs of patches, and LinkMethod is Uniform "
+      "or Adaptive: set it to Auto or Dense, or do not drop links.");
+  }
   if (this->Owner->GetNumberOfInputConnections(1) > 0)
   {
     return Outcome::Failed("A medium that varies is connected (input port 1), and Model is a "
                            "profile of uniform media: set Model to MonteCarlo, or disconnect it.");
   }
   return this->ScatteringRun::Check();
+}
+
+//------------------------------------------------------------------------------
+// In an order for clusters, where there may be any.
+Outcome ProfileRun::Gather()
+{
+  return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
+    ? this->ScatteringRun::Gather()
+    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface,
+        this->NumberOfSides, this->TakesTexels);
 }
 
 //------------------------------------------------------------------------------
@@ -49,27 +67,47 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
-    this->Owner->GetMillimetersPerUnit(), this->Owner->GetLinkTolerance());
+    this->Owner->GetMillimetersPerUnit(),
+    ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
+      this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir() });
 }
 
 //------------------------------------------------------------------------------
-/// More than all of it comes back only by an error.
-void ProfileRun::CheckEnergy() const
+/// More than all of it comes back only by an error; of light below 0 nobody can tell.
+void ProfileRun::CheckEnergy(const AirShare& air) const
 {
-  const double margin = NegligibleExcess + this->Cache.Get().GetSummary("LinkErrorBound");
+  const Links& links = this->Cache.Get();
+  const double margin =
+    1.0 + NegligibleExcess + links.GetSummary("LinkErrorBound") + links.GetSummary("LinkError");
+  if (*std::min_element(this->Irradiance.begin(), this->Irradiance.end()) < 0.0)
+  {
+    return;
+  }
+  double gains[Bands];
   for (int band = 0; band < Bands; ++band)
   {
-    if (this->LeavingFlux[band] > (1.0 + margin) * this->EnteringFlux[band])
+    gains[band] =
+      this->EnteringFlux[band] > 0.0 ? this->LeavingFlux[band] / this->EnteringFlux[band] : 0.0;
+  }
+  const auto worst = std::max_element(gains, gains + Bands) - gains;
+  if (gains[worst] > margin)
+  {
+    std::ostringstream text;
+    text << "In component " << worst << " " << gains[worst]
+         << " times the light that enters leaves again, which cannot be: a flat surface gives back "
+         << links.ProfileTotals[worst] << " by this model";
+    if (!links.AreThroughAirDropped && !air.Shares.empty() && air.Shares[worst] > 0.0)
     {
-      std::ostringstream text;
-      text
-        << "In component " << band << " " << this->LeavingFlux[band] / this->EnteringFlux[band]
-        << " times the light that enters leaves again: the model claims too much where little is "
-           "absorbed, or straight links do, across sharp edges and the air between parts of the "
-           "body. Compare with Model MonteCarlo, which keeps energy in closed bodies.";
-      this->Warn(text.str());
-      return;
+      text << ", " << 100.0 * air.Shares[worst]
+           << " % goes through the air between parts of the body (DropLinksThroughAir leaves that "
+              "out)";
     }
+    if (gains[worst] > links.ProfileTotals[worst])
+    {
+      text << ", and straight links claim too much across hollows, sharp edges and thin walls";
+    }
+    text << ". Compare with Model MonteCarlo, which keeps energy in closed bodies.";
+    this->Warn(text.str());
   }
 }
 
@@ -91,12 +129,19 @@ void ProfileRun::CheckThickness() const
 void ProfileRun::WriteScattered(const SceneOutput& output)
 {
   this->ScatteringRun::WriteScattered(output);
+  const Links& links = this->Cache.Get();
+  FieldValues::Add(this->GetOutputFields(), "ProfileTotal", links.ProfileTotals.data(), Bands);
   if (this->IsTabulated())
   {
-    FieldValues::Add(this->GetOutputFields(), "ProfileError",
-      this->Cache.Get().ProfileErrors.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "ProfileError", links.ProfileErrors.data(), Bands);
+  }
+  const AirShare air(links, this->GetEntering(), this->Scattered);
+  if (!air.Shares.empty())
+  {
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
   }
   this->CheckThickness();
-  this->CheckEnergy();
+  this->CheckEnergy(air);
 }
 } // namespace LightTransport

@@ -8,6 +8,8 @@
 
 namespace LightTransport
 {
+struct AirShare;
+
 class ProfileRun : public ScatteringRun
 {
 public:
@@ -15,13 +17,14 @@ public:
 
 protected:
   Outcome Check() override;
+  Outcome Gather() override;
   void WriteScattered(const SceneOutput& output) override;
   bool IsAnisotropic() const override { return this->IsTabulated(); }
   std::unique_ptr<LinkBuilder> MakeBuilder() const override;
 
 private:
   bool IsTabulated() const;
-  void CheckEnergy() const;
+  void CheckEnergy(const AirShare& air) const;
   void CheckThickness() const;
 };
 } // namespace LightTransport

@@ -2,21 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringAssembly.h"
 
+#include "Scattering/AirGaps.h"
 #include "Scattering/ScatteringIntegrals.h"
+#include "Scattering/ScatteringPatches.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
+#include "Support/SplitMix.h"
 #include "vtkExchangeMatrix.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace LightTransport
 {
 namespace
 {
-using Triangle = ScatteringIntegrals::Triangle;
-
 /// Rows of a tile that one thread works on at a time.
 constexpr int RowsPerStrip = 8;
 /// Calls of the monitor; the same on all ranks. The first tiles, of neighbours, take the longest.
@@ -35,51 +37,45 @@ constexpr double RoundingMargin = 1.01;
 /// Halvings of the longest distance in the search for the one beyond which pairs are left out.
 constexpr int CutOffSteps = 60;
 
+/// Links of a patch that are looked at for air, where not all of them are; a little more of small
+/// ones and where bands differ.
+constexpr double AirSamples = 64.0;
+
 //------------------------------------------------------------------------------
-/// Patches in millimetres.
-struct Body
+/// What a thread leaves behind for a patch.
+struct PatchSummary
 {
-  Body(const PatchScene& scene, double scale)
+  using Bands = ScatteringIntegrals::Bands;
+  double Error = 0.0;
+  Bands ThroughAir = Bands::Zero();
+  Bands ThroughAirVariance = Bands::Zero();
+
+  void Add(const PatchSummary& other)
   {
-    const vtkIdType count = scene.GetNumberOfPatches();
-    this->Offsets.reserve(count + 1);
-    this->Offsets.push_back(0);
-    for (vtkIdType patch = 0; patch < count; ++patch)
+    this->Error += other.Error;
+    this->ThroughAir += other.ThroughAir;
+    this->ThroughAirVariance += other.ThroughAirVariance;
+  }
+  void AddTo(ScatteringAssembly::Summary& summary, vtkIdType patch) const
+  {
+    summary.Errors[patch] += this->Error;
+    for (int band = 0; band < ScatteringIntegrals::NumberOfBands; ++band)
     {
-      const auto corner = [&](int k) { return scale * scene.GetCorner(patch, k); };
-      for (int k = 2; k < scene.GetNumberOfCorners(patch); ++k)
-      {
-        const Triangle triangle(corner(0), corner(k - 1), corner(k));
-        // A corner in the middle of an edge leaves one without an area.
-        if (triangle.Area > 0.0)
-        {
-          this->Triangles.push_back(triangle);
-        }
-      }
-      this->Offsets.push_back(static_cast<vtkIdType>(this->Triangles.size()));
-      this->Centroids.emplace_back(scale * scene.GetCentroid(patch));
-      this->Radii.push_back(scale * scene.GetRadius(patch));
-      this->Areas.push_back(scale * scale * scene.GetAreas()[patch]);
-      this->TotalArea += this->Areas.back();
+      const vtkIdType k = patch * ScatteringIntegrals::NumberOfBands + band;
+      summary.ThroughAir[k] += this->ThroughAir[band];
+      summary.ThroughAirVariances[k] += this->ThroughAirVariance[band];
     }
   }
-
-  std::vector<Triangle> Triangles;
-  std::vector<vtkIdType> Offsets;
-  std::vector<PatchScene::Vector> Centroids;
-  std::vector<double> Radii;
-  std::vector<double> Areas;
-  double TotalArea = 0.0;
 };
 
 //------------------------------------------------------------------------------
-/// What a thread leaves behind for one strip of a tile.
+/// And for one strip of a tile.
 struct StripSummary
 {
   vtkIdType Links = 0;
   vtkIdType LeftOut = 0;
-  double RowErrors[RowsPerStrip] = {};
-  double ColumnErrors[vtkExchangeMatrix::TileSize] = {};
+  PatchSummary Rows[RowsPerStrip];
+  PatchSummary Columns[vtkExchangeMatrix::TileSize];
 };
 
 //------------------------------------------------------------------------------
@@ -87,10 +83,10 @@ struct StripSummary
 class StripFiller
 {
 public:
-  StripFiller(const Body& body, const ScatteringIntegrals& integrals,
+  StripFiller(const ScatteringPatches& body, const ScatteringIntegrals& integrals,
     const ScatteringProfiles& profiles, double tolerance, double furthest,
-    vtkExchangeMatrix* exchange)
-    : Patches(body), Integrals(integrals), Tiles(exchange->GetTiles())
+    const ScatteringAssembly::AirLinks& air, vtkExchangeMatrix* exchange)
+    : Patches(body), Integrals(integrals), Air(air), Tiles(exchange->GetTiles())
   {
     for (std::size_t band = 0; band < profiles.size(); ++band)
     {
@@ -134,12 +130,12 @@ public:
       const vtkIdType column = tile.Column * vtkExchangeMatrix::TileSize;
       for (vtkIdType i = 0; i < std::min<vtkIdType>(RowsPerStrip, count - row); ++i)
       {
-        summary.Errors[row + i] += strip.RowErrors[i];
+        strip.Rows[i].AddTo(summary, row + i);
       }
       for (vtkIdType j = 0; j < std::min<vtkIdType>(vtkExchangeMatrix::TileSize, count - column);
            ++j)
       {
-        summary.Errors[column + j] += strip.ColumnErrors[j];
+        strip.Columns[j].AddTo(summary, column + j);
       }
     }
   }
@@ -190,21 +186,26 @@ private:
       for (vtkIdType column = std::max<vtkIdType>(0, i - columnOffset); column < last; ++column)
       {
         const vtkIdType j = columnOffset + column;
-        const double error = this->FillPair(tile, row, column, i, j, summary);
-        summary.RowErrors[row - firstRow] += error;
-        summary.ColumnErrors[column] += i == j ? 0.0 : error;
+        PatchSummary pair;
+        this->FillPair(tile, row, column, i, j, summary, pair);
+        summary.Rows[row - firstRow].Add(pair);
+        if (i != j)
+        {
+          summary.Columns[column].Add(pair);
+        }
       }
     }
   }
 
-  /// Returns the estimated error.
-  double FillPair(vtkExchangeMatrix::Tile& tile, vtkIdType row, vtkIdType column, vtkIdType i,
-    vtkIdType j, StripSummary& summary) const
+  /// `pair`: what it adds to the summaries of both patches.
+  void FillPair(vtkExchangeMatrix::Tile& tile, vtkIdType row, vtkIdType column, vtkIdType i,
+    vtkIdType j, StripSummary& summary, PatchSummary& pair) const
   {
     ScatteringIntegrals::Result result;
     if (i == j)
     {
-      this->IntegrateSelf(i, result);
+      this->Patches.AddSelf(this->Integrals, i, this->PerNeighbour / this->Patches.Areas[i],
+        result);
     }
     else
     {
@@ -214,7 +215,8 @@ private:
       if (distance - reach > this->CutOff)
       {
         ++summary.LeftOut;
-        return this->PerArea * areas;
+        pair.Error = this->PerArea * areas;
+        return;
       }
       ++summary.Links;
       double tolerance = this->PerArea * areas;
@@ -222,52 +224,52 @@ private:
       {
         tolerance += this->PerNeighbour * std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
       }
-      this->IntegratePair(i, j, tolerance / areas, result);
+      this->Patches.AddPair(this->Integrals, i, j, tolerance / areas, result);
+      this->LookForAir(i, j, result.Value, pair);
     }
+    pair.Error = result.Error;
     for (int band = 0; band < ScatteringIntegrals::NumberOfBands; ++band)
     {
       vtkExchangeMatrix::SetValue(tile, static_cast<int>(row), static_cast<int>(column), band,
         this->Totals[band] * result.Value[band]);
     }
-    return result.Error;
   }
 
-  void IntegratePair(vtkIdType i, vtkIdType j, double tolerancePerAreas,
-    ScatteringIntegrals::Result& result) const
+  /// Of the links of a patch about as many are looked at as AirSamples says, stronger ones more
+  /// likely, by a number that is the link's own: so that threads and ranks do not matter.
+  void LookForAir(vtkIdType i, vtkIdType j, ScatteringIntegrals::Bands& value,
+    PatchSummary& pair) const
   {
-    for (vtkIdType p = this->Patches.Offsets[i]; p < this->Patches.Offsets[i + 1]; ++p)
+    if (!this->Air.Gaps.MayBeThere())
     {
-      const Triangle& a = this->Patches.Triangles[p];
-      for (vtkIdType q = this->Patches.Offsets[j]; q < this->Patches.Offsets[j + 1]; ++q)
+      return;
+    }
+    double chance = 1.0;
+    if (!this->Air.AreDropped)
+    {
+      const double part =
+        value.maxCoeff() / std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
+      chance = std::min(AirSamples * part, 1.0);
+      const auto count = static_cast<std::uint64_t>(this->Patches.Areas.size());
+      SplitMix number(static_cast<std::uint64_t>(i) * count + static_cast<std::uint64_t>(j));
+      if (!(number.GetNextHalf() < chance * 0x1p32))
       {
-        const Triangle& b = this->Patches.Triangles[q];
-        this->Integrals.AddPair(a, b, tolerancePerAreas * a.Area * b.Area, result);
+        return;
       }
+    }
+    if (this->Air.Gaps.AreBetween(i, j))
+    {
+      pair.ThroughAir = value * this->Totals / chance;
+      pair.ThroughAirVariance = (1.0 - chance) * pair.ThroughAir.square();
+      value *= this->Air.AreDropped ? 0.0 : 1.0;
     }
   }
 
-  void IntegrateSelf(vtkIdType i, ScatteringIntegrals::Result& result) const
-  {
-    ScatteringIntegrals::Result pairs;
-    const double tolerance = this->PerNeighbour / this->Patches.Areas[i];
-    for (vtkIdType p = this->Patches.Offsets[i]; p < this->Patches.Offsets[i + 1]; ++p)
-    {
-      const Triangle& a = this->Patches.Triangles[p];
-      this->Integrals.AddSelf(a, result);
-      for (vtkIdType q = this->Patches.Offsets[i]; q < p; ++q)
-      {
-        const Triangle& b = this->Patches.Triangles[q];
-        this->Integrals.AddPair(a, b, tolerance * a.Area * b.Area, pairs);
-      }
-    }
-    result.Value += 2.0 * pairs.Value;
-    result.Error += 2.0 * pairs.Error;
-  }
-
-  const Body& Patches;
+  const ScatteringPatches& Patches;
   const ScatteringIntegrals& Integrals;
+  const ScatteringAssembly::AirLinks& Air;
   const std::vector<vtkExchangeMatrix::Tile>& Tiles;
-  double Totals[ScatteringIntegrals::NumberOfBands];
+  ScatteringIntegrals::Bands Totals = ScatteringIntegrals::Bands::Zero();
   double PerArea;
   double PerNeighbour;
   double CutOff = 0.0;
@@ -278,16 +280,24 @@ private:
 
 //------------------------------------------------------------------------------
 Outcome ScatteringAssembly::Fill(const PatchScene& scene, double millimetersPerSceneUnit,
-  const ScatteringProfiles& profiles, double tolerance, vtkExchangeMatrix* exchange,
-  const Monitor& monitor, Summary& summary)
+  const ScatteringProfiles& profiles, double tolerance, const AirLinks& air,
+  vtkExchangeMatrix* exchange, const Monitor& monitor, Summary& summary)
 {
-  const Body body(scene, millimetersPerSceneUnit);
+  const ScatteringPatches body(scene, millimetersPerSceneUnit);
   // The scene's bounding box has diagonal 1.
   const double furthest = RoundingMargin * millimetersPerSceneUnit;
   const ScatteringIntegrals integrals(profiles, furthest, ShareOfValues * tolerance);
-  StripFiller filler(body, integrals, profiles, tolerance, furthest, exchange);
+  StripFiller filler(body, integrals, profiles, tolerance, furthest, air, exchange);
   summary = Summary();
   summary.Errors.assign(body.Areas.size(), 0.0);
+  summary.ThroughAir.assign(body.Areas.size() * profiles.size(), 0.0);
+  summary.ThroughAirVariances.assign(body.Areas.size() * profiles.size(), 0.0);
+  const bool isSample = air.Gaps.MayBeThere() && !air.AreDropped;
+  for (const auto& profile : profiles)
+  {
+    const double largest = *std::max_element(body.Areas.begin(), body.Areas.end());
+    summary.AirSamples.push_back(isSample ? profile->GetTotal() * largest / AirSamples : 0.0);
+  }
   const vtkIdType strips =
     static_cast<vtkIdType>(exchange->GetTiles().size()) * StripFiller::StripsPerTile;
   for (int batch = 0; batch < NumberOfBatches; ++batch)

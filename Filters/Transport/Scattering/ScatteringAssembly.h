@@ -23,6 +23,7 @@ class vtkExchangeMatrix;
 
 namespace LightTransport
 {
+class AirGaps;
 class PatchScene;
 
 namespace ScatteringAssembly
@@ -36,6 +37,21 @@ struct Summary
   /// Per patch: estimated error of the links over the profile's total, the left-out ones included,
   /// in mm^2.
   std::vector<double> Errors;
+  ///@{ Per patch and band: what its links through air carry for a unit of light on it, in mm^2, and
+  /// the variance of that where it is an estimate.
+  std::vector<double> ThroughAir;
+  std::vector<double> ThroughAirVariances;
+  ///@}
+  /// Per band, what one link of such a sample stands for at most, in mm^2.
+  std::vector<double> AirSamples;
+};
+
+/// What becomes of links through air: a sample of them is looked for, or all of them, which are
+/// left out.
+struct AirLinks
+{
+  const AirGaps& Gaps;
+  bool AreDropped;
 };
 
 /**
@@ -44,8 +60,8 @@ struct Summary
  * thread.
  */
 Outcome Fill(const PatchScene& scene, double millimetersPerSceneUnit,
-  const ScatteringProfiles& profiles, double tolerance, vtkExchangeMatrix* exchange,
-  const Monitor& monitor, Summary& summary);
+  const ScatteringProfiles& profiles, double tolerance, const AirLinks& air,
+  vtkExchangeMatrix* exchange, const Monitor& monitor, Summary& summary);
 } // namespace ScatteringAssembly
 } // namespace LightTransport
 

@@ -21,12 +21,6 @@ namespace
 using Vector = ScatteringIntegrals::Vector;
 using Triangle = ScatteringIntegrals::Triangle;
 
-/// The table has 2^6 pieces per octave of squared distance: the top bits of a float are the piece,
-/// the rest is the place in it.
-constexpr int MantissaBits = 23;
-constexpr int PieceBits = 6;
-constexpr int PlaceBits = MantissaBits - PieceBits;
-
 /// Cuts after which the rules have the last word: sides are 2^-6 of what they were. Patches wider
 /// than some 60 mean free paths then get a worse error estimate, but never endless work.
 constexpr int MaximumDepth = 12;
@@ -77,22 +71,6 @@ constexpr float WeightsOfThree[] = { 1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f };
 constexpr double PlacesOfSix[] = { 0.445948490915965, 0.091576213509771 };
 constexpr float WeightsOfSix[] = { 0.223381589678011f, 0.223381589678011f, 0.223381589678011f,
   0.109951743655322f, 0.109951743655322f, 0.109951743655322f };
-
-//------------------------------------------------------------------------------
-std::uint32_t BitsOf(float value)
-{
-  std::uint32_t bits;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-
-//------------------------------------------------------------------------------
-float FloatOf(std::uint32_t bits)
-{
-  float value;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
 
 //------------------------------------------------------------------------------
 void PlaceSix(const Triangle& triangle, Vector* points)
@@ -198,16 +176,6 @@ double ScatteringIntegrals::EvaluateExactly(int band, double squaredDistance) co
 }
 
 //------------------------------------------------------------------------------
-inline ScatteringIntegrals::Lane ScatteringIntegrals::Evaluate(double squaredDistance) const
-{
-  const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredCore));
-  const Piece& piece = this->Table[(bits >> PlaceBits) - this->FirstPiece];
-  constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
-  const float place = static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits));
-  return piece.Coefficients[0] + place * (piece.Coefficients[1] + place * piece.Coefficients[2]);
-}
-
-//------------------------------------------------------------------------------
 double ScatteringIntegrals::GetBound(double distance) const
 {
   double bound = 0.0;
@@ -242,17 +210,6 @@ double ScatteringIntegrals::GetLargestShare(double area) const
     share = std::max(share, value);
   }
   return std::min(1.0, share);
-}
-
-//------------------------------------------------------------------------------
-inline ScatteringIntegrals::Bands ScatteringIntegrals::GetSlopes(double squaredDistance) const
-{
-  Bands slopes = this->SlopesOfSource / (squaredDistance + this->SquaredScales).sqrt();
-  if (this->Singular)
-  {
-    slopes += this->SlopesOfCentre / std::sqrt(squaredDistance + this->SquaredCore);
-  }
-  return slopes + this->Decays;
 }
 
 //------------------------------------------------------------------------------

@@ -24,7 +24,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -76,6 +78,24 @@ public:
   /// Upper bound of what an area can give back of its own light, over the total; at most 1.
   double GetLargestShare(double area) const;
 
+  /// The profiles at a distance.
+  Bands GetValue(double squaredDistance) const
+  {
+    return this->Evaluate(squaredDistance).cast<double>();
+  }
+  /// And their derivative by the squared distance.
+  Bands GetValue(double squaredDistance, Bands& derivative) const
+  {
+    const Place place = this->Find(squaredDistance);
+    const Lane* const c = place.Of->Coefficients;
+    derivative = ((c[1] + 2.0f * place.At * c[2]) / place.Length).cast<double>();
+    return Evaluate(place).cast<double>();
+  }
+  /// Whether any of them goes like 1/r at the centre.
+  bool AreSingular() const { return this->Singular; }
+  /// By how much their logarithms change per mm, at most, far out.
+  const Bands& GetDecays() const { return this->Decays; }
+
   /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
   void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
 
@@ -84,6 +104,13 @@ public:
 
 private:
   using Lane = Eigen::Array4f;
+
+  ///@{ The table has 2^6 pieces per octave of squared distance: the top bits of a float are the
+  /// piece, the rest is the place in it.
+  static constexpr int MantissaBits = 23;
+  static constexpr int PieceBits = 6;
+  static constexpr int PlaceBits = MantissaBits - PieceBits;
+  ///@}
 
   /// A piece of the tabulated profiles: a parabola in its local coordinate, all bands at a time.
   struct Piece
@@ -106,8 +133,49 @@ private:
     double SquaredError = 0.0;
   };
 
-  Lane Evaluate(double squaredDistance) const;
-  Bands GetSlopes(double squaredDistance) const;
+  static std::uint32_t BitsOf(float value)
+  {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof(bits));
+    return bits;
+  }
+  static float FloatOf(std::uint32_t bits)
+  {
+    float value;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+  }
+  /// Where in the table a squared distance is.
+  struct Place
+  {
+    const Piece* Of;
+    float At;     ///< 0 to 1
+    float Length; ///< of the piece
+  };
+  Place Find(double squaredDistance) const
+  {
+    const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredCore));
+    constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
+    constexpr std::uint32_t exponent = ~((1u << MantissaBits) - 1u);
+    return { &this->Table[(bits >> PlaceBits) - this->FirstPiece],
+      static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits)),
+      FloatOf(bits & exponent) * (1.0f / (1u << PieceBits)) };
+  }
+  static Lane Evaluate(const Place& place)
+  {
+    const Lane* const c = place.Of->Coefficients;
+    return c[0] + place.At * (c[1] + place.At * c[2]);
+  }
+  Lane Evaluate(double squaredDistance) const { return Evaluate(this->Find(squaredDistance)); }
+  Bands GetSlopes(double squaredDistance) const
+  {
+    Bands slopes = this->SlopesOfSource / (squaredDistance + this->SquaredScales).sqrt();
+    if (this->Singular)
+    {
+      slopes += this->SlopesOfCentre / std::sqrt(squaredDistance + this->SquaredCore);
+    }
+    return slopes + this->Decays;
+  }
   Bands IntegrateProduct(const Vector* a, const float* weightsA, int countA, const Vector* b,
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;

@@ -4,10 +4,17 @@
 
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
+#include "Scattering/AirGaps.h"
 #include "Scattering/ScatteringAssembly.h"
+#include "Scattering/ScatteringClusters.h"
+#include "Scattering/ScatteringIntegrals.h"
 #include "Scattering/ScatteringModels.h"
+#include "Scattering/ScatteringPatches.h"
+#include "Scattering/ScatteringRefinement.h"
 #include "Scene/PatchScene.h"
+#include "Shared/TransportMemory.h"
 #include "Support/Ranks.h"
+#include "vtkSubsurfaceScattering.h"
 #include "vtkTimerLog.h"
 
 #include <algorithm>
@@ -22,32 +29,17 @@ namespace
 constexpr double MostExcess = 2.0;
 // In millimetres: single precision holds no squares of more, or of less than its inverse.
 constexpr double LargestSize = 1e15;
-
-//------------------------------------------------------------------------------
-// What came of all ranks' parts.
-void Summarize(ScatteringAssembly::Summary& summary, const Ranks& ranks, double tolerance,
-  Links& links)
-{
-  double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
-  ranks.Sum(counts, 2);
-  ranks.Sum(summary.Errors);
-  const std::vector<double>& areas = links.Matrix->GetAreas();
-  double bound = 0.0;
-  for (std::size_t patch = 0; patch < areas.size(); ++patch)
-  {
-    bound = std::max(bound, summary.Errors[patch] / areas[patch]);
-  }
-  if (bound > MostExcess * tolerance)
-  {
-    std::ostringstream text;
-    text << "The links may be wrong by " << bound
-         << " of the profile's total, more than twice LinkTolerance: the patches are many mean "
-            "free paths wide. Use smaller patches, or check MillimetersPerUnit.";
-    links.Warning = text.str();
-  }
-  links.Summaries = { { "NumberOfLinks", counts[0] }, { "LinksLeftOut", counts[1] },
-    { "LinkErrorBound", bound } };
-}
+// Where no tolerance is given, for links between all patches and for others.
+constexpr double DenseTolerance = 1e-4;
+constexpr double ClusterTolerance = 1e-2;
+/// Above the longest distance in the scene, whose bounding box has diagonal 1.
+constexpr double RoundingMargin = 1.01;
+///@{ Of the tolerance of links between clusters, what their values may be wrong by: in proportion
+/// to themselves, to areas, and to neighbours (in a triangle mesh there are about 40).
+constexpr double ShareOfValues = 0.3;
+constexpr double ShareOfAreas = 0.1;
+constexpr double ShareOfNeighbours = 0.1 / 40.0;
+///@}
 
 //------------------------------------------------------------------------------
 Outcome FailForSize(double size)
@@ -60,10 +52,24 @@ Outcome FailForSize(double size)
 } // namespace
 
 //------------------------------------------------------------------------------
+/// What ways to links have in common.
+struct ScatteringLinks::Task
+{
+  const PatchScene& Scene;
+  double Scale; ///< of the scene's unit in millimetres
+  const Ranks& AllRanks;
+  const Monitor& Watch;
+  Links& Result;
+  std::vector<double> Areas; ///< in mm^2
+  ScatteringProfiles Profiles;
+};
+
+//------------------------------------------------------------------------------
 ScatteringLinks::ScatteringLinks(int model, const ScatteringOptions& options,
-  std::vector<ScatteringMedium> bands, double millimetersPerUnit, double tolerance)
+  std::vector<ScatteringMedium> bands, double millimetersPerUnit,
+  const ScatteringLinkChoice& choice)
   : Model(model), Options(options), Bands(std::move(bands)), MillimetersPerUnit(millimetersPerUnit),
-    Tolerance(tolerance)
+    Choice(choice)
 {
 }
 
@@ -73,7 +79,9 @@ LinkKey ScatteringLinks::GetKey() const
   LinkKey key{ "ScatteringLinks",
     { static_cast<double>(this->Model), static_cast<double>(this->Options.BurleyFit),
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
-      this->MillimetersPerUnit, this->Tolerance },
+      this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
+      static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
+      this->Choice.DropsThroughAir ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -81,6 +89,13 @@ LinkKey ScatteringLinks::GetKey() const
       { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
   return key;
+}
+
+//------------------------------------------------------------------------------
+double ScatteringLinks::GetTolerance(bool isDense) const
+{
+  const double own = isDense ? DenseTolerance : ClusterTolerance;
+  return this->Choice.Tolerance > 0.0 ? this->Choice.Tolerance : own;
 }
 
 //------------------------------------------------------------------------------
@@ -93,31 +108,149 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   {
     return FailForSize(scale);
   }
-  std::vector<double> areas = scene.GetAreas();
-  for (double& area : areas)
+  Task task{ scene, scale, ranks, monitor, links, scene.GetAreas(), {} };
+  for (double& area : task.Areas)
   {
     area *= scale * scale;
   }
-  links.Tolerance = this->Tolerance;
-  ScatteringProfiles profiles;
+  ScatteringOptions options = this->Options;
+  options.AllRanks = ranks;
+  Outcome built = ScatteringModels::MakeProfiles(this->Model, options, this->Bands, task.Profiles);
+  if (built)
+  {
+    // What goes through the air is told of pairs alone.
+    const bool isDense = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
+      this->Choice.DropsThroughAir;
+    built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
+  }
+  if (!built)
+  {
+    return built;
+  }
+  for (const auto& profile : task.Profiles)
+  {
+    links.ProfileTotals.push_back(profile->GetTotal());
+    links.ProfileErrors.push_back(profile->GetError());
+  }
+  links.Summaries.emplace_back("LinkBytes", links.GetExchange()->GetNumberOfBytes());
+  links.Summaries.emplace_back("LinkSeconds", vtkTimerLog::GetUniversalTime() - begin);
+  return built;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringLinks::LinkPatches(Task& task) const
+{
+  Links& links = task.Result;
+  links.Tolerance = this->GetTolerance(true);
+  links.AreThroughAirDropped = this->Choice.DropsThroughAir;
   ScatteringAssembly::Summary summary;
-  Outcome built =
-    LinkOperators::AllocateMatrix(areas, static_cast<int>(this->Bands.size()), ranks, links.Matrix);
-  built = built ? ScatteringModels::MakeProfiles(this->Model, this->Options, this->Bands, profiles)
-                : built;
-  built = built ? ScatteringAssembly::Fill(scene, scale, profiles, this->Tolerance, links.Matrix,
-                    monitor, summary)
+  Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
+    "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
+  AirGaps gaps;
+  // Texels enclose no body: nobody knows what is air between them.
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
+                    { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
   if (!built)
   {
     return built;
   }
-  for (const auto& profile : profiles)
+  double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
+  task.AllRanks.Sum(counts, 2);
+  task.AllRanks.Sum(summary.Errors);
+  task.AllRanks.Sum(summary.ThroughAir);
+  task.AllRanks.Sum(summary.ThroughAirVariances);
+  if (knowsAir)
   {
-    links.ProfileErrors.push_back(profile->GetError());
+    links.ThroughAir = std::move(summary.ThroughAir);
+    links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
+    links.AirSamples = std::move(summary.AirSamples);
   }
-  Summarize(summary, ranks, this->Tolerance, links);
-  links.Summaries.emplace_back("LinkSeconds", vtkTimerLog::GetUniversalTime() - begin);
+  double bound = 0.0;
+  for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
+  {
+    bound = std::max(bound, summary.Errors[patch] / task.Areas[patch]);
+  }
+  if (bound > MostExcess * links.Tolerance)
+  {
+    std::ostringstream text;
+    text << "The links may be wrong by " << bound
+         << " of the profile's total, more than twice LinkTolerance: the patches are many mean "
+            "free paths wide. Use smaller patches, or check MillimetersPerUnit.";
+    links.Warning = text.str();
+  }
+  links.Summaries = { { "NumberOfLinks", counts[0] }, { "LinksLeftOut", counts[1] },
+    { "LinkErrorBound", bound },
+    { "LinksPerReceiver", 2.0 * counts[0] / static_cast<double>(task.Areas.size()) + 1.0 } };
+  links.Remarks.emplace_back("LinkMethodUsed", "Dense");
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringLinks::LinkClusters(Task& task) const
+{
+  const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
+  const bool isAuto = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_AUTO;
+  Links& links = task.Result;
+  links.Tolerance = this->GetTolerance(false);
+  const ScatteringPatches patches(task.Scene, task.Scale);
+  const ScatteringIntegrals integrals(task.Profiles, RoundingMargin * task.Scale,
+    ShareOfValues * links.Tolerance);
+  const double reference = integrals.GetLargestShare(patches.TotalArea);
+  const double allowed = links.Tolerance * reference;
+  const ScatteringClusters::Tolerances factors{ ShareOfValues * links.Tolerance,
+    ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
+  const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
+  ScatteringRefinement refinement(clusters, task.Areas, reference, factors.PerArea);
+  if (isUniform)
+  {
+    refinement.ChooseUniform(this->Choice.Number);
+  }
+  else
+  {
+    refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
+  }
+  if (isAuto && this->IsDense(task, refinement))
+  {
+    return this->LinkPatches(task);
+  }
+  const ScatteringRefinement::Prospect& prospect = refinement.GetProspect();
+  const int kernels = static_cast<int>(this->Bands.size());
+  Outcome built = LinkOperators::CheckRows(static_cast<double>(task.Areas.size()) * prospect.Links,
+    kernels, task.AllRanks);
+  if (!built)
+  {
+    return built;
+  }
+  links.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
+  links.ClusterTree = task.Scene.GetOrder() == PatchScene::Order::Atlas ? "Atlas" : "Surface";
+  links.Hierarchy->SetTree(task.Areas, clusters.GetSlots().GetNodes(), task.AllRanks.GetMine(),
+    task.AllRanks.GetNumber(), kernels);
+  std::vector<double> totals;
+  for (const auto& profile : task.Profiles)
+  {
+    totals.push_back(profile->GetTotal());
+  }
+  ScatteringRefinement::Summary summary;
+  built = task.AllRanks.Agree(
+    refinement.Fill(totals.data(), task.AllRanks, task.Watch, links.Hierarchy, summary));
+  links.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
+    { "LinkError", prospect.Error },
+    { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
+  links.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
+    { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
   return built;
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringLinks::IsDense(const Task& task, const ScatteringRefinement& refinement) const
+{
+  const auto patches = static_cast<double>(task.Areas.size());
+  const double bytes = vtkExchangeMatrix::GetEstimatedBytes(
+    static_cast<vtkIdType>(task.Areas.size()), static_cast<int>(this->Bands.size()));
+  return patches <= 20.0 * refinement.GetProspect().Links &&
+    bytes < TransportMemory::GetAvailableBytes();
 }
 } // namespace LightTransport

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Links of subsurface scattering between all pairs of patches, by a model that is a profile of
-/// distance (ScatteringModels), one kernel for each band.
+/// Links of subsurface scattering by a model that is a profile of distance (ScatteringModels), one
+/// kernel for each band: between all pairs of patches (ScatteringAssembly), or from clusters of
+/// patches (ScatteringRefinement).
 #ifndef ScatteringLinks_h
 #define ScatteringLinks_h
 
@@ -13,24 +14,42 @@
 
 namespace LightTransport
 {
+class ScatteringRefinement;
+
+/// Which links there are.
+struct ScatteringLinkChoice
+{
+  int Method = 0;               ///< of vtkSubsurfaceScattering::LinkMethodType
+  int Number = 0;               ///< of each receiver: of Uniform, and at most of Adaptive
+  double Tolerance = 0.0;       ///< relative error of what a patch receives; 0 for the method's own
+  bool DropsThroughAir = false; ///< of all pairs
+};
+
 class ScatteringLinks : public LinkBuilder
 {
 public:
-  /// `model` is one of vtkSubsurfaceScattering::ModelType, `tolerance` the error that the links of
-  /// a patch may have together, relative to the profile's total.
+  /// `model` is one of vtkSubsurfaceScattering::ModelType. Links through air (AirGaps) are
+  /// left out where they are to be dropped, and of all pairs known by a sample where not.
   ScatteringLinks(int model, const ScatteringOptions& options, std::vector<ScatteringMedium> bands,
-    double millimetersPerUnit, double tolerance);
+    double millimetersPerUnit, const ScatteringLinkChoice& choice);
 
   LinkKey GetKey() const override;
   Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
     Links& links) const override;
 
 private:
+  struct Task;
+
+  bool IsDense(const Task& task, const ScatteringRefinement& refinement) const;
+  Outcome LinkPatches(Task& task) const;
+  Outcome LinkClusters(Task& task) const;
+  double GetTolerance(bool isDense) const;
+
   int Model;
   ScatteringOptions Options;
   std::vector<ScatteringMedium> Bands;
   double MillimetersPerUnit;
-  double Tolerance;
+  ScatteringLinkChoice Choice;
 };
 } // namespace LightTransport
 

@@ -36,7 +36,8 @@ std::unique_ptr<const ScatteringProfile> MakeChristensenBurley(const ScatteringM
 std::unique_ptr<const ScatteringProfile> MakeTabulated(const ScatteringMedium& medium,
   const ScatteringOptions& options)
 {
-  return std::make_unique<const TabulatedProfile>(medium, options.NumberOfPhotons, options.Seed);
+  return std::make_unique<const TabulatedProfile>(medium, options.NumberOfPhotons, options.Seed,
+    options.AllRanks);
 }
 
 //------------------------------------------------------------------------------

@@ -11,6 +11,7 @@
 #include "Scattering/ScatteringMedium.h"
 #include "Scattering/ScatteringProfile.h"
 #include "Shared/Outcome.h"
+#include "Support/Ranks.h"
 
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,8 @@ struct ScatteringOptions
   long long NumberOfPhotons = 0;
   std::uint64_t Seed = 1;
   ///@}
+  /// That share the work: each of them makes the same profiles.
+  Ranks AllRanks;
 };
 
 struct ScatteringModel

@@ -61,6 +61,15 @@ vtkDataArray* FindFieldArray(vtkDataObject* data, const char* name)
 } // namespace
 
 //------------------------------------------------------------------------------
+NumberProperties::List ScatteringRun::ListNumbers() const
+{
+  NumberProperties::List numbers = this->TransportRun::ListNumbers();
+  numbers.emplace_back("TargetError", this->Owner->GetTargetError());
+  numbers.emplace_back("LinkTolerance", this->Owner->GetLinkTolerance());
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
 Outcome ScatteringRun::Check()
 {
   if (Outcome device = LinkOperators::CheckDevice(static_cast<LinkDevice>(this->Owner->GetDevice()),
@@ -81,7 +90,8 @@ Outcome ScatteringRun::Check()
 //------------------------------------------------------------------------------
 const char* ScatteringRun::FindUseOfBody() const
 {
-  return this->Owner->GetComputeThickness() ? "ComputeThickness" : nullptr;
+  const char* drop = this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir" : nullptr;
+  return this->Owner->GetComputeThickness() ? "ComputeThickness" : drop;
 }
 
 //------------------------------------------------------------------------------

@@ -35,6 +35,7 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   static constexpr int Bands = MediumProperties::Bands;
   /// The links, or photons in their place, as a fraction of the progress.
   static constexpr double LinksDone = 0.95;

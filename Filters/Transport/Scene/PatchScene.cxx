@@ -270,6 +270,7 @@ std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
   const vtkIdType count = pieces.GetNumber();
   std::vector<Vector> centers(count, Vector::Zero());
   std::vector<Vector> normals(count, Vector::Zero());
+  std::vector<double> areas(count);
   for (vtkIdType piece = 0; piece < count; ++piece)
   {
     Pulse::Beat(piece);
@@ -282,11 +283,13 @@ std::vector<vtkIdType> PatchScene::SortPieces(const GatheredPolygons& polygons,
       centers[piece] += place / pieces.GetCount(piece);
       normals[piece] += (place - origin).cross(corners[pieces.Corners[next]] - origin);
     }
+    areas[piece] = 0.5 * normals[piece].norm();
     normals[piece].normalize();
   }
-  if (this->OrderOfPatches == Order::Spatial)
+  if (this->OrderOfPatches != Order::Atlas)
   {
-    return this->Tree.Sort(centers, normals);
+    return this->OrderOfPatches == Order::Spatial ? this->Tree.Sort(centers, normals)
+                                                  : this->Tree.Sort(centers, normals, areas);
   }
   std::vector<std::uint64_t> codes;
   std::vector<vtkIdType> surfaces;

@@ -11,10 +11,10 @@
  *
  * All ranks hold the whole scene, in the same order: that of a tree (PatchTree), so that patches
  * that are near each other in space are near each other in every array and in the exchange matrix.
- * The tree is the spatial one, or for links between clusters that of the surfaces' atlases, one
- * after another: points of an atlas are the point array "AtlasCoordinates". Where users meet
- * numbers of patches (messages, arguments) they are those of the input's polygons: all blocks and
- * ranks in order, ghosts left out.
+ * The tree is the spatial one, or for links between clusters that of a surface, or that of the
+ * surfaces' atlases, one after another: points of an atlas are the point array "AtlasCoordinates".
+ * Where users meet numbers of patches (messages, arguments) they are those of the input's polygons:
+ * all blocks and ranks in order, ghosts left out.
  */
 #ifndef PatchScene_h
 #define PatchScene_h
@@ -43,6 +43,7 @@ public:
   enum class Order
   {
     Spatial,
+    Surface,
     Atlas
   };
 

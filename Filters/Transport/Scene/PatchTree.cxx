@@ -3,6 +3,7 @@
 #include "Scene/PatchTree.h"
 
 #include "Scene/PatchGeometry.h"
+#include "Scene/SurfaceHalves.h"
 #include "Shared/Pulse.h"
 
 #include <algorithm>
@@ -252,6 +253,21 @@ std::vector<vtkIdType> PatchTree::Sort(const std::vector<Vector>& centroids,
       this->Blocks[node.First / BlockSize] = static_cast<int>(index);
     }
   }
+  return order;
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkIdType> PatchTree::Sort(const std::vector<Vector>& centroids,
+  const std::vector<Vector>& normals, const std::vector<double>& areas)
+{
+  std::vector<vtkIdType> order(centroids.size());
+  std::iota(order.begin(), order.end(), 0);
+  SurfaceHalves halves(centroids, normals, areas, order);
+  this->Grow(
+    static_cast<vtkIdType>(order.size()),
+    [&](vtkIdType first, vtkIdType last) { return halves.Divide(first, last); },
+    [](vtkIdType, vtkIdType) {});
+  this->Blocks.clear();
   return order;
 }
 

@@ -11,6 +11,10 @@
  * longer than BlockSize are cut at a multiple of BlockSize, so that every block of BlockSize
  * patches (a row of tiles of an exchange matrix) is a node; shorter ones at a multiple of LeafSize.
  *
+ * The tree of a surface is for clusters that receive and send diffuse light as one: a range is
+ * halved by area, across the direction in which its patches differ most, by their places and a
+ * little by where they face. It has no blocks of BlockSize patches either.
+ *
  * The tree of an atlas follows codes, the patches' places along a space-filling curve: a node is
  * the range of all codes with one prefix, so that each block of the atlas's quadtree that holds
  * patches (down to LeafSize of them) is a node, and prefixes that divide nothing are left out. It
@@ -64,10 +68,12 @@ public:
   };
 
   ///@{
-  /// Make the shape of the tree: the spatial one, or that of codes. Returns its order: patch k of
-  /// the sorted scene is patch order[k] of the unsorted one.
+  /// Make the shape of the tree: the spatial one, that of a surface, or that of codes. Returns its
+  /// order: patch k of the sorted scene is patch order[k] of the unsorted one.
   std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids,
     const std::vector<Vector>& normals);
+  std::vector<vtkIdType> Sort(const std::vector<Vector>& centroids,
+    const std::vector<Vector>& normals, const std::vector<double>& areas);
   std::vector<vtkIdType> Sort(const std::vector<std::uint64_t>& codes);
   ///@}
 

@@ -6,7 +6,7 @@
 #define ClusterSampler_h
 
 #include "Scene/PatchScene.h"
-#include "ViewFactors/LinkSlots.h"
+#include "Links/LinkSlots.h"
 
 #include <array>
 #include <cstdint>

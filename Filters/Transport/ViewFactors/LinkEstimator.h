@@ -16,7 +16,7 @@
 
 #include "Scene/PatchScene.h"
 #include "ViewFactors/ClusterSampler.h"
-#include "ViewFactors/LinkSlots.h"
+#include "Links/LinkSlots.h"
 
 #include <vector>
 

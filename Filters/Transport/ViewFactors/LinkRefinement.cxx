@@ -187,17 +187,6 @@ void LinkRefinement::SetBrightness(const std::vector<double>& brightness)
 }
 
 //------------------------------------------------------------------------------
-std::vector<vtkExchangeHierarchy::Node> LinkRefinement::GetNodes() const
-{
-  std::vector<vtkExchangeHierarchy::Node> nodes;
-  for (int node = 0; node < this->Slots.GetNumberOfNodes(); ++node)
-  {
-    nodes.push_back(this->Slots.GetChildren(node));
-  }
-  return nodes;
-}
-
-//------------------------------------------------------------------------------
 // All pairs of nodes of some size: enough of them for many threads.
 void LinkRefinement::MakeUnits()
 {

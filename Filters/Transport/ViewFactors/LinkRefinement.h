@@ -26,7 +26,7 @@
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 #include "ViewFactors/LinkEstimator.h"
-#include "ViewFactors/LinkSlots.h"
+#include "Links/LinkSlots.h"
 #include "ViewFactors/SlotErrors.h"
 #include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeHierarchy.h"
@@ -69,7 +69,7 @@ public:
   void SetHasOpenings(bool has) { this->HasOpenings = has; }
 
   /// The nodes of the scene's tree in the form of vtkExchangeHierarchy.
-  std::vector<vtkExchangeHierarchy::Node> GetNodes() const;
+  std::vector<vtkExchangeHierarchy::Node> GetNodes() const { return this->Slots.GetNodes(); }
 
   /**
    * Refine until the error estimate keeps `tolerance`, or there is nothing left to divide. This

@@ -6,7 +6,8 @@ from vtklighttransport.shell.enclosure import ARRAYS, ENCLOSURE
 from vtklighttransport.shell.files import add_output, check_input, check_output, write_patches
 from vtklighttransport.shell.lights import add_lights, light_scene
 from vtklighttransport.shell.properties import (
-    Choice, Number, add_arrays, add_properties, check_properties, choose_arrays, make_filter)
+    DEVICE, Choice, Number, add_arrays, add_properties, check_properties, choose_arrays,
+    make_filter)
 from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
 from vtklighttransport.shell.stages import Stage
 from vtklighttransport.summaries import get_summary
@@ -26,6 +27,7 @@ PROPERTIES = (
            "bound on the absolute error of each row of view factors"),
     Number("--feature-angle", "FeatureAngle", float,
            "edges sharper than this keep their own point values, in degrees"),
+    DEVICE,
     *ENCLOSURE,
 )
 

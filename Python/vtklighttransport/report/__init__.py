@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a scene: error against run time, for methods x tolerances x sizes.
 
-study     goes through methods, tolerances and sizes
-methods   the ways to compute radiosity, each from the mesh to its arrays
-record    what has been measured: the rows of report.csv, what was left out
-page      report.html
-html      a page from top to bottom: paragraphs, tables, figures
-figures   its plots and pictures
+subject     what a report is of: its methods, what it tells of each
+radiosity   ... ways to link patches, beside dense links
+scattering  ... models of subsurface scattering, beside Monte Carlo
+study       goes through methods, tolerances and sizes
+record      what has been measured: the rows of report.csv, what was left out
+page        report.html
+html        a page from top to bottom: paragraphs, tables, figures
+figures     its plots and pictures
 
 Needs numpy.
 """
@@ -15,7 +17,6 @@ Needs numpy.
 import os
 import sys
 
-from vtklighttransport.report.methods import Solver, find_methods
 from vtklighttransport.report.page import write_page
 from vtklighttransport.report.record import Record
 from vtklighttransport.report.study import Study
@@ -24,24 +25,19 @@ from vtklighttransport.shell.stages import Failure
 
 
 @tidying_up()
-def run(options, messages, make_radiosity, surface):
-    """Measures, then writes the page, also of what an interrupted run has measured.
-
-    `make_radiosity()` is a filter of which the report sets links, solver and tolerances.
-    """
-    record = Record(options.folder, options.quiet)
-    study = Study(options, messages, record,
-                  Solver(options, messages, record.note, make_radiosity))
+def run(options, messages, subject, surface):
+    """Measures, then writes the page, also of what an interrupted run has measured."""
+    record = Record(options.folder, subject.COLUMNS, options.quiet)
     try:
         os.makedirs(options.folder, exist_ok=True)
         try:
-            study.run(find_methods(options), surface)
+            Study(options, messages, record, subject).run(surface)
         except KeyboardInterrupt:
             if not record.rows:
                 raise
             record.interrupted = True
             print("interrupted: the page shows what was measured so far", file=sys.stderr)
-        write_page(options, messages, record)
+        write_page(options, messages, record, subject)
     except FileExistsError as error:
         raise Failure(f"cannot write {options.folder}: it is a file, not a folder") from error
     except OSError as error:

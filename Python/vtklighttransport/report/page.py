@@ -10,7 +10,7 @@ import numpy
 
 import vtklighttransport as lt
 from vtklighttransport.report.html import Page
-from vtklighttransport.report.record import COLUMNS, ITSELF, get_column, group, print_value
+from vtklighttransport.report.record import get_column, group
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkVersion
 
@@ -18,23 +18,23 @@ from vtkmodules.vtkCommonCore import vtkVersion
 SIZES_TO_FIT = 3
 
 
-def write_page(options, messages, record):
-    page = Page("Radiosity: error against run time, " + os.path.basename(options.input),
+def write_page(options, messages, record, subject):
+    page = Page(f"{subject.TITLE}: error against run time, " + os.path.basename(options.input),
                 options.folder, messages, record.note)
     if not hasattr(lt, "vtkOffScreenOpenGLRenderWindow"):
         page.leave_out_figures(
             "this build has no Rendering module: it was switched off in CMake")
-    add_facts(page, options, record)
+    add_facts(page, options, record, subject)
     if record.rows:
-        add_errors(page, record)
-        add_growth(page, record)
+        add_errors(page, record, subject)
+        add_growth(page, record, subject)
         add_table(page, record)
-        add_pictures(page, options, record)
+        add_pictures(page, options, record, subject)
     add_left_out(page, record)
     page.write("report.html")
 
 
-def add_facts(page, options, record):
+def add_facts(page, options, record, subject):
     sizes = sorted({row["patches"] for row in record.rows})
     page.add_heading("What was run")
     if record.interrupted:
@@ -42,76 +42,62 @@ def add_facts(page, options, record):
     page.add_terms({
         "Scene": os.path.basename(options.input),
         "Patches": ", ".join(f"{size:,}" for size in sizes) or "none were computed",
-        "Solver": f"to a relative error bound of {options.solver_tolerance:g}",
+        **subject.make_terms(),
         "Times": "of one run each" if options.repeat == 1
-                 else f"medians of {options.repeat} runs each, dense references of one",
+                 else f"medians of {options.repeat} runs each, references of one",
         "Machine": describe_machine(),
         "Versions": f"vtkLightTransport {lt.__version__}, VTK {vtkVersion.GetVTKVersion()}, "
                     f"Python {platform.python_version()}",
     })
-    page.add_paragraph(
-        "Errors are differences from a reference on the same patches, so they tell what "
-        "links, their tolerances and the solver cost, and nothing of the patches themselves. "
-        "L2 is the root mean square over area and bands, relative to that of the reference; "
-        "L2 of H is the same for irradiance, which no emission hides; the largest error and "
-        "the bound are relative to the largest radiosity. The bound is the solver's own, and "
-        "knows nothing of errors of the links.")
-    if any(row["method"] == "Progressive" for row in record.rows):
-        page.add_paragraph(
-            "The iterations of progressive refinement are shots; it has no links.")
-    if any(row["reference"] == ITSELF and row["method"] != "Dense" for row in record.rows):
-        page.add_paragraph(
-            "Above --reference-limit patches nothing dense was computed: there the reference "
-            "is the finest result of another method (column \"reference\"), and its own "
-            "error is not known.")
+    subject.explain(page, record.rows)
 
 
-def add_errors(page, record):
+def add_errors(page, record, subject):
     page.add_heading("Error against run time")
     compared = [row for row in record.rows if row["error_l2"] != ""]
     if not compared:
         page.add_paragraph("There is no result beside the reference.")
         return
     page.add_figure(
-        "error_time.png", "Error of the radiosity against seconds from the mesh to its arrays; "
+        "error_time.png",
+        f"Error of the {subject.QUANTITY} against {subject.TIME[1]}, from the mesh to its arrays; "
         "from coarse to fine tolerances along each line.",
-        lambda file: import_figures().plot_errors(file, compared))
+        lambda file: import_figures().plot_errors(file, compared, subject))
 
 
-def add_growth(page, record):
+def add_growth(page, record, subject):
     groups = {key: rows for key, rows in group(record.rows).items()
               if len({row["patches"] for row in rows}) > 1}
     if not groups:
         return
     page.add_heading("Growth with the number of patches")
-    for name, column, title in (
-            ("growth_links.png", "links", "Links"),
-            ("growth_seconds.png", "seconds_links", "Seconds for the links")):
+    for name, column, title in subject.GROWTH:
         if any(get_column(record.rows, column)):
             page.add_figure(
                 name, f"{title} against patches.",
                 lambda file, c=column, t=title:
-                    import_figures().plot_growth(file, groups, c, t.lower()))
-    columns = ("links", "bytes", "seconds_links", "seconds_solver")
+                    import_figures().plot_growth(file, groups, c, t))
     page.add_paragraph(
         f"Exponents k of patches^k, fitted to the largest {SIZES_TO_FIT} sizes of each line:")
     page.add_rows(
-        [("method", False), ("tolerance", True)] + [(COLUMNS[c][0], True) for c in columns],
+        [("method", False), ("tolerance", True)] +
+        [(record.columns[column][0], True) for column in subject.EXPONENTS],
         [[(family, False), (f"{tolerance:g}", True)] +
-         [(print_exponent(rows, column), True) for column in columns]
+         [(print_exponent(rows, column), True) for column in subject.EXPONENTS]
          for (family, tolerance), rows in groups.items()])
 
 
 def add_table(page, record):
     page.add_heading("Measurements")
     page.add_paragraph("Also in report.csv, with more digits.")
-    texts = {name for name, (_title, align, _form) in COLUMNS.items() if ">" not in align}
-    page.add_rows([(title, name not in texts) for name, (title, _a, _f) in COLUMNS.items()],
-                  [[(print_value(row, name), name not in texts) for name in COLUMNS]
-                   for row in record.rows])
+    texts = {name for name, (_title, align, _form) in record.columns.items() if ">" not in align}
+    page.add_rows(
+        [(title, name not in texts) for name, (title, _a, _f) in record.columns.items()],
+        [[(record.print_value(row, name), name not in texts) for name in record.columns]
+         for row in record.rows])
 
 
-def add_pictures(page, options, record):
+def add_pictures(page, options, record, subject):
     if not page.draws_figures:
         return
     from vtklighttransport.pictures import find_direction, look_at
@@ -123,15 +109,16 @@ def add_pictures(page, options, record):
         "solution.png", f"The reference with {solution.row['patches']:,} patches: "
         f"{describe(solution.row)}. Patches are seen from their front only; the brightest "
         "twentieth of the area may be beyond the range of the picture.",
-        lambda file: import_figures().draw_solution(file, solution, look))
-    for number, (worst, errors) in enumerate(record.worst.values()):
-        place = find_middle(worst.surface, int(errors.argmax()))
+        lambda file: import_figures().draw_solution(file, solution, subject.ARRAY, look))
+    shown = [errors for _solution, errors in record.pictured.values()]
+    for number, (pictured, errors) in enumerate(record.pictured.values()):
+        place = find_middle(pictured.surface, int(abs(errors).argmax()))
         page.add_figure(
             f"error_{number + 1}.png",
-            f"Where the error is: {describe(worst.row)}, {worst.row['patches']:,} patches. It is "
-            f"largest, {errors.max():.1e} of the largest radiosity, on patch "
-            f"{int(errors.argmax())} at ({place}).",
-            lambda file, w=worst, e=errors: import_figures().draw_error(file, w.surface, e, look))
+            f"Where the error is: {describe(pictured.row)}, {pictured.row['patches']:,} patches. " +
+            subject.caption_errors(pictured.row, errors, place),
+            lambda file, s=pictured.surface, e=errors:
+                subject.draw_errors(file, s, e, shown, look))
 
 
 def add_left_out(page, record):
@@ -149,7 +136,7 @@ def import_figures():
 
 
 def describe(row):
-    return f"{row['method']}, tolerance {row['tolerance']:g}, {row['solver']}"
+    return f"{row['family']}, tolerance {row['tolerance']:g}"
 
 
 def describe_machine():

@@ -9,75 +9,70 @@ import os
 
 import numpy
 
+from vtklighttransport.arrays import get_areas, get_cell_array
 from vtklighttransport.replacement import replace_file
 
-# Column of the CSV: heading, alignment and format in print.
-COLUMNS = {
-    "method": ("method", "<12", ""),
-    "solver": ("solver", "<23", ""),
-    "tolerance": ("tolerance", ">9", "g"),
-    "patches": ("patches", ">9", ",d"),
-    "seconds_links": ("links s", ">8", ".3g"),
-    "seconds_solver": ("solver s", ">8", ".3g"),
-    "seconds_all": ("all s", ">8", ".3g"),
-    "bytes": ("bytes", ">8", ".1e"),
-    "links": ("links", ">12", ",d"),
-    "iterations": ("iterations", ">10", ",d"),
-    "error_l2": ("L2 error", ">9", ".1e"),
-    "error_max": ("max error", ">9", ".1e"),
-    "error_irradiance": ("L2 of H", ">9", ".1e"),
-    "error_bound": ("bound", ">9", ".1e"),
-    "reference": ("reference", "<18", ""),
-    "device": ("device", "", ""),
-}
 ITSELF = "is the reference"
 
 
 @dataclasses.dataclass
 class Solution:
-    """A result on one size of the scene, in numbers, and the row of the table that tells of it."""
+    """A result on one size of the scene, and the row of the table that tells of it."""
 
     row: dict
     surface: object
-    radiosity: numpy.ndarray
-    irradiance: numpy.ndarray
+
+    def get(self, name):
+        """Cells x components."""
+        values = get_cell_array(self.surface, name)
+        return values.reshape(len(values), -1)
+
+    def has(self, name):
+        return bool(self.surface.GetCellData().HasArray(name))
+
+    def get_areas(self):
+        return get_areas(self.surface)
 
 
 class Record:
     """Rows are written and shown as they come: whatever ends the run, the file has those so far."""
 
-    def __init__(self, folder, quiet):
+    def __init__(self, folder, columns, quiet):
         self.file = os.path.join(folder, "report.csv")
+        self.columns = columns
         self.quiet = quiet
         self.rows = []
         self.left_out = []
         self.interrupted = False
         # The last that others were compared with.
         self.solution = None
-        # By method: the coarsest result on the largest size, and its error on each patch.
-        self.worst = {}
+        # By family: what is shown as a picture, (solution, error on each patch).
+        self.pictured = {}
         self.table = io.StringIO(newline="")
-        self.writer = csv.DictWriter(self.table, COLUMNS)
+        # A row has its family, too.
+        self.writer = csv.DictWriter(self.table, columns, extrasaction="ignore")
 
     def begin_table(self):
         self.writer.writeheader()
         self.write_table()
-        self.show(format(title, align) for title, align, _form in COLUMNS.values())
+        self.show(format(title, align) for title, align, _form in self.columns.values())
+
+    def make_row(self, method, tolerance):
+        return dict.fromkeys(self.columns, "") | {
+            "method": method.name, "family": method.family or method.name, "tolerance": tolerance}
 
     def add_row(self, row):
         self.rows.append(row)
         self.writer.writerow({name: f"{value:.6g}" if isinstance(value, float) else value
                               for name, value in row.items()})
         self.write_table()
-        self.show(format(print_value(row, name), align)
-                  for name, (_title, align, _form) in COLUMNS.items())
+        self.show(format(self.print_value(row, name), align)
+                  for name, (_title, align, _form) in self.columns.items())
 
-    def keep_if_worse(self, method, solution, errors):
-        def rank(row):
-            return row["patches"], row["tolerance"]
-        key = (method.name, method.solver)
-        if key not in self.worst or rank(solution.row) > rank(self.worst[key][0].row):
-            self.worst[key] = (solution, errors)
+    def keep_picture(self, solution, errors, rank):
+        family = solution.row["family"]
+        if family not in self.pictured or rank(solution.row) > rank(self.pictured[family][0].row):
+            self.pictured[family] = (solution, errors)
 
     def note(self, text):
         """What was left out, and why; once."""
@@ -92,30 +87,21 @@ class Record:
     def write_table(self):
         replace_file(self.file, self.table.getvalue().encode())
 
-
-def print_value(row, name):
-    """As people read it; nothing where there is no value."""
-    return "" if row[name] == "" else format(row[name], COLUMNS[name][2])
-
-
-def name_family(row, rows):
-    """The method of a row; with its solver where the method has been run with several."""
-    def get_solver(row):
-        return row["solver"].split(":")[0]
-    solvers = {get_solver(other) for other in rows if other["method"] == row["method"]}
-    return row["method"] + (f", {get_solver(row)}" if len(solvers) > 1 else "")
+    def print_value(self, row, name):
+        """As people read it; nothing where there is no value."""
+        return "" if row[name] == "" else format(row[name], self.columns[name][2])
 
 
 def find_families(rows):
     """The families of the rows, in the order of the rows."""
-    return list(dict.fromkeys(name_family(row, rows) for row in rows))
+    return list(dict.fromkeys(row["family"] for row in rows))
 
 
 def group(rows):
     """Rows by (family, tolerance), from coarse to fine, each in the order of their sizes."""
     groups = {}
     for row in rows:
-        groups.setdefault((name_family(row, rows), row["tolerance"]), []).append(row)
+        groups.setdefault((row["family"], row["tolerance"]), []).append(row)
     families = find_families(rows)
     order = sorted(groups, key=lambda key: (families.index(key[0]), -key[1]))
     return {key: groups[key] for key in order}
@@ -123,4 +109,4 @@ def group(rows):
 
 def get_column(rows, name):
     """Numbers; 0 where there is none, which logarithms leave out."""
-    return [row[name] or 0.0 for row in rows]
+    return numpy.array([row[name] or 0.0 for row in rows], dtype=float)

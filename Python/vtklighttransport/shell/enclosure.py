@@ -5,8 +5,6 @@
 from vtklighttransport.shell.properties import Choice, InputArray, Number, NumberList, Switch
 
 ENCLOSURE = (
-    Choice("--device", "Device", "DEVICE_",
-           "where the links are applied; auto takes OpenGL on a real GPU"),
     Choice("--links", "LinkMethod", "LINK_METHOD_",
            "a link for each pair of patches, or between clusters; auto is dense up to 8,192 "
            "patches"),

@@ -116,6 +116,10 @@ class Choice(Property):
         super().set_on(algorithm, find_choices(type(algorithm), self.prefix)[value])
 
 
+DEVICE = Choice("--device", "Device", "DEVICE_",
+                "where the links are applied; auto takes OpenGL on a real GPU")
+
+
 class InputArray:
     """An option that names the cell array with an index of SetInputArrayToProcess."""
 

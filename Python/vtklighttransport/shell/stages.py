@@ -64,6 +64,8 @@ class Stage:
         algorithm.AddObserver("ProgressEvent", self.on_progress)
 
     def on_progress(self, _algorithm, _event):
+        # A signal that a thread of a filter took Python does not see before it takes its lock anew.
+        time.sleep(0)
         if self.bar:
             fraction = min(max(self.algorithm.GetProgress(), 0.0), 1.0)
             done = int(fraction * self.WIDTH)

@@ -5,6 +5,7 @@
  * vtkHierarchicalLinkOperator, for random trees and links that take one texture or many; what is
  * read back; operators that change from one form of links to the other; windows that go; errors.
  */
+#include "ClusterLinksTesting.h"
 #include "CornellBoxTesting.h"
 #include "LinkOperatorTesting.h"
 #include "vtkHierarchicalLinkOperator.h"
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -45,6 +47,7 @@ struct Case
   int Bands;
   int MaximumTextureSize;
   int LinkTextures;
+  int Kernels = 0; ///< of links that serve one direction; 0 for links that serve both
 };
 
 std::string Describe(const Case& setting)
@@ -52,7 +55,8 @@ std::string Describe(const Case& setting)
   return std::to_string(setting.Patches) + " patches, leaves of at most " +
     std::to_string(setting.LargestLeaf) + ", " + std::to_string(setting.Links) + " links, " +
     std::to_string(setting.Bands) + " bands, textures of at most " +
-    std::to_string(setting.MaximumTextureSize);
+    std::to_string(setting.MaximumTextureSize) +
+    (setting.Kernels > 0 ? ", one way with kernels: " + std::to_string(setting.Kernels) : "");
 }
 
 /// Cut at random places into two to five children, breadth first, so that levels and patches mix.
@@ -116,6 +120,27 @@ std::vector<Link> MakeLinks(int nodes, int patches, int count)
   return links;
 }
 
+/// The links in the rows of their first ends, with other values in each kernel.
+bool SetRows(vtkExchangeHierarchy* hierarchy, std::vector<Link> links)
+{
+  std::stable_sort(links.begin(), links.end(),
+    [](const Link& a, const Link& b) { return a.I < b.I; });
+  std::vector<std::int64_t> offsets(static_cast<std::size_t>(hierarchy->GetNumberOfSlots()) + 1, 0);
+  std::vector<int> columns;
+  std::vector<float> values;
+  for (const Link& link : links)
+  {
+    columns.push_back(link.J);
+    ++offsets[static_cast<std::size_t>(link.I) + 1];
+    for (int kernel = 0; kernel < hierarchy->GetNumberOfKernels(); ++kernel)
+    {
+      values.push_back(link.Value / static_cast<float>(1 + (link.J + 3 * kernel) % 7));
+    }
+  }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  return hierarchy->SetRows(offsets, columns, values);
+}
+
 /// With absolute values of the links, a product bounds the rounding of the other.
 void FillHierarchy(vtkExchangeHierarchy* hierarchy, const Case& setting, bool absolute = false)
 {
@@ -131,7 +156,8 @@ void FillHierarchy(vtkExchangeHierarchy* hierarchy, const Case& setting, bool ab
   {
     weight = weight * weight + 0.1;
   }
-  if (!hierarchy->SetTree(weights, nodes) || !hierarchy->SetLinks(links))
+  if (!hierarchy->SetTree(weights, nodes, 0, 1, std::max(setting.Kernels, 1)) ||
+    !(setting.Kernels > 0 ? SetRows(hierarchy, links) : hierarchy->SetLinks(links)))
   {
     std::cerr << "ERROR: no hierarchy for " << Describe(setting) << "\n";
   }
@@ -187,6 +213,67 @@ bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
   return Check(textures == setting.LinkTextures,
            Describe(setting) + ", " + std::to_string(textures) + " textures of links") &&
     TestProduct(device, setting, 1) && TestProduct(device, setting, 2);
+}
+
+/// Rows in one or two bytes a link, with some links that stay as they are.
+bool TestCodes(vtkOpenGLLinkOperator* device, vtkExchangeHierarchy* hierarchy, int bands,
+  int textures, const std::string& what, int maximumTextureSize = 0)
+{
+  device->SetMaximumTextureSize(maximumTextureSize);
+  if (!Check(device->Initialize(hierarchy, bands), what + ", Initialize"))
+  {
+    return false;
+  }
+  bool good = Check(device->GetNumberOfLinkTextures() == textures,
+    what + ", " + std::to_string(device->GetNumberOfLinkTextures()) + " textures of links");
+  const auto size = static_cast<std::size_t>(hierarchy->GetNumberOfPatches() * bands);
+  for (const unsigned int seed : { 1u, 2u })
+  {
+    const Vector x = MakeVector(size, seed);
+    const Vector expected = MultiplyOnCPU(hierarchy, bands, x);
+    const Vector bound = MultiplyOnCPU(hierarchy, bands, Absolute(x));
+    Vector found(size);
+    good = device->SetVector(0, x.data()) && device->Multiply(1, 0) &&
+      device->GetVector(1, found.data()) &&
+      CheckWithinBound(found, expected, bound, Tolerance, what) && good;
+  }
+  device->SetMaximumTextureSize(0);
+  return good;
+}
+
+/// Rows with common slots alone, with others, with more slots than a tile; of nodes and of patches.
+bool TestCompression(vtkOpenGLLinkOperator* device)
+{
+  bool good = true;
+  for (const int kernels : { 1, 3, 4, 5 })
+  {
+    const ClusterLinks scene(600, kernels);
+    const std::string what = ", coded, kernels: " + std::to_string(kernels);
+    const auto adaptive = scene.MakeAdaptive(0.8);
+    adaptive->CompressRows(0.0);
+    good = TestCodes(device, adaptive, kernels, 1, "adaptive" + what) && good;
+    const auto kept = scene.MakeAdaptive(0.8);
+    kept->CompressRows(0.01);
+    good = TestCodes(device, kept, kernels, 2, "adaptive, some kept" + what) && good;
+    const auto uniform = scene.MakeUniform(5);
+    uniform->CompressRows(0.0);
+    good = TestCodes(device, uniform, kernels, 1, "uniform" + what) && good;
+    const auto all = scene.MakeAdaptive(0.0);
+    all->CompressRows(0.0);
+    good = TestCodes(device, all, kernels, 1, "all pairs" + what) && good;
+  }
+  const ClusterLinks shared(300, 1);
+  const auto one = shared.MakeAdaptive(0.8);
+  one->CompressRows(0.0);
+  good = TestCodes(device, one, 6, 1, "coded, one kernel for six bands") && good;
+  const ClusterLinks large(1500, 2);
+  const auto parts = large.MakeUniform(7);
+  parts->CompressRows(0.0);
+  good = TestCodes(device, parts, 2, 2, "coded, several textures", 100) && good;
+  vtkNew<vtkExchangeHierarchy> odd;
+  FillHierarchy(odd, { 300, 8, 5000, 3, 0, 1, 3 }, true);
+  odd->CompressRows(0.0);
+  return TestCodes(device, odd, 3, 1, "coded, rows of nodes and patches") && good;
 }
 
 /// A chain of nodes that each keep one patch: the patches of all levels, one line of texels each.
@@ -387,7 +474,10 @@ int TestOpenGLHierarchicalLinks(int, char*[])
     { 300, 8, 1000, 1, 0, 1 }, { 300, 8, 1000, 3, 0, 1 }, { 300, 1, 1000, 4, 0, 1 },
     { 300, 8, 1000, 5, 0, 1 }, { 300, 8, 1000, 8, 0, 1 }, { 300, 8, 1000, 32, 0, 1 },
     { 3000, 4, 50000, 3, 0, 1 }, { 5, 1, 20, 3, 64, 1 }, { 300, 8, 10000, 3, 64, 3 },
-    { 300, 8, 10000, 5, 100, 2 }, { 1000, 8, 20000, 1, 64, 6 } };
+    { 300, 8, 10000, 5, 100, 2 }, { 1000, 8, 20000, 1, 64, 6 }, { 300, 8, 1000, 1, 0, 1, 1 },
+    { 300, 8, 1000, 3, 0, 1, 1 }, { 300, 8, 1000, 2, 0, 1, 2 }, { 300, 8, 1000, 3, 0, 1, 3 },
+    { 300, 8, 1000, 4, 0, 1, 4 }, { 300, 8, 1000, 5, 0, 1, 5 }, { 300, 8, 1000, 32, 0, 1, 32 },
+    { 1, 1, 3, 3, 0, 1, 3 }, { 3000, 4, 50000, 3, 0, 1, 3 }, { 300, 8, 10000, 3, 64, 4, 3 } };
   vtkNew<vtkOpenGLLinkOperator> device;
   bool good = true;
   for (const Case& setting : cases)
@@ -396,6 +486,7 @@ int TestOpenGLHierarchicalLinks(int, char*[])
   }
   device->SetMaximumTextureSize(0);
   good = TestChain(device) && good;
+  good = TestCompression(device) && good;
   good = TestLongSums(device) && good;
   good = TestBytesRead() && good;
   good = TestWindowsAndForms() && good;

@@ -10,6 +10,9 @@
 #include "vtkSMPTools.h"
 #include "vtkSubsurfaceScattering.h"
 
+#include <array>
+#include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,6 +36,48 @@ inline vtkSmartPointer<vtkPolyData> MakeBox(const Point& low, const Point& high,
 {
   Surface surface(single);
   AddBox(surface, low, high, cuts);
+  auto data = surface.Get();
+  AddArray(data, "Irradiance", { 1.0 });
+  return data;
+}
+
+//------------------------------------------------------------------------------
+/// Half a ball, as cut along its equator, without half a ball that is a little smaller.
+inline vtkSmartPointer<vtkPolyData> MakeBowl(double thickness)
+{
+  constexpr int rings = 4, sectors = 12;
+  std::vector<std::array<double, 2>> profile; // radius and height, the wall on the left
+  for (int k = 0; k <= 2 * rings + 1; ++k)
+  {
+    const bool isOutside = k <= rings;
+    const int ring = isOutside ? k : 2 * rings + 1 - k;
+    const double angle = 0.5 * vtkMath::Pi() * ring / rings;
+    const double radius = isOutside ? 1.0 : 1.0 - thickness;
+    profile.push_back({ ring == 0 ? 0.0 : radius * std::sin(angle), -radius * std::cos(angle) });
+  }
+  const auto at = [&](std::size_t k, int sector)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * (sector % sectors) / sectors;
+    return Point{ profile[k][0] * std::cos(angle), profile[k][0] * std::sin(angle), profile[k][1] };
+  };
+  Surface surface;
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k)
+  {
+    for (int sector = 0; sector < sectors; ++sector)
+    {
+      std::vector<Point> corners = { at(k, sector) };
+      if (profile[k][0] > 0.0)
+      {
+        corners.push_back(at(k, sector + 1));
+      }
+      corners.push_back(at(k + 1, sector + 1));
+      if (profile[k + 1][0] > 0.0)
+      {
+        corners.push_back(at(k + 1, sector));
+      }
+      surface.AddPolygon(corners);
+    }
+  }
   auto data = surface.Get();
   AddArray(data, "Irradiance", { 1.0 });
   return data;
@@ -112,6 +157,38 @@ inline void CheckWorks(PhotonRun& run, const std::string& what)
   Check(run.Errors->GetAll().empty() && run.Warnings->GetAll().empty(),
     what + " says: " + run.Errors->GetAll() + run.Warnings->GetAll());
 }
+
+//------------------------------------------------------------------------------
+/// Patches of two runs differ as their errors say.
+inline void CheckSame(
+  const PhotonRun& one, const PhotonRun& other, const std::string& what,
+  const std::function<bool(vtkIdType)>& concerns = [](vtkIdType) { return true; })
+{
+  const auto get = [](const PhotonRun& run, const char* name, vtkIdType k)
+  { return run.Get(name)->GetComponent(k / 3, k % 3); };
+  double squares = 0.0;
+  int count = 0, beyond = 0;
+  const vtkIdType patches = one.Get("ScatteredIrradiance")->GetNumberOfTuples();
+  for (vtkIdType k = 0; k < 3 * patches; ++k)
+  {
+    if (concerns(k / 3))
+    {
+      const double deviation =
+        (get(one, "ScatteredIrradiance", k) - get(other, "ScatteredIrradiance", k)) /
+        std::hypot(get(one, "ScatteredIrradianceError", k),
+          get(other, "ScatteredIrradianceError", k));
+      squares += deviation * deviation;
+      beyond += std::abs(deviation) > 3.0;
+      ++count;
+    }
+  }
+  CheckClose(squares / count, 1.0, 5.0 * std::sqrt(2.0 / count),
+    "squares of deviations over errors, " + what);
+  Check(beyond <= 2 + count / 50,
+    what + ": " + std::to_string(beyond) + " of " + std::to_string(count) +
+      " values beyond three errors");
+}
+
 } // namespace LightTransportTesting
 
 #endif

@@ -83,6 +83,10 @@ public:
       CheckClose(mean, expected, 1e-5, "what is the same in all walks");
       return;
     }
+    this->AddMean(mean, error, expected);
+  }
+  void AddMean(double mean, double error, double expected)
+  {
     const double deviation = (mean - expected) / error;
     this->Sum += deviation;
     this->Squares += deviation * deviation;

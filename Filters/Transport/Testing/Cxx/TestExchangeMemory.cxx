@@ -27,7 +27,7 @@ void TestOneRank()
   Check(sparse && sparse->GetNumberOfStoredTiles() == 0 && sparse->GetTiles().size() == 10 &&
       sparse->GetNumberOfKernels() == 1 && sparse->GetAreas() == areas,
     "a sparse matrix");
-  CheckDone(LinkOperators::AllocateMatrix(areas, 3, Ranks(), dense), "a dense matrix");
+  CheckDone(LinkOperators::AllocateMatrix(areas, 3, "", Ranks(), dense), "a dense matrix");
   Check(dense && dense->GetNumberOfStoredTiles() == 10 && dense->GetNumberOfKernels() == 3,
     "a dense matrix");
 

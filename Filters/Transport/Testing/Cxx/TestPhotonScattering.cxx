@@ -26,65 +26,15 @@ vtkSmartPointer<vtkPolyData> MakeSphere(int levels)
 }
 
 //------------------------------------------------------------------------------
-/// A sphere in even light: all patches get the same, and differ as their errors say.
-void TestErrorsOfPatches()
+void TestSums()
 {
   PhotonRun run(MakeSphere(3));
   run.Filter->SetMaterialToMarble();
   run.Filter->SetMillimetersPerUnit(3.77);
-  run.Filter->SetNumberOfPhotons(300000);
   CheckWorks(run, "a sphere of marble");
-  vtkDataArray* values = run.Get("ScatteredIrradiance");
-  vtkDataArray* errors = run.Get("ScatteredIrradianceError");
-  const vtkIdType patches = values->GetNumberOfTuples();
-  int beyond = 0;
-  for (int band = 0; band < 3; ++band)
-  {
-    double mean = 0.0, squares = 0.0;
-    for (vtkIdType patch = 0; patch < patches; ++patch)
-    {
-      mean += values->GetComponent(patch, band) / patches;
-    }
-    for (vtkIdType patch = 0; patch < patches; ++patch)
-    {
-      const double deviation =
-        (values->GetComponent(patch, band) - mean) / errors->GetComponent(patch, band);
-      squares += deviation * deviation / patches;
-      beyond += std::abs(deviation) > 3.0;
-    }
-    // Four deviations of chi square: sqrt(2 / 1280) = 0.04. Patches of the icosahedron's corners
-    // are not exactly like others.
-    CheckClose(squares, 1.0, 0.17,
-      "squares of deviations over errors, band " + std::to_string(band));
-  }
-  Check(beyond <= 25, std::to_string(beyond) + " of 3840 values beyond three errors (10 expected)");
-  CheckClose(run.GetNumber("PhotonsTraced"), 300000, 0.0, "photons as asked for");
+  CheckClose(run.GetNumber("PhotonsTraced"), 20000, 0.0, "photons as asked for");
   CheckClose(run.GetNumber("LeavingFlux") / run.GetNumber("EnteringFlux"),
     run.GetNumber("LeavingShare"), 1e-9, "what leaves patches leaves the body");
-}
-
-//------------------------------------------------------------------------------
-/// Large against the free path: as much as a half space in diffuse light (exact tables).
-void TestTotals()
-{
-  struct Case
-  {
-    double Albedo, Index, Reflectance, Mean;
-  };
-  for (const Case& test :
-    { Case{ 0.9, 1.5, 0.216112, 0.0917779 }, Case{ 0.8, 1.0, 0.341867, 0.0 } })
-  {
-    PhotonRun run(MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2));
-    run.SetMedium(test.Albedo, 1.0 - test.Albedo, test.Index);
-    run.Filter->SetMillimetersPerUnit(2e4);
-    run.Filter->SetNumberOfPhotons(100000);
-    CheckWorks(run, "a large box");
-    const double share = run.GetNumber("LeavingShare");
-    const double error = run.GetNumber("LeavingShareError");
-    Check(std::abs(share - test.Reflectance / (1.0 - test.Mean)) < 3.0 * error + 1e-5,
-      "a large box gives back " + std::to_string(share) + " +- " + std::to_string(error) + " of " +
-        std::to_string(test.Reflectance / (1.0 - test.Mean)));
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -373,8 +323,7 @@ void TestRefusals()
 //------------------------------------------------------------------------------
 int TestPhotonScattering(int, char*[])
 {
-  TestErrorsOfPatches();
-  TestTotals();
+  TestSums();
   TestEdges();
   TestTarget();
   TestSameBits();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Photons in half spaces and slabs against exact reflectances and transmittances (adding-doubling
 // and H functions, 5 digits or more), and in meshes against what holds in every closed body.
+#include "PhotonScatteringTesting.h"
 #include "PhotonWalkTesting.h"
 #include "Photons/FlatBoundaries.h"
 #include "Photons/MeshBoundary.h"
@@ -53,6 +54,7 @@ void TestFlat()
 {
   const std::vector<FlatCase> cases = {
     { 0.2, 1.0, 0.0, 0.0, false, 0.035231, 0.0 },
+    { 0.5, 1.0, 0.0, 0.0, false, 0.115226, 0.0 },
     { 0.5, 1.0, 0.0, 0.0, true, 0.146544, 0.0 },
     { 0.9, 1.5, 0.0, 0.0, false, 0.219919, 0.0 },
     { 0.9, 1.5, 0.0, 0.0, true, 0.216112, 0.0 },
@@ -211,6 +213,29 @@ void TestScatteringsInBody(vtkPolyData* data, double volume, double area, const 
 }
 
 //------------------------------------------------------------------------------
+/// Of a closed surface of plane polygons.
+void Measure(vtkPolyData* data, double& volume, double& area)
+{
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    data->GetCellPoints(cell, ids);
+    const auto get = [&](vtkIdType k)
+    {
+      Eigen::Vector3d point;
+      data->GetPoint(ids->GetId(k), point.data());
+      return point;
+    };
+    for (vtkIdType k = 1; k + 1 < ids->GetNumberOfIds(); ++k)
+    {
+      const Eigen::Vector3d cross = 0.5 * (get(k) - get(0)).cross(get(k + 1) - get(0));
+      area += cross.norm();
+      volume += cross.dot(get(0)) / 3.0;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestScatterings()
 {
   Surface box;
@@ -222,6 +247,11 @@ void TestScatterings()
   box.AddGrid({ 1, 0, 0 }, { 0, 2, 0 }, { 0, 0, 3 }, 3, 2);
   TestScatteringsInBody(box.Get(), 6.0, 22.0, "box");
   TestScatteringsInBody(MakeAngle(), 3.0, 14.0, "angle");
+  const auto bowl = MakeBowl(0.3);
+  double volume = 0.0;
+  double area = 0.0;
+  Measure(bowl, volume, area);
+  TestScatteringsInBody(bowl, volume, area, "bowl");
 }
 } // namespace
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables of photons in a flat medium against exact totals, published rings and other photons.
 #include "LightTransportTesting.h"
+#include "RanksInThreads.h"
 #include "Scattering/HalfSpaceTable.h"
+#include "Scattering/MatchedHalfSpace.h"
 #include "Scattering/TabulatedProfile.h"
 #include "Shared/Fresnel.h"
 #include "Shared/Pulse.h"
@@ -49,11 +51,48 @@ void TestTotals()
   for (const double index : { 1.0, 1.5 })
   {
     const TabulatedProfile all({ 1.0, 0.0, index }, 10000, 1);
-    CheckClose(all.GetTotal(), 1.0, MostDeviations * all.GetError() + 1e-3, "no absorption");
+    CheckClose(all.GetTotal(), 1.0, 1e-6, "no absorption");
+    Check(all.GetError() > 0.0, "its error is that of the walk");
     const TabulatedProfile most({ 1.0 - 1e-9, 1e-9, index }, 10000, 1);
     CheckClose(most.GetTotal(), all.GetTotal(), 2e-4, "hardly any absorption");
   }
   Check(TabulatedProfile({ 0.0, 1.0, 1.3 }, 100, 1).GetError() == 0.0, "no scattering");
+}
+
+//------------------------------------------------------------------------------
+/// Over seeds totals are spread about the exact ones as their errors say, or less where less is
+/// absorbed than in the walk.
+void TestErrors()
+{
+  constexpr int seeds = 20;
+  constexpr long long photons = 400;
+  struct Case
+  {
+    double Absorbed, Index, Exact;
+  };
+  for (const Case& test :
+    { Case{ 0.1, 1.0, 0.478024 }, Case{ 0.01, 1.3, 0.630551 / (1.0 - 0.061132) },
+      Case{ 1e-3, 1.5, 0.762462 / (1.0 - 0.0917779) }, Case{ 1e-4, 1.0, 0.977187 },
+      Case{ 5e-5, 1.0, 0.0 }, Case{ 1e-6, 1.0, 0.0 }, Case{ 0.0, 1.0, 1.0 } })
+  {
+    const ScatteringMedium medium{ 1.0 - test.Absorbed, test.Absorbed, test.Index };
+    const double exact =
+      test.Exact > 0.0 ? test.Exact : MatchedHalfSpace::GetDiffuseReflectance(medium);
+    double sum = 0.0, squares = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed)
+    {
+      const TabulatedProfile profile(medium, photons, seed);
+      const double deviation = (profile.GetTotal() / exact - 1.0) / profile.GetError();
+      sum += deviation / std::sqrt(double(seeds));
+      squares += deviation * deviation / seeds;
+    }
+    std::cout << "absorbed " << test.Absorbed << ", index " << test.Index << ": off by " << sum
+              << " errors of the mean, squares " << squares << "\n";
+    Check(std::abs(sum) < MostDeviations, "mean of totals over seeds");
+    const double chance = MostDeviations * std::sqrt(2.0 / seeds);
+    Check(squares < 1.0 + chance && (test.Absorbed < 1e-4 || squares > 1.0 / (1.0 + chance)),
+      "spread of totals over seeds: " + std::to_string(squares));
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -207,6 +246,47 @@ void TestKept()
 }
 
 //------------------------------------------------------------------------------
+/// Three ranks share the photons, and get the bits of one, wherever some have the table already.
+void TestRanks()
+{
+  HalfSpaceTable::Settings settings{ 0.9, 1.4, 0.3 };
+  settings.NumberOfPhotons = 6400;
+  const HalfSpaceTable one(settings);
+  settings.NumberOfPhotons = 0;
+  settings.Albedo = 0.9999;
+  const HalfSpaceTable timed(settings);
+  RunRanks(3,
+    [&](vtkMultiProcessController* controller, int)
+    {
+      const Ranks ranks(controller);
+      HalfSpaceTable::Settings wanted = settings;
+      const HalfSpaceTable open(wanted, ranks);
+      Check(open.GetNumberOfPhotons() == timed.GetNumberOfPhotons() &&
+          open.Evaluate(0.3, 0.1) == timed.Evaluate(0.3, 0.1),
+        "as many photons on three ranks as work allows on one");
+      wanted.NumberOfPhotons = 6400;
+      wanted.Albedo = 0.9;
+      int beats = 0;
+      {
+        const Pulse pulse(
+          [&beats]()
+          {
+            ++beats;
+            return true;
+          },
+          0.0);
+        const HalfSpaceTable table(wanted, ranks);
+        for (const double radius : { 0.01, 0.3, 5.0 })
+        {
+          Check(table.Evaluate(radius, 0.1) == one.Evaluate(radius, 0.1), "the bits of one rank");
+        }
+        Check(table.GetError() == one.GetError(), "the error of one rank");
+      }
+      Check(beats > 1800 && beats < 2800, "a third of the photons: " + std::to_string(beats));
+    });
+}
+
+//------------------------------------------------------------------------------
 void TestFilter()
 {
   Surface plane;
@@ -257,5 +337,7 @@ int TestTabulatedProfile(int, char*[])
   TestDecay();
   TestKept();
   TestFilter();
+  TestErrors();
+  TestRanks();
   return Result();
 }

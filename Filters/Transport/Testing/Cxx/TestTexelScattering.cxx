@@ -100,6 +100,7 @@ vtkSmartPointer<vtkSubsurfaceScattering> MakeFilter(vtkDataObject* data)
   filter->SetMaterialToMarble();
   filter->SetModelToDipole();
   filter->SetDeviceToCPU();
+  filter->SetLinkMethodToDense();
   return filter;
 }
 
@@ -486,6 +487,8 @@ void TestErrors()
     [](Filter* filter) { filter->SetModelToMonteCarlo(); });
   Expect<Filter>("ComputeThickness looks into the body", image,
     [](Filter* filter) { filter->ComputeThicknessOn(); });
+  Expect<Filter>("DropLinksThroughAir looks into the body", image,
+    [](Filter* filter) { filter->DropLinksThroughAirOn(); });
   Expect<vtkRadiosity>("is of type vtkImageData, but a vtkPolyData", image);
   Expect<vtkRadiosity>("A block of the input is no polygonal data", MakeBlocks(image, image));
   Surface surface;

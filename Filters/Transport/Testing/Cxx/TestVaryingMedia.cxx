@@ -239,37 +239,6 @@ void TestLayers()
 }
 
 //------------------------------------------------------------------------------
-/// Patches of two runs differ as their errors say.
-void CheckSame(
-  const PhotonRun& one, const PhotonRun& other, const std::string& what,
-  const std::function<bool(vtkIdType)>& concerns = [](vtkIdType) { return true; })
-{
-  const auto get = [](const PhotonRun& run, const char* name, vtkIdType k)
-  { return run.Get(name)->GetComponent(k / 3, k % 3); };
-  double squares = 0.0;
-  int count = 0, beyond = 0;
-  const vtkIdType patches = one.Get("ScatteredIrradiance")->GetNumberOfTuples();
-  for (vtkIdType k = 0; k < 3 * patches; ++k)
-  {
-    if (concerns(k / 3))
-    {
-      const double deviation =
-        (get(one, "ScatteredIrradiance", k) - get(other, "ScatteredIrradiance", k)) /
-        std::hypot(get(one, "ScatteredIrradianceError", k),
-          get(other, "ScatteredIrradianceError", k));
-      squares += deviation * deviation;
-      beyond += std::abs(deviation) > 3.0;
-      ++count;
-    }
-  }
-  CheckClose(squares / count, 1.0, 5.0 * std::sqrt(2.0 / count),
-    "squares of deviations over errors, " + what);
-  Check(beyond <= 2 + count / 50,
-    what + ": " + std::to_string(beyond) + " of " + std::to_string(count) +
-      " values beyond three errors");
-}
-
-//------------------------------------------------------------------------------
 void SetUniform(PhotonRun& run)
 {
   run.Filter->SetScatteringCoefficient(2.0, 1.0, 0.5);

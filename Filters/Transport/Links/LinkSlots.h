@@ -69,6 +69,18 @@ public:
     return { node.Left, node.Left + 2 };
   }
 
+  /// Of all nodes: the tree in the form of vtkExchangeHierarchy.
+  std::vector<Node> GetNodes() const
+  {
+    std::vector<Node> nodes;
+    nodes.reserve(this->NumberOfNodes);
+    for (int node = 0; node < this->NumberOfNodes; ++node)
+    {
+      nodes.push_back(this->GetChildren(node));
+    }
+    return nodes;
+  }
+
 private:
   const PatchScene& Scene;
   int NumberOfNodes;

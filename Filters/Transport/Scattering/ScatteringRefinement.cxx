@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scattering/ScatteringRefinement.h"
+
+#include "Shared/Pulse.h"
+#include "Shared/Threads.h"
+#include "Support/Ranks.h"
+#include "vtkExchangeHierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace LightTransport
+{
+namespace
+{
+using Values = ScatteringIntegrals::Bands;
+
+/// Receivers of a sample, by which rows are foreseen.
+constexpr vtkIdType SampleSize = 256;
+/// Receivers that a thread takes at a time, and calls of the monitor.
+constexpr vtkIdType BlockSize = 64;
+constexpr vtkIdType NumberOfBatches = 100;
+/// Deviation of the light from its mean over a cluster, as a part of it.
+constexpr double Deviation = 0.35;
+///@{ Thresholds that are tried: of what a patch receives, largest and smallest, and steps of
+/// halving between.
+constexpr double LargestThreshold = 1.0;
+constexpr double SmallestThreshold = 1e-10;
+constexpr int ThresholdSteps = 12;
+///@}
+/// A sample may have that much fewer links than all receivers.
+constexpr double LinkMargin = 0.98;
+} // namespace
+
+//------------------------------------------------------------------------------
+ScatteringRefinement::ScatteringRefinement(const ScatteringClusters& clusters,
+  const std::vector<double>& areas, double reference, double leaveOut)
+  : Clusters(clusters), Areas(areas), Reference(reference), LeaveOut(leaveOut)
+{
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
+  const ScatteringReceiver::Part& part, double threshold) const
+{
+  return this->AreDivided[part.Slot] || receiver.IsOwn(part) ||
+    (receiver.GetDeviation(part) > threshold).any();
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::LookAtSample()
+{
+  const auto patches = static_cast<vtkIdType>(this->Areas.size());
+  const vtkIdType count = std::min(patches, SampleSize);
+  this->Receivers.assign(count, ScatteringReceiver(this->Clusters, this->LeaveOut));
+  const auto look = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      this->Receivers[k].Look((2 * k + 1) * patches / (2 * count));
+    }
+  };
+  Threads::For(0, count, 1, look);
+}
+
+//------------------------------------------------------------------------------
+ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) const
+{
+  const auto count = static_cast<vtkIdType>(this->Receivers.size());
+  std::vector<Values> squares(count, Values::Zero());
+  std::vector<double> links(count, 0.0);
+  const auto measure = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      const ScatteringReceiver& receiver = this->Receivers[k];
+      receiver.Visit([&](const ScatteringReceiver::Part& part)
+        { return this->Divides(receiver, part, threshold); },
+        [&](const ScatteringReceiver::Part& part)
+        {
+          links[k] += part.IsLeftOut ? 0.0 : 1.0;
+          squares[k] += receiver.GetDeviation(part).square();
+        });
+    }
+  };
+  Threads::For(0, count, 1, measure);
+  double area = 0.0;
+  Values errors = Values::Zero();
+  Prospect prospect;
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    const double weight = this->Areas[this->Receivers[k].GetPatch()];
+    prospect.Links += links[k] / static_cast<double>(count);
+    area += weight;
+    errors += weight * squares[k];
+  }
+  prospect.Error = Deviation * std::sqrt(errors.maxCoeff() / area) / this->Reference;
+  return prospect;
+}
+
+//------------------------------------------------------------------------------
+// The largest threshold for the tolerance, or the smallest for the number of links.
+double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks) const
+{
+  double high = std::log(LargestThreshold * this->Reference);
+  double low = std::log(SmallestThreshold * this->Reference);
+  for (int step = 0; step < ThresholdSteps; ++step)
+  {
+    const double middle = 0.5 * (low + high);
+    const Prospect prospect = this->Measure(std::exp(middle));
+    const bool isFine = prospect.Error <= tolerance || prospect.Links > mostLinks;
+    (isFine ? low : high) = middle;
+  }
+  return std::exp(mostLinks < std::numeric_limits<double>::infinity() &&
+        this->Measure(std::exp(low)).Links > mostLinks
+      ? high
+      : low);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
+{
+  this->LookAtSample();
+  this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
+  const double most =
+    mostLinks > 0.0 ? LinkMargin * mostLinks : std::numeric_limits<double>::infinity();
+  this->Threshold = this->FindThreshold(tolerance, most);
+  this->Expected = this->Measure(this->Threshold);
+  this->Limited = this->Expected.Error > tolerance;
+}
+
+//------------------------------------------------------------------------------
+// What a cluster adds to the squared error of the receivers outside of it.
+double ScatteringRefinement::GetClusterError(int slot) const
+{
+  Values sum = Values::Zero();
+  for (const ScatteringReceiver& receiver : this->Receivers)
+  {
+    if (!this->Clusters.HoldsPatch(slot, receiver.GetPatch()))
+    {
+      sum +=
+        this->Areas[receiver.GetPatch()] * receiver.GetDeviation(receiver.GetPart(slot)).square();
+    }
+  }
+  return sum.maxCoeff();
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::ChooseUniform(int clusters)
+{
+  this->LookAtSample();
+  this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
+  std::priority_queue<std::pair<double, int>> queue;
+  // The root holds all receivers.
+  queue.emplace(std::numeric_limits<double>::infinity(), 0);
+  while (static_cast<int>(queue.size()) < clusters && queue.top().first > 0.0)
+  {
+    Pulse::Beat();
+    const int node = queue.top().second;
+    queue.pop();
+    this->AreDivided[node] = true;
+    const LinkSlots::Node children = this->Clusters.GetSlots().GetChildren(node);
+    for (int child = children.First; child < children.Last; ++child)
+    {
+      const bool isPatch = this->Clusters.GetSlots().IsPatch(child);
+      queue.emplace(isPatch ? 0.0 : this->GetClusterError(child), child);
+    }
+  }
+  this->Threshold = std::numeric_limits<double>::infinity();
+  this->Expected = this->Measure(this->Threshold);
+  this->Limited = true;
+}
+
+//------------------------------------------------------------------------------
+struct ScatteringRefinement::Filler
+{
+  const ScatteringRefinement& Outer;
+  const double* Totals;
+  vtkIdType First; ///< block
+  vtkIdType Step;  ///< from one block to the next
+  std::vector<Block>& Blocks;
+
+  void AddRow(const ScatteringReceiver& receiver, Block& block) const
+  {
+    const std::size_t before = block.Columns.size();
+    receiver.Visit([&](const ScatteringReceiver::Part& part)
+      { return this->Outer.Divides(receiver, part, this->Outer.Threshold); },
+      [&](const ScatteringReceiver::Part& part)
+      {
+        if (part.IsLeftOut)
+        {
+          block.LeftOut += 1.0;
+          return;
+        }
+        const ScatteringClusters& clusters = this->Outer.Clusters;
+        const Values value =
+          part.IsExact ? part.Value : clusters.Integrate(receiver.GetPatch(), part.Slot);
+        block.Columns.push_back(part.Slot);
+        for (int band = 0; band < Bands; ++band)
+        {
+          block.Values.push_back(
+            static_cast<float>(this->Totals[band] * value[band] / clusters.GetArea(part.Slot)));
+        }
+      });
+    block.Counts.push_back(static_cast<int>(block.Columns.size() - before));
+  }
+
+  void operator()(vtkIdType begin, vtkIdType end) const
+  {
+    const auto patches = static_cast<vtkIdType>(this->Outer.Areas.size());
+    ScatteringReceiver receiver(this->Outer.Clusters, this->Outer.LeaveOut);
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      const vtkIdType first = (this->First + k * this->Step) * BlockSize;
+      for (vtkIdType patch = first; patch < std::min(first + BlockSize, patches); ++patch)
+      {
+        Pulse::Beat();
+        receiver.Look(patch);
+        this->AddRow(receiver, this->Blocks[k]);
+      }
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRefinement::Fill(const double totals[], const Ranks& ranks,
+  const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const
+{
+  const auto patches = static_cast<vtkIdType>(this->Areas.size());
+  const vtkIdType all = (patches + BlockSize - 1) / BlockSize;
+  const vtkIdType step = ranks.GetNumber();
+  const vtkIdType mine = (all - ranks.GetMine() + step - 1) / step;
+  std::vector<Block> blocks(mine);
+  const Filler filler{ *this, totals, ranks.GetMine(), step, blocks };
+  for (vtkIdType batch = 0; batch < NumberOfBatches; ++batch)
+  {
+    Threads::For(mine * batch / NumberOfBatches, mine * (batch + 1) / NumberOfBatches, 1, filler);
+    if (Outcome goesOn =
+          monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(NumberOfBatches));
+        !goesOn)
+    {
+      return goesOn;
+    }
+  }
+  double counts[2] = {};
+  for (const Block& block : blocks)
+  {
+    counts[0] += static_cast<double>(block.Columns.size());
+    counts[1] += block.LeftOut;
+  }
+  ranks.Sum(counts, 2);
+  summary = { counts[0], counts[1] };
+  return this->Store(blocks, ranks.GetMine(), ranks.GetNumber(), exchange);
+}
+
+//------------------------------------------------------------------------------
+// Rows of nodes, and of receivers of other ranks, are empty.
+Outcome ScatteringRefinement::Store(const std::vector<Block>& blocks, int mine, int ranks,
+  vtkExchangeHierarchy* exchange) const
+{
+  std::vector<std::int64_t> offsets(exchange->GetNumberOfSlots() + 1, 0);
+  std::vector<int> columns;
+  std::vector<float> values;
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+  {
+    const std::size_t first = (mine + k * ranks) * BlockSize + exchange->GetNumberOfNodes() + 1;
+    std::copy(blocks[k].Counts.begin(), blocks[k].Counts.end(),
+      offsets.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  for (std::size_t slot = 1; slot < offsets.size(); ++slot)
+  {
+    offsets[slot] += offsets[slot - 1];
+  }
+  columns.reserve(offsets.back());
+  values.reserve(offsets.back() * Bands);
+  for (const Block& block : blocks)
+  {
+    columns.insert(columns.end(), block.Columns.begin(), block.Columns.end());
+    values.insert(values.end(), block.Values.begin(), block.Values.end());
+  }
+  return exchange->SetRows(std::move(offsets), std::move(columns), std::move(values))
+    ? Outcome::Done()
+    : Outcome::Failed("The links between clusters do not fit their tree.");
+}
+} // namespace LightTransport

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Chooses from which clusters each patch receives scattered light, and fills the rows of a
+ * vtkExchangeHierarchy with the profiles' means over them (Jensen and Buhler 2002; Carr, Hall and
+ * Hart 2003). A link takes the light of a cluster for its mean: it misses at most the deviation of
+ * the profile over the cluster times that of the light. So from the top down a cluster is divided
+ * where
+ *
+ *   area x deviation of the profile > threshold
+ *
+ * in any band, with one threshold for all patches, and where it holds the receiver itself. What is
+ * certainly too far away to matter is left out.
+ *
+ * *Uniform* links begin at the same clusters for all receivers, chosen so that each adds as much to
+ * the squared error of a sample of receivers, and divide only those that hold the receiver: its own
+ * branch of the tree. *Adaptive* links begin at the root.
+ *
+ * The error that links have together is that of light which differs from its mean over each cluster
+ * by Deviation of the mean, independently of the profile: the root of the sum of squares.
+ */
+#ifndef ScatteringRefinement_h
+#define ScatteringRefinement_h
+
+#include "Scattering/ScatteringClusters.h"
+#include "Scattering/ScatteringReceiver.h"
+#include "Shared/Monitor.h"
+#include "Shared/Outcome.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkExchangeHierarchy;
+
+namespace LightTransport
+{
+class Ranks;
+
+class ScatteringRefinement
+{
+public:
+  /// All must outlive this. Errors of links are relative to `reference`, what a patch receives in
+  /// even light over the profile's total. What is certainly below `leaveOut`, per mm^2, is.
+  ScatteringRefinement(const ScatteringClusters& clusters, const std::vector<double>& areas,
+    double reference, double leaveOut);
+
+  ///@{ Which links there are. At most `mostLinks` (0: any number) on average.
+  void ChooseUniform(int clusters);
+  void ChooseAdaptive(double tolerance, double mostLinks);
+  ///@}
+
+  /// What the choice comes to, of a sample of receivers.
+  struct Prospect
+  {
+    double Links = 0.0; ///< of a receiver, on average
+    double Error = 0.0; ///< root mean square of the worst band, relative
+  };
+  const Prospect& GetProspect() const { return this->Expected; }
+  /// Whether the number of links kept ChooseAdaptive from the tolerance.
+  bool IsLimited() const { return this->Limited; }
+
+  struct Summary
+  {
+    double Links = 0.0;
+    double LeftOut = 0.0;
+  };
+
+  /// This rank's rows, times the profiles' totals.
+  Outcome Fill(const double totals[], const Ranks& ranks, const Monitor& monitor,
+    vtkExchangeHierarchy* exchange, Summary& summary) const;
+
+private:
+  static constexpr int Bands = ScatteringIntegrals::NumberOfBands;
+  /// The rows of some receivers, one after another.
+  struct Block
+  {
+    std::vector<int> Counts;
+    std::vector<int> Columns;
+    std::vector<float> Values;
+    double LeftOut = 0.0;
+  };
+  struct Filler;
+  using Sample = std::vector<ScatteringReceiver>;
+
+  bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
+    double threshold) const;
+  void LookAtSample();
+  Prospect Measure(double threshold) const;
+  double FindThreshold(double tolerance, double mostLinks) const;
+  double GetClusterError(int slot) const;
+  Outcome Store(const std::vector<Block>& blocks, int mine, int ranks,
+    vtkExchangeHierarchy* exchange) const;
+
+  const ScatteringClusters& Clusters;
+  const std::vector<double>& Areas;
+  const double Reference;
+  const double LeaveOut;
+  Sample Receivers; ///< some of all, by which rows are foreseen
+  /// Nodes that are divided for all receivers.
+  std::vector<bool> AreDivided;
+  double Threshold = 0.0;
+  Prospect Expected;
+  bool Limited = false;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What scattering and its report ask of a translucent body: material, and light that falls in."""
+
+from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
+from vtklighttransport.shell.properties import (
+    Choice, Color, InputArray, Number, add_arrays, choose_array, choose_arrays, make_filter)
+from vtkmodules.vtkCommonCore import reference
+
+BODY = (
+    Choice("--material", "Material", "MATERIAL_",
+           "measured material; it wins over the three options below"),
+    Color("--scattering", "ScatteringCoefficient",
+          "reduced scattering coefficient of red, green and blue, per mm"),
+    Color("--absorption", "AbsorptionCoefficient",
+          "absorption coefficient of red, green and blue, per mm"),
+    Number("--refractive-index", "RefractiveIndex", float, "refractive index of the object"),
+    Number("--mm-per-unit", "MillimetersPerUnit", float,
+           "length of the mesh's unit in millimetres; 10 for centimetres"),
+    Choice("--burley-fit", "BurleyFit", "BURLEY_FIT_",
+           "what the model of Christensen and Burley is fitted to, which is one for an index of 1"),
+    Color("--anisotropy", "Anisotropy",
+          "mean cosine of the angle of scattering of red, green and blue, for monte-carlo and "
+          "tabulated"),
+    Number("--seed", "Seed", int, "of the random numbers of monte-carlo and tabulated"),
+    Choice("--incidence", "Incidence", "INCIDENCE_",
+           "without a light: whether the mesh's array is diffuse irradiance or has entered the "
+           "surface"),
+)
+IRRADIANCE = InputArray(
+    "--irradiance", 0,
+    "without a light: cell array (of texels: point array) of what falls in "
+    "[Irradiance, or TransmittedIrradiance]")
+
+
+def add_light_that_falls_in(parser):
+    add_lights(parser)
+    add_arrays(parser, [IRRADIANCE])
+
+
+def make_scattering(options, table):
+    """A filter with what the options set, for a surface as light_body makes it."""
+    scattering = make_filter(options, "vtkSubsurfaceScattering", table)
+    choose_arrays(options, scattering, [IRRADIANCE])
+    if has_lights(options):
+        if find_material(scattering)[2] > 1.0:
+            scattering.SetIncidenceToTransmitted()
+        else:
+            choose_array(scattering, IRRADIANCE.index, "DirectIrradiance")
+    return scattering
+
+
+def light_body(options, messages, surface, scattering):
+    return light_scene(options, messages, surface, find_material(scattering)[2])
+
+
+def find_material(scattering):
+    """Reduced scattering, absorption and refractive index: of the material, or of the properties
+    where there is none."""
+    reduced = list(scattering.GetScatteringCoefficient())
+    absorption = list(scattering.GetAbsorptionCoefficient())
+    index = reference(scattering.GetRefractiveIndex())
+    scattering.GetMaterialProperties(scattering.GetMaterial(), reduced, absorption, index)
+    return reduced, absorption, index.get()
