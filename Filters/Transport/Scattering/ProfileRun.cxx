@@ -59,7 +59,8 @@ Outcome ProfileRun::Gather()
 {
   return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
     ? this->ScatteringRun::Gather()
-    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface);
+    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface,
+        this->NumberOfSides, this->TakesTexels);
 }
 
 //------------------------------------------------------------------------------
