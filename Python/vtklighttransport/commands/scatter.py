@@ -31,6 +31,10 @@ PROPERTIES = (
     Switch("--drop-links-through-air", "DropLinksThroughAir", True,
            "leave out links through the air between parts of the body; LinksThroughAir tells what "
            "they carry"),
+    Switch("--compress-links", "CompressLinks", True,
+           "keep links from clusters in one or two bytes each"),
+    Number("--compression-tolerance", "CompressionTolerance", float,
+           "bound on the error that compressed links make in even light, 0 for none"),
     Number("--link-tolerance", "LinkTolerance", float,
            "bound on the relative error of the links of a patch"),
     DEVICE,
