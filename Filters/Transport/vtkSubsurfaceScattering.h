@@ -371,7 +371,7 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by half of it. Default 0: 1e-4
+   * surface, of light that differs from its mean over each cluster by a third of it. Default 0: 1e-4
    * for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);

@@ -5,8 +5,8 @@
 #ifndef ClusterSampler_h
 #define ClusterSampler_h
 
-#include "Scene/PatchScene.h"
 #include "Links/LinkSlots.h"
+#include "Scene/PatchScene.h"
 
 #include <array>
 #include <cstdint>

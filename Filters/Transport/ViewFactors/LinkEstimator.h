@@ -14,9 +14,9 @@
 #ifndef LinkEstimator_h
 #define LinkEstimator_h
 
+#include "Links/LinkSlots.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactors/ClusterSampler.h"
-#include "Links/LinkSlots.h"
 
 #include <vector>
 

@@ -23,10 +23,10 @@
 #define LinkRefinement_h
 
 #include "Geometry/ShaftCuller.h"
+#include "Links/LinkSlots.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 #include "ViewFactors/LinkEstimator.h"
-#include "Links/LinkSlots.h"
 #include "ViewFactors/SlotErrors.h"
 #include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeHierarchy.h"

@@ -31,12 +31,17 @@ PROPERTIES = (
     Switch("--drop-links-through-air", "DropLinksThroughAir", True,
            "leave out links through the air between parts of the body; LinksThroughAir tells what "
            "they carry"),
+    Choice("--links", "LinkMethod", "LINK_METHOD_",
+           "from whom a patch receives light: all patches, the same clusters for all, or clusters "
+           "that are small near by; auto takes the cheaper one of dense and adaptive"),
+    Number("--number-of-links", "NumberOfLinks", int,
+           "clusters of uniform links, and links of a patch that adaptive ones have at most"),
     Switch("--compress-links", "CompressLinks", True,
            "keep links from clusters in one or two bytes each"),
     Number("--compression-tolerance", "CompressionTolerance", float,
            "bound on the error that compressed links make in even light, 0 for none"),
     Number("--link-tolerance", "LinkTolerance", float,
-           "bound on the relative error of the links of a patch"),
+           "relative error of what links bring to a patch, 0 for 1e-4 (dense) or 1e-2"),
     DEVICE,
     Number("--feature-angle", "FeatureAngle", float,
            "edges sharper than this keep their own point values, in degrees"),

@@ -211,7 +211,10 @@ Results Run(const Case& filterCase, const std::function<void(vtkAlgorithm*, vtkP
       results.Errors[rank] = errors->GetAll();
       results.Cells[rank] =
         filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL);
-      results.Asked += rank == Failing ? Refused.Asked : 0;
+      if (rank == Failing)
+      {
+        results.Asked = Refused.Asked;
+      }
     });
   return results;
 }
