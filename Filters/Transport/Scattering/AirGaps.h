@@ -20,6 +20,10 @@ namespace LightTransport
 class AirGaps
 {
 public:
+  /// Links of a patch that are looked at where not all of them are; a little more of small patches
+  /// and where bands differ.
+  static constexpr double SampleSize = 64.0;
+
   /// The scene must outlive this. Fails where rays cannot be cast (no memory).
   Outcome Build(const PatchScene& scene);
 
