@@ -294,6 +294,29 @@ public:
 
   ///@{
   /**
+   * Keep links from clusters in one byte (Uniform) or two, by a code book of 256 values that is
+   * trained on them, as Carr, Hall and Hart did: an eighth of the memory, and of what a product
+   * reads. Auto then takes Adaptive; links between all pairs cannot be. Field data
+   * "CompressionError": the relative error (root mean square) of the links, as they act in light
+   * that comes from anywhere; in even light the result is less off. Default off.
+   */
+  vtkSetMacro(CompressLinks, bool);
+  vtkGetMacro(CompressLinks, bool);
+  vtkBooleanMacro(CompressLinks, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Bound on the error of compressed links, relative to what a patch receives in even light: links
+   * that the code book misses by too much are kept exact. Default 0, which is no bound: none are.
+   * Range 0 to 1.
+   */
+  vtkSetClampMacro(CompressionTolerance, double, 0.0, 1.0);
+  vtkGetMacro(CompressionTolerance, double);
+  ///@}
+
+  ///@{
+  /**
    * Mean cosine of the angle by which photons are scattered (Henyey and Greenstein), of red, green
    * and blue, for MODEL_MONTE_CARLO and MODEL_TABULATED. ScatteringCoefficient stays the reduced
    * one: photons are scattered 1 / (1 - Anisotropy) times as often. Default 0, 0, 0; range -0.99 to
@@ -420,6 +443,8 @@ private:
   bool ComputeThickness = false;
   bool DropLinksThroughAir = false;
   int NumberOfLinks = 64;
+  bool CompressLinks = false;
+  double CompressionTolerance = 0.0;
   double LinkTolerance = 0.0;
   int Incidence = INCIDENCE_DIFFUSE;
   int Device = DEVICE_AUTO;

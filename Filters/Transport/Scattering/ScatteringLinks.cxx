@@ -92,7 +92,8 @@ LinkKey ScatteringLinks::GetKey() const
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
-      this->Choice.DropsThroughAir ? 1.0 : 0.0 },
+      this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
+      this->Choice.CompressionTolerance },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -219,7 +220,7 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
   }
-  if (isAuto && this->IsDense(task, refinement))
+  if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
   }
@@ -260,6 +261,12 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
   links.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
     { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+  if (built && this->Choice.AreCompressed)
+  {
+    links.Summaries.emplace_back("CompressionError",
+      links.Hierarchy->CompressRows(this->Choice.CompressionTolerance,
+        task.AllRanks.GetController()));
+  }
   return built;
 }
 

@@ -66,6 +66,7 @@ NumberProperties::List ScatteringRun::ListNumbers() const
   NumberProperties::List numbers = this->TransportRun::ListNumbers();
   numbers.emplace_back("TargetError", this->Owner->GetTargetError());
   numbers.emplace_back("LinkTolerance", this->Owner->GetLinkTolerance());
+  numbers.emplace_back("CompressionTolerance", this->Owner->GetCompressionTolerance());
   return numbers;
 }
 
