@@ -22,6 +22,16 @@
  * photons where their Anisotropy is the same. MODEL_TABULATED is in between: a profile, from
  * photons that walk in a flat medium, as diffuse light, too.
  *
+ * The input may be the texels of an atlas as well: a vtkImageData of one layer with the point
+ * arrays "Position", "Normal", "Area" and "ChartId", as vtkSurfaceToAtlas makes it, or composite
+ * data of such images (one scene, as with surfaces; not both kinds). A texel is a patch then: a
+ * parallelogram around its position, in the plane of its normal, along the steps to its neighbours
+ * in the same chart, of exactly its area. Arrays are point arrays, in and out, and the output is
+ * the image; texels without surface get 0. What looks into the body (MODEL_MONTE_CARLO,
+ * ComputeThickness, DropLinksThroughAir) needs the surface, and "LinksThroughAir" is not told. On
+ * several ranks each may have all of an image, a part, or nothing: texels that two have alike count
+ * once.
+ *
  * Port 1, optional, for MODEL_MONTE_CARLO: the medium where it varies, a vtkImageData placed in the
  * unit of the surface (origin, spacing, direction matrix), with the arrays "Scattering" (the
  * reduced coefficient, as the property is) and "Absorption", per mm, 1 component (the same in all
@@ -45,31 +55,34 @@
  * photon has reached that of one photon;
  * - with ComputeThickness "Thickness" (mm) and "DiffusionThickness" (3 components).
  *
- * Output field data: "NumberOfLinks", "LinksLeftOut", "LinkErrorBound", "LinkSeconds",
- * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
- * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
- * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
- * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, 3
- * components): of the light that links carry, those that are dropped included, the share that goes
- * through the air between parts of the body, see DropLinksThroughAir; estimated from some 64 links
- * of each patch, with one standard error "LinksThroughAirError", exact where they are dropped and
- * for one convex body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives
- * back of the light that enters; a body may give back more or less, and a warning tells where it is
- * more than enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that,
- * relative; more where less than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts
- * in LeavingFlux each time it leaves. Monte Carlo without links has in their place "PhotonsTraced",
- * "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters, what goes away
- * for good after scattering) with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for
- * surfaces that cross themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton"
- * and "WalkSeconds", and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness
- * "ThinShare" (3 components: the part of the surface that is thinner than two diffusion lengths).
+ * Output field data: "NumberOfLinks", "LinksPerReceiver", "LinksLeftOut", "LinkMethodUsed",
+ * "LinkErrorBound" (Dense) or "LinkError" and "LinksLimitedBy" (others), "LinkBytes",
+ * "LinkSeconds", "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance
+ * times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a
+ * vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
+ * "LinksReused" is 1 where links of an earlier run were taken. "LinksThroughAir" (models that are
+ * profiles, 3 components; not of texels): of the light that links carry, those that are dropped
+ * included, the share that goes through the air between parts of the body, see DropLinksThroughAir;
+ * estimated from some 64 links of each patch, with one standard error "LinksThroughAirError", exact
+ * where they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components):
+ * what a flat surface gives back of the light that enters; a body may give back more or less, and a
+ * warning tells where it is more than enters. "ProfileError" (MODEL_TABULATED, 3 components):
+ * standard error of that, relative; more where less than 1e-4 is absorbed. Light that Monte Carlo
+ * lets enter again counts in LeavingFlux each time it leaves. Monte Carlo without links has in
+ * their place "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of
+ * what enters, what goes away for good after scattering) with "LeavingShareError",
+ * "UnscatteredShare", "LostShare" (0 but for surfaces that cross themselves and very large bodies),
+ * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
+ * "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the part of the surface
+ * that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
  * finite, links that do not fit into memory. Monte Carlo: a surface that is open, inside out, has
  * no inside or crosses itself; irradiance below 0 without links; Anisotropy out of its range; a
  * medium without any of its arrays, that is flat, or has values below 0 or not finite. A medium
- * with another Model.
+ * with another Model. Texels: an image that has not all their arrays, values that are not finite or
+ * areas below 0, images beside surfaces, what looks into the body.
  *
  * H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model for Subsurface Light
  * Transport", SIGGRAPH 2001; H. W. Jensen, J. Buhler, "A Rapid Hierarchical Rendering Technique for
@@ -77,7 +90,7 @@
  * Radiosity and Subsurface Scattering", Graphics Hardware 2003; L. Wang, S. L. Jacques, L. Zheng,
  * "MCML - Monte Carlo modeling of light transport in multi-layered tissues", 1995.
  *
- * @sa vtkDirectIrradiance, vtkRadiosity
+ * @sa vtkDirectIrradiance, vtkRadiosity, vtkSurfaceToAtlas, vtkAtlasToSurface
  */
 #ifndef vtkSubsurfaceScattering_h
 #define vtkSubsurfaceScattering_h
@@ -281,6 +294,29 @@ public:
 
   ///@{
   /**
+   * Keep links from clusters in one byte (Uniform) or two, by a code book of 256 values that is
+   * trained on them, as Carr, Hall and Hart did: an eighth of the memory, and of what a product
+   * reads. Auto then takes Adaptive; links between all pairs cannot be. Field data
+   * "CompressionError": the relative error (root mean square) of the links, as they act in light
+   * that comes from anywhere; in even light the result is less off. Default off.
+   */
+  vtkSetMacro(CompressLinks, bool);
+  vtkGetMacro(CompressLinks, bool);
+  vtkBooleanMacro(CompressLinks, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Bound on the error of compressed links, relative to what a patch receives in even light: links
+   * that the code book misses by too much are kept exact. Default 0, which is no bound: none are.
+   * Range 0 to 1.
+   */
+  vtkSetClampMacro(CompressionTolerance, double, 0.0, 1.0);
+  vtkGetMacro(CompressionTolerance, double);
+  ///@}
+
+  ///@{
+  /**
    * Mean cosine of the angle by which photons are scattered (Henyey and Greenstein), of red, green
    * and blue, for MODEL_MONTE_CARLO and MODEL_TABULATED. ScatteringCoefficient stays the reduced
    * one: photons are scattered 1 / (1 - Anisotropy) times as often. Default 0, 0, 0; range -0.99 to
@@ -348,8 +384,8 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by a third of it. Default 0: 1e-4
-   * for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
+   * surface, of light that differs from its mean over each cluster by .6 of it. Default 0:
+   * 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);
   vtkGetMacro(LinkTolerance, double);
@@ -362,22 +398,17 @@ public:
    */
   vtkSetClampMacro(Incidence, int, INCIDENCE_DIFFUSE, INCIDENCE_TRANSMITTED);
   vtkGetMacro(Incidence, int);
-  void SetIncidenceToDiffuse() {
-    this->SetIncidence(INCIDENCE_DIFFUSE); }
-  void SetIncidenceToTransmitted() {
-    this->SetIncidence(INCIDENCE_TRANSMITTED); }
+  void SetIncidenceToDiffuse() { this->SetIncidence(INCIDENCE_DIFFUSE); }
+  void SetIncidenceToTransmitted() { this->SetIncidence(INCIDENCE_TRANSMITTED); }
   ///@}
 
   ///@{
   /// Where the links are applied. Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
   vtkGetMacro(Device, int);
-  void SetDeviceToAuto() {
-    this->SetDevice(DEVICE_AUTO); }
-  void SetDeviceToCPU() {
-    this->SetDevice(DEVICE_CPU); }
-  void SetDeviceToOpenGL() {
-    this->SetDevice(DEVICE_OPENGL); }
+  void SetDeviceToAuto() { this->SetDevice(DEVICE_AUTO); }
+  void SetDeviceToCPU() { this->SetDevice(DEVICE_CPU); }
+  void SetDeviceToOpenGL() { this->SetDevice(DEVICE_OPENGL); }
   ///@}
 
 protected:
@@ -412,6 +443,8 @@ private:
   bool ComputeThickness = false;
   bool DropLinksThroughAir = false;
   int NumberOfLinks = 64;
+  bool CompressLinks = false;
+  double CompressionTolerance = 0.0;
   double LinkTolerance = 0.0;
   int Incidence = INCIDENCE_DIFFUSE;
   int Device = DEVICE_AUTO;

@@ -42,6 +42,17 @@ constexpr double ShareOfNeighbours = 0.1 / 40.0;
 ///@}
 
 //------------------------------------------------------------------------------
+template <typename Summary>
+void TakeAir(Summary& summary, const Ranks& ranks, Links& links)
+{
+  ranks.Sum(summary.ThroughAir);
+  ranks.Sum(summary.ThroughAirVariances);
+  links.ThroughAir = std::move(summary.ThroughAir);
+  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
+  links.AirSamples = std::move(summary.AirSamples);
+}
+
+//------------------------------------------------------------------------------
 Outcome FailForSize(double size)
 {
   std::ostringstream text;
@@ -81,7 +92,8 @@ LinkKey ScatteringLinks::GetKey() const
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
-      this->Choice.DropsThroughAir ? 1.0 : 0.0 },
+      this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
+      this->Choice.CompressionTolerance },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -118,7 +130,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   Outcome built = ScatteringModels::MakeProfiles(this->Model, options, this->Bands, task.Profiles);
   if (built)
   {
-    // What goes through the air is told of pairs alone.
+    // What goes through the air is dropped pair by pair.
     const bool isDense = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
       this->Choice.DropsThroughAir;
     built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
@@ -147,7 +159,9 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
   AirGaps gaps;
-  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  // Texels enclose no body: nobody knows what is air between them.
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
                     { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
@@ -158,11 +172,10 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   task.AllRanks.Sum(counts, 2);
   task.AllRanks.Sum(summary.Errors);
-  task.AllRanks.Sum(summary.ThroughAir);
-  task.AllRanks.Sum(summary.ThroughAirVariances);
-  links.ThroughAir = std::move(summary.ThroughAir);
-  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
-  links.AirSamples = std::move(summary.AirSamples);
+  if (knowsAir)
+  {
+    TakeAir(summary, task.AllRanks, links);
+  }
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {
@@ -207,7 +220,7 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
   }
-  if (isAuto && this->IsDense(task, refinement))
+  if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
   }
@@ -229,13 +242,31 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
     totals.push_back(profile->GetTotal());
   }
   ScatteringRefinement::Summary summary;
-  built = task.AllRanks.Agree(
-    refinement.Fill(totals.data(), task.AllRanks, task.Watch, links.Hierarchy, summary));
+  AirGaps gaps;
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  built = built ? task.AllRanks.Agree(refinement.Fill(totals.data(), gaps, task.AllRanks,
+                    task.Watch, links.Hierarchy, summary))
+                : built;
+  if (!built)
+  {
+    return built;
+  }
+  if (knowsAir)
+  {
+    TakeAir(summary, task.AllRanks, links);
+  }
   links.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", prospect.Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
   links.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
     { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+  if (built && this->Choice.AreCompressed)
+  {
+    links.Summaries.emplace_back("CompressionError",
+      links.Hierarchy->CompressRows(this->Choice.CompressionTolerance,
+        task.AllRanks.GetController()));
+  }
   return built;
 }
 

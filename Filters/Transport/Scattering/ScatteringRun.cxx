@@ -66,6 +66,7 @@ NumberProperties::List ScatteringRun::ListNumbers() const
   NumberProperties::List numbers = this->TransportRun::ListNumbers();
   numbers.emplace_back("TargetError", this->Owner->GetTargetError());
   numbers.emplace_back("LinkTolerance", this->Owner->GetLinkTolerance());
+  numbers.emplace_back("CompressionTolerance", this->Owner->GetCompressionTolerance());
   return numbers;
 }
 
@@ -90,7 +91,8 @@ Outcome ScatteringRun::Check()
 //------------------------------------------------------------------------------
 const char* ScatteringRun::FindUseOfBody() const
 {
-  return this->Owner->GetComputeThickness() ? "ComputeThickness" : nullptr;
+  const char* drop = this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir" : nullptr;
+  return this->Owner->GetComputeThickness() ? "ComputeThickness" : drop;
 }
 
 //------------------------------------------------------------------------------
