@@ -306,6 +306,8 @@ vtkSmartPointer<vtkAlgorithm> MakeSubsurfaceScattering(Choices& choices, const R
   scattering->SetLinkMethod(choices.Index(4));
   scattering->SetNumberOfLinks(choices.Among({ 64, 16, 1, -1, VTK_INT_MAX }));
   scattering->SetDropLinksThroughAir(choices.Chance(3));
+  scattering->SetCompressLinks(choices.Chance(3));
+  scattering->SetCompressionTolerance(ChooseTolerance(choices, { 0.0, 1e-2, 1e-300, 1e300 }));
   scattering->SetNumberOfPhotons(choices.Among({ 1000, 100, 100, 300, 1, -1 }));
   if (scattering->GetNumberOfPhotons() == 0)
   {
