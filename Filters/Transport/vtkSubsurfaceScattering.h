@@ -55,24 +55,26 @@
  * photon has reached that of one photon;
  * - with ComputeThickness "Thickness" (mm) and "DiffusionThickness" (3 components).
  *
- * Output field data: "NumberOfLinks", "LinksLeftOut", "LinkErrorBound", "LinkSeconds",
- * "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance times the square
- * of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a vtkTable with one
- * row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound". "LinksReused" is 1
- * where links of an earlier run were taken. "LinksThroughAir" (models that are profiles, 3
- * components): of the light that links carry, those that are dropped included, the share that goes
- * through the air between parts of the body, see DropLinksThroughAir; estimated from some 64 links
- * of each patch, with one standard error "LinksThroughAirError", exact where they are dropped and
- * for one convex body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives
- * back of the light that enters; a body may give back more or less, and a warning tells where it is
- * more than enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that,
- * relative; more where less than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts
- * in LeavingFlux each time it leaves. Monte Carlo without links has in their place "PhotonsTraced",
- * "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters, what goes away
- * for good after scattering) with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for
- * surfaces that cross themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton"
- * and "WalkSeconds", and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness
- * "ThinShare" (3 components: the part of the surface that is thinner than two diffusion lengths).
+ * Output field data: "NumberOfLinks", "LinksPerReceiver", "LinksLeftOut", "LinkMethodUsed",
+ * "LinkErrorBound" (Dense) or "LinkError" and "LinksLimitedBy" (others), "LinkBytes",
+ * "LinkSeconds", "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance
+ * times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a
+ * vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
+ * "LinksReused" is 1 where links of an earlier run were taken. "LinksThroughAir" (models that are
+ * profiles, 3 components): of the light that links carry, those that are dropped included, the
+ * share that goes through the air between parts of the body, see DropLinksThroughAir; estimated
+ * from some 64 links of each patch, with one standard error "LinksThroughAirError", exact where
+ * they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components): what a
+ * flat surface gives back of the light that enters; a body may give back more or less, and a
+ * warning tells where it is more than enters. "ProfileError" (MODEL_TABULATED, 3 components):
+ * standard error of that, relative; more where less than 1e-4 is absorbed. Light that Monte Carlo
+ * lets enter again counts in LeavingFlux each time it leaves. Monte Carlo without links has in
+ * their place "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of
+ * what enters, what goes away for good after scattering) with "LeavingShareError",
+ * "UnscatteredShare", "LostShare" (0 but for surfaces that cross themselves and very large bodies),
+ * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
+ * "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the part of the surface
+ * that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
@@ -359,8 +361,8 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by a third of it. Default 0: 1e-4
-   * for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
+   * surface, of light that differs from its mean over each cluster by a third of it. Default 0:
+   * 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);
   vtkGetMacro(LinkTolerance, double);

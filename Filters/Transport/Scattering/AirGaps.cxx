@@ -34,7 +34,8 @@ Outcome AirGaps::Build(const PatchScene& scene)
   this->Scene = &scene;
   this->HasHollows = false;
   std::vector<bool> hollows(scene.GetNumberOfPatches());
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  const vtkIdType patches = scene.IsOfTexels() ? 0 : scene.GetNumberOfPatches();
+  for (vtkIdType patch = 0; patch < patches; ++patch)
   {
     Pulse::Beat(patch);
     PatchPlane plane = scene.GetPlane(patch);

@@ -20,7 +20,12 @@ namespace LightTransport
 class AirGaps
 {
 public:
-  /// The scene must outlive this. Fails where rays cannot be cast (no memory).
+  /// Links of a patch that are looked at where not all of them are; a little more of small patches
+  /// and where bands differ.
+  static constexpr double SampleSize = 64.0;
+
+  /// The scene must outlive this; texels, which enclose no body, have no gaps. Fails where rays
+  /// cannot be cast (no memory).
   Outcome Build(const PatchScene& scene);
 
   /// False where the scene is one convex body: all of it is behind the plane of each patch. Then no

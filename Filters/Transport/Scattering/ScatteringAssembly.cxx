@@ -37,10 +37,6 @@ constexpr double RoundingMargin = 1.01;
 /// Halvings of the longest distance in the search for the one beyond which pairs are left out.
 constexpr int CutOffSteps = 60;
 
-/// Links of a patch that are looked at for air, where not all of them are; a little more of small
-/// ones and where bands differ.
-constexpr double AirSamples = 64.0;
-
 //------------------------------------------------------------------------------
 /// What a thread leaves behind for a patch.
 struct PatchSummary
@@ -235,8 +231,8 @@ private:
     }
   }
 
-  /// Of the links of a patch about as many are looked at as AirSamples says, stronger ones more
-  /// likely, by a number that is the link's own: so that threads and ranks do not matter.
+  /// Of the links of a patch about as many are looked at as AirGaps::SampleSize says, stronger ones
+  /// more likely, by a number that is the link's own: so that threads and ranks do not matter.
   void LookForAir(vtkIdType i, vtkIdType j, ScatteringIntegrals::Bands& value,
     PatchSummary& pair) const
   {
@@ -249,7 +245,7 @@ private:
     {
       const double part =
         value.maxCoeff() / std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
-      chance = std::min(AirSamples * part, 1.0);
+      chance = std::min(AirGaps::SampleSize * part, 1.0);
       const auto count = static_cast<std::uint64_t>(this->Patches.Areas.size());
       SplitMix number(static_cast<std::uint64_t>(i) * count + static_cast<std::uint64_t>(j));
       if (!(number.GetNextHalf() < chance * 0x1p32))
@@ -296,7 +292,8 @@ Outcome ScatteringAssembly::Fill(const PatchScene& scene, double millimetersPerS
   for (const auto& profile : profiles)
   {
     const double largest = *std::max_element(body.Areas.begin(), body.Areas.end());
-    summary.AirSamples.push_back(isSample ? profile->GetTotal() * largest / AirSamples : 0.0);
+    summary.AirSamples.push_back(
+      isSample ? profile->GetTotal() * largest / AirGaps::SampleSize : 0.0);
   }
   const vtkIdType strips =
     static_cast<vtkIdType>(exchange->GetTiles().size()) * StripFiller::StripsPerTile;

@@ -120,6 +120,23 @@ bool ScatteringClusters::IsWithin(int slot, int other) const
 }
 
 //------------------------------------------------------------------------------
+vtkIdType ScatteringClusters::Pick(int slot, double number) const
+{
+  double left = number * this->Places[slot].Area;
+  while (!this->Slots.IsPatch(slot))
+  {
+    const LinkSlots::Node children = this->Slots.GetChildren(slot);
+    int child = children.First;
+    for (; child + 1 < children.Last && left >= this->Places[child].Area; ++child)
+    {
+      left -= this->Places[child].Area;
+    }
+    slot = child;
+  }
+  return this->Slots.GetPatch(slot);
+}
+
+//------------------------------------------------------------------------------
 double ScatteringClusters::GetBound(vtkIdType receiver, int slot) const
 {
   const Place& here = this->GetReceiver(receiver);

@@ -54,6 +54,9 @@ public:
   /// Whether a slot is another one, or below it.
   bool IsWithin(int slot, int other) const;
 
+  /// A patch of a slot, by a number from 0 to 1: as likely as its area is large.
+  vtkIdType Pick(int slot, double number) const;
+
   /// An upper bound of the profile between a patch and a slot.
   double GetBound(vtkIdType receiver, int slot) const;
 

@@ -42,6 +42,22 @@ constexpr double ShareOfNeighbours = 0.1 / 40.0;
 ///@}
 
 //------------------------------------------------------------------------------
+// Of texels nobody knows what is air between them.
+template <typename Summary>
+void TakeAir(Summary& summary, const PatchScene& scene, const Ranks& ranks, Links& links)
+{
+  if (scene.IsOfTexels())
+  {
+    return;
+  }
+  ranks.Sum(summary.ThroughAir);
+  ranks.Sum(summary.ThroughAirVariances);
+  links.ThroughAir = std::move(summary.ThroughAir);
+  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
+  links.AirSamples = std::move(summary.AirSamples);
+}
+
+//------------------------------------------------------------------------------
 Outcome FailForSize(double size)
 {
   std::ostringstream text;
@@ -118,7 +134,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   Outcome built = ScatteringModels::MakeProfiles(this->Model, options, this->Bands, task.Profiles);
   if (built)
   {
-    // What goes through the air is told of pairs alone.
+    // What goes through the air is dropped pair by pair.
     const bool isDense = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
       this->Choice.DropsThroughAir;
     built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
@@ -147,9 +163,7 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
   AirGaps gaps;
-  // Texels enclose no body: nobody knows what is air between them.
-  const bool knowsAir = !task.Scene.IsOfTexels();
-  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
                     { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
@@ -160,14 +174,7 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   task.AllRanks.Sum(counts, 2);
   task.AllRanks.Sum(summary.Errors);
-  task.AllRanks.Sum(summary.ThroughAir);
-  task.AllRanks.Sum(summary.ThroughAirVariances);
-  if (knowsAir)
-  {
-    links.ThroughAir = std::move(summary.ThroughAir);
-    links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
-    links.AirSamples = std::move(summary.AirSamples);
-  }
+  TakeAir(summary, task.Scene, task.AllRanks, links);
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {
@@ -234,8 +241,16 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
     totals.push_back(profile->GetTotal());
   }
   ScatteringRefinement::Summary summary;
-  built = task.AllRanks.Agree(
-    refinement.Fill(totals.data(), task.AllRanks, task.Watch, links.Hierarchy, summary));
+  AirGaps gaps;
+  built = task.AllRanks.Agree(gaps.Build(task.Scene));
+  built = built ? task.AllRanks.Agree(refinement.Fill(totals.data(), gaps, task.AllRanks,
+                    task.Watch, links.Hierarchy, summary))
+                : built;
+  if (!built)
+  {
+    return built;
+  }
+  TakeAir(summary, task.Scene, task.AllRanks, links);
   links.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", prospect.Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringRefinement.h"
 
+#include "Scattering/AirGaps.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
+#include "Support/SplitMix.h"
 #include "vtkExchangeHierarchy.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -182,9 +185,32 @@ struct ScatteringRefinement::Filler
 {
   const ScatteringRefinement& Outer;
   const double* Totals;
+  const AirGaps& Gaps;
   vtkIdType First; ///< block
   vtkIdType Step;  ///< from one block to the next
   std::vector<Block>& Blocks;
+
+  /// As between patches, to one of the patches of the cluster.
+  void LookForAir(vtkIdType receiver, int slot, const Values& value, Block& block) const
+  {
+    if (!this->Gaps.MayBeThere())
+    {
+      return;
+    }
+    const double chance = std::min(AirGaps::SampleSize * value.maxCoeff(), 1.0);
+    SplitMix number(static_cast<std::uint64_t>(receiver) *
+        static_cast<std::uint64_t>(this->Outer.Clusters.GetSlots().GetNumberOfSlots()) +
+      static_cast<std::uint64_t>(slot));
+    if (!(number.GetNextHalf() < chance * 0x1p32))
+    {
+      return;
+    }
+    const vtkIdType sender = this->Outer.Clusters.Pick(slot, number.GetNextHalf() * 0x1p-32);
+    if (sender != receiver && this->Gaps.AreBetween(receiver, sender))
+    {
+      block.ThroughAir.push_back({ sender, this->Outer.Areas[receiver] / chance * value });
+    }
+  }
 
   void AddRow(const ScatteringReceiver& receiver, Block& block) const
   {
@@ -201,6 +227,7 @@ struct ScatteringRefinement::Filler
         const ScatteringClusters& clusters = this->Outer.Clusters;
         const Values value =
           part.IsExact ? part.Value : clusters.Integrate(receiver.GetPatch(), part.Slot);
+        this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
         block.Columns.push_back(part.Slot);
         for (int band = 0; band < Bands; ++band)
         {
@@ -229,7 +256,7 @@ struct ScatteringRefinement::Filler
 };
 
 //------------------------------------------------------------------------------
-Outcome ScatteringRefinement::Fill(const double totals[], const Ranks& ranks,
+Outcome ScatteringRefinement::Fill(const double totals[], const AirGaps& gaps, const Ranks& ranks,
   const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const
 {
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
@@ -237,7 +264,7 @@ Outcome ScatteringRefinement::Fill(const double totals[], const Ranks& ranks,
   const vtkIdType step = ranks.GetNumber();
   const vtkIdType mine = (all - ranks.GetMine() + step - 1) / step;
   std::vector<Block> blocks(mine);
-  const Filler filler{ *this, totals, ranks.GetMine(), step, blocks };
+  const Filler filler{ *this, totals, gaps, ranks.GetMine(), step, blocks };
   for (vtkIdType batch = 0; batch < NumberOfBatches; ++batch)
   {
     Threads::For(mine * batch / NumberOfBatches, mine * (batch + 1) / NumberOfBatches, 1, filler);
@@ -255,8 +282,33 @@ Outcome ScatteringRefinement::Fill(const double totals[], const Ranks& ranks,
     counts[1] += block.LeftOut;
   }
   ranks.Sum(counts, 2);
-  summary = { counts[0], counts[1] };
+  summary.Links = counts[0];
+  summary.LeftOut = counts[1];
+  this->SumUpAir(blocks, totals, gaps.MayBeThere(), summary);
   return this->Store(blocks, ranks.GetMine(), ranks.GetNumber(), exchange);
+}
+
+//------------------------------------------------------------------------------
+// One patch stands for its cluster: the whole square is variance.
+void ScatteringRefinement::SumUpAir(const std::vector<Block>& blocks, const double totals[],
+  bool isSample, Summary& summary) const
+{
+  summary.ThroughAir.assign(this->Areas.size() * Bands, 0.0);
+  summary.ThroughAirVariances.assign(this->Areas.size() * Bands, 0.0);
+  const double largest = *std::max_element(this->Areas.begin(), this->Areas.end());
+  for (int band = 0; band < Bands; ++band)
+  {
+    summary.AirSamples.push_back(isSample ? totals[band] * largest / AirGaps::SampleSize : 0.0);
+    for (const Block& block : blocks)
+    {
+      for (const AirLink& link : block.ThroughAir)
+      {
+        const double value = totals[band] * link.Value[band];
+        summary.ThroughAir[link.Sender * Bands + band] += value;
+        summary.ThroughAirVariances[link.Sender * Bands + band] += value * value;
+      }
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -34,6 +34,7 @@ class vtkExchangeHierarchy;
 
 namespace LightTransport
 {
+class AirGaps;
 class Ranks;
 
 class ScatteringRefinement
@@ -63,14 +64,27 @@ public:
   {
     double Links = 0.0;
     double LeftOut = 0.0;
+    ///@{ As in Links: of links that were looked at, each between the receiver and a patch of the
+    /// cluster.
+    std::vector<double> ThroughAir;
+    std::vector<double> ThroughAirVariances;
+    std::vector<double> AirSamples;
+    ///@}
   };
 
-  /// This rank's rows, times the profiles' totals.
-  Outcome Fill(const double totals[], const Ranks& ranks, const Monitor& monitor,
-    vtkExchangeHierarchy* exchange, Summary& summary) const;
+  /// This rank's rows, times the profiles' totals. The counts are those of all ranks, what goes
+  /// through air that of this one.
+  Outcome Fill(const double totals[], const AirGaps& gaps, const Ranks& ranks,
+    const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const;
 
 private:
   static constexpr int Bands = ScatteringIntegrals::NumberOfBands;
+  /// A link through air that was looked at: who sends, and how much for a unit of light.
+  struct AirLink
+  {
+    vtkIdType Sender;
+    ScatteringClusters::Bands Value;
+  };
   /// The rows of some receivers, one after another.
   struct Block
   {
@@ -78,6 +92,7 @@ private:
     std::vector<int> Columns;
     std::vector<float> Values;
     double LeftOut = 0.0;
+    std::vector<AirLink> ThroughAir;
   };
   struct Filler;
   using Sample = std::vector<ScatteringReceiver>;
@@ -88,6 +103,8 @@ private:
   Prospect Measure(double threshold) const;
   double FindThreshold(double tolerance, double mostLinks) const;
   double GetClusterError(int slot) const;
+  void SumUpAir(const std::vector<Block>& blocks, const double totals[], bool isSample,
+    Summary& summary) const;
   Outcome Store(const std::vector<Block>& blocks, int mine, int ranks,
     vtkExchangeHierarchy* exchange) const;
 

@@ -4,6 +4,7 @@
 #include "LightTransportTesting.h"
 #include "MessageLog.h"
 #include "RanksInThreads.h"
+#include "VoxelBodies.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkSMPTools.h"
@@ -295,6 +296,36 @@ void TestMethods(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
+// What goes through the air of a horseshoe is known as of pairs.
+void TestAir()
+{
+  auto data = MakeCubes(MakeHorseshoe(), 4);
+  AddLight(data, true);
+  auto pairs = MakeFilter(data, Scattering::LINK_METHOD_DENSE, 2.0);
+  auto clusters = MakeFilter(data, Scattering::LINK_METHOD_ADAPTIVE, 2.0);
+  pairs->Update();
+  clusters->Update();
+  for (int band = 0; band < Bands; ++band)
+  {
+    const auto get = [band](Scattering* from, const char* name)
+    { return from->GetPolyDataOutput()->GetFieldData()->GetArray(name)->GetComponent(0, band); };
+    const double expected = get(pairs, "LinksThroughAir");
+    const double error =
+      std::hypot(get(pairs, "LinksThroughAirError"), get(clusters, "LinksThroughAirError"));
+    Check(expected > 10.0 * error && error > 0.0, "there is air, and its share is known");
+    CheckClose(get(clusters, "LinksThroughAir"), expected, 4.0 * error / expected,
+      "share of the air");
+  }
+  clusters->DropLinksThroughAirOn();
+  vtkNew<MessageLog> errors;
+  clusters->AddObserver(vtkCommand::ErrorEvent, errors);
+  clusters->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, vtkNew<MessageLog>());
+  clusters->Update();
+  Check(errors->GetAll().find("looks at pairs of patches") != std::string::npos,
+    "clusters are not dropped: " + errors->GetAll());
+}
+
+//------------------------------------------------------------------------------
 void TestThreads(vtkPolyData* data)
 {
   std::vector<double> results[2];
@@ -361,6 +392,7 @@ int TestScatteringClusters(int, char*[])
   TestPlaces(data);
   TestReuse(data);
   TestMethods(data);
+  TestAir();
   TestThreads(data);
   TestRanks(data);
   return Result();
