@@ -11,7 +11,7 @@ namespace LightTransport
 {
 //------------------------------------------------------------------------------
 // A link of a sample is in the sums of both its patches. Where both get the same light the variance
-// of what it carries is exact, else at most twice what it should be.
+// of what it carries is exact, else at most twice what it should be. No bands: nobody knows.
 AirShare::AirShare(const Links& links, const std::vector<double>& entering,
   const std::vector<double>& leaving)
 {
@@ -21,7 +21,7 @@ AirShare::AirShare(const Links& links, const std::vector<double>& entering,
   std::vector<double> variances(bands, 0.0);
   std::vector<double> brightest(bands, 0.0);
   this->Shares.assign(bands, 0.0);
-  for (std::size_t k = 0; k < entering.size(); ++k)
+  for (std::size_t k = 0; bands > 0 && k < entering.size(); ++k)
   {
     const std::size_t band = k % bands;
     const double throughAir = entering[k] * links.ThroughAir[k];
