@@ -27,8 +27,9 @@ HIDDEN = {
     "DirectIrradiance": set(),
     "Radiosity": set(),
     "SingleScattering": set(),
-    "SubsurfaceScattering": {"TransmittedIrradianceArray", "BurleyFit", "LinkMethod", "TargetError",
-                             "NumberOfPhotons", "Anisotropy", "Seed"},
+    "SubsurfaceScattering": {"TransmittedIrradianceArray", "BurleyFit", "NumberOfLinks",
+                             "TargetError", "NumberOfPhotons", "Anisotropy", "Seed",
+                             "CompressionTolerance"},
     "OpenEXRReader": set(),
 }
 # What is chosen in a panel, and who is seen then.

@@ -43,7 +43,23 @@ Outcome ProfileRun::Check()
     return Outcome::Failed("A medium that varies is connected (input port 1), and Model is a "
                            "profile of uniform media: set Model to MonteCarlo, or disconnect it.");
   }
+  if (this->Owner->GetCompressLinks() &&
+    (this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
+      this->Owner->GetDropLinksThroughAir()))
+  {
+    return Outcome::Failed("CompressLinks is on, and links are those of all pairs (LinkMethod "
+                           "Dense, or DropLinksThroughAir): only links from clusters are "
+                           "compressed. Set LinkMethod to Auto, Uniform or Adaptive and drop no "
+                           "links, or switch CompressLinks off.");
+  }
   return this->ScatteringRun::Check();
+}
+
+//------------------------------------------------------------------------------
+const char* ProfileRun::FindUseOfBody() const
+{
+  return this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir"
+                                               : this->ScatteringRun::FindUseOfBody();
 }
 
 //------------------------------------------------------------------------------
@@ -69,7 +85,8 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
     this->Owner->GetMillimetersPerUnit(),
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
-      this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir() });
+      this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir(),
+      this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance() });
 }
 
 //------------------------------------------------------------------------------
@@ -77,8 +94,8 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
 void ProfileRun::CheckEnergy(const AirShare& air) const
 {
   const Links& links = this->Cache.Get();
-  const double margin =
-    1.0 + NegligibleExcess + links.GetSummary("LinkErrorBound") + links.GetSummary("LinkError");
+  const double margin = 1.0 + NegligibleExcess + links.GetSummary("LinkErrorBound") +
+    links.GetSummary("LinkError") + links.GetSummary("CompressionError");
   if (*std::min_element(this->Irradiance.begin(), this->Irradiance.end()) < 0.0)
   {
     return;
@@ -136,7 +153,7 @@ void ProfileRun::WriteScattered(const SceneOutput& output)
     FieldValues::Add(this->GetOutputFields(), "ProfileError", links.ProfileErrors.data(), Bands);
   }
   const AirShare air(links, this->GetEntering(), this->Scattered);
-  if (!air.Shares.empty())
+  if (!this->Scene.IsOfTexels())
   {
     FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
     FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);

@@ -42,14 +42,9 @@ constexpr double ShareOfNeighbours = 0.1 / 40.0;
 ///@}
 
 //------------------------------------------------------------------------------
-// Of texels nobody knows what is air between them.
 template <typename Summary>
-void TakeAir(Summary& summary, const PatchScene& scene, const Ranks& ranks, Links& links)
+void TakeAir(Summary& summary, const Ranks& ranks, Links& links)
 {
-  if (scene.IsOfTexels())
-  {
-    return;
-  }
   ranks.Sum(summary.ThroughAir);
   ranks.Sum(summary.ThroughAirVariances);
   links.ThroughAir = std::move(summary.ThroughAir);
@@ -97,7 +92,8 @@ LinkKey ScatteringLinks::GetKey() const
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
-      this->Choice.DropsThroughAir ? 1.0 : 0.0 },
+      this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
+      this->Choice.CompressionTolerance },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -163,7 +159,9 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
   AirGaps gaps;
-  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  // Texels enclose no body: nobody knows what is air between them.
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
                     { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
@@ -174,7 +172,10 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   task.AllRanks.Sum(counts, 2);
   task.AllRanks.Sum(summary.Errors);
-  TakeAir(summary, task.Scene, task.AllRanks, links);
+  if (knowsAir)
+  {
+    TakeAir(summary, task.AllRanks, links);
+  }
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {
@@ -219,7 +220,7 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
   }
-  if (isAuto && this->IsDense(task, refinement))
+  if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
   }
@@ -242,7 +243,8 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   }
   ScatteringRefinement::Summary summary;
   AirGaps gaps;
-  built = task.AllRanks.Agree(gaps.Build(task.Scene));
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? task.AllRanks.Agree(refinement.Fill(totals.data(), gaps, task.AllRanks,
                     task.Watch, links.Hierarchy, summary))
                 : built;
@@ -250,12 +252,21 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     return built;
   }
-  TakeAir(summary, task.Scene, task.AllRanks, links);
+  if (knowsAir)
+  {
+    TakeAir(summary, task.AllRanks, links);
+  }
   links.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", prospect.Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
   links.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
     { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+  if (built && this->Choice.AreCompressed)
+  {
+    links.Summaries.emplace_back("CompressionError",
+      links.Hierarchy->CompressRows(this->Choice.CompressionTolerance,
+        task.AllRanks.GetController()));
+  }
   return built;
 }
 

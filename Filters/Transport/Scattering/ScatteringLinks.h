@@ -23,6 +23,8 @@ struct ScatteringLinkChoice
   int Number = 0;               ///< of each receiver: of Uniform, and at most of Adaptive
   double Tolerance = 0.0;       ///< relative error of what a patch receives; 0 for the method's own
   bool DropsThroughAir = false; ///< of all pairs
+  bool AreCompressed = false;   ///< those from clusters
+  double CompressionTolerance = 0.0;
 };
 
 class ScatteringLinks : public LinkBuilder

@@ -66,6 +66,7 @@ NumberProperties::List ScatteringRun::ListNumbers() const
   NumberProperties::List numbers = this->TransportRun::ListNumbers();
   numbers.emplace_back("TargetError", this->Owner->GetTargetError());
   numbers.emplace_back("LinkTolerance", this->Owner->GetLinkTolerance());
+  numbers.emplace_back("CompressionTolerance", this->Owner->GetCompressionTolerance());
   return numbers;
 }
 
@@ -90,8 +91,7 @@ Outcome ScatteringRun::Check()
 //------------------------------------------------------------------------------
 const char* ScatteringRun::FindUseOfBody() const
 {
-  const char* drop = this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir" : nullptr;
-  return this->Owner->GetComputeThickness() ? "ComputeThickness" : drop;
+  return this->Owner->GetComputeThickness() ? "ComputeThickness" : nullptr;
 }
 
 //------------------------------------------------------------------------------
