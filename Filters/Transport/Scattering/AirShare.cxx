@@ -11,7 +11,7 @@ namespace LightTransport
 {
 //------------------------------------------------------------------------------
 // A link of a sample is in the sums of both its patches. Where both get the same light the variance
-// of what it carries is exact, else at most twice what it should be.
+// of what it carries is exact, else at most twice what it should be. No bands: nobody knows.
 AirShare::AirShare(const Links& links, const std::vector<double>& entering,
   const std::vector<double>& leaving)
 {

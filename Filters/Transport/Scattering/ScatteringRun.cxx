@@ -91,8 +91,7 @@ Outcome ScatteringRun::Check()
 //------------------------------------------------------------------------------
 const char* ScatteringRun::FindUseOfBody() const
 {
-  const char* drop = this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir" : nullptr;
-  return this->Owner->GetComputeThickness() ? "ComputeThickness" : drop;
+  return this->Owner->GetComputeThickness() ? "ComputeThickness" : nullptr;
 }
 
 //------------------------------------------------------------------------------
