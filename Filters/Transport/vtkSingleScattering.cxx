@@ -41,6 +41,13 @@ constexpr double RaysOfSample = 10.0;
 // Errors over the spread of blocks of samples: 0.7 to 1.05. In seven dimensions samples are hardly
 // more even together than in blocks.
 constexpr double Evenness = 1.0;
+
+//------------------------------------------------------------------------------
+// Of random numbers, for a sample of a patch. (Samples of both ways have keys of their own.)
+std::uint64_t GetStream(std::uint64_t key, int sample)
+{
+  return (key << 20) + static_cast<std::uint64_t>(sample);
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -53,6 +60,7 @@ public:
   }
 
 protected:
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Read() override;
   Outcome Link() override;
@@ -87,6 +95,14 @@ private:
   /// From light that enters each patch and is reflected first, until it is added.
   std::vector<std::vector<Arrival>> Reflections;
 };
+
+//------------------------------------------------------------------------------
+NumberProperties::List vtkSingleScattering::Run::ListNumbers() const
+{
+  NumberProperties::List numbers = this->LightingRun::ListNumbers();
+  numbers.emplace_back("MinimumContribution", this->Owner->MinimumContribution);
+  return numbers;
+}
 
 //------------------------------------------------------------------------------
 Outcome vtkSingleScattering::Run::Check()
@@ -173,7 +189,7 @@ void vtkSingleScattering::Run::ComputePatch(vtkIdType patch)
     {
       const RayMarcher::Sample sample{ outside.GetPoint(shape, k, 0), patch,
         outside.GetDirection(shape.Normal, k, 2), inside.Get(k, 0),
-        { inside.Get(k, 1), inside.Get(k, 2) }, k % LightBands };
+        { inside.Get(k, 1), inside.Get(k, 2) }, k % LightBands, GetStream(key, k) };
       double radiance[LightBands] = {};
       this->Marcher->March(sample, radiance);
       sum.Add(radiance, vtkMath::Pi(), 0.0);
@@ -207,7 +223,7 @@ void vtkSingleScattering::Run::FollowReflections(vtkIdType patch, const Polygon&
     const RayMarcher::Entrance entrance{ surface.GetPoint(shape, k, 0), patch,
       this->Scene.GetAreas()[patch] / samples, inside.Get(k, 3), inside.Get(k, 0),
       { inside.Get(k, 1), inside.Get(k, 2) }, { surface.Get(k, 2), surface.Get(k, 3) },
-      k % LightBands };
+      k % LightBands, GetStream(key, k) };
     this->Marcher->Shine(entrance, receive);
   }
 }

@@ -22,6 +22,16 @@
  * photons where their Anisotropy is the same. MODEL_TABULATED is in between: a profile, from
  * photons that walk in a flat medium, as diffuse light, too.
  *
+ * The input may be the texels of an atlas as well: a vtkImageData of one layer with the point
+ * arrays "Position", "Normal", "Area" and "ChartId", as vtkSurfaceToAtlas makes it, or composite
+ * data of such images (one scene, as with surfaces; not both kinds). A texel is a patch then: a
+ * parallelogram around its position, in the plane of its normal, along the steps to its neighbours
+ * in the same chart, of exactly its area. Arrays are point arrays, in and out, and the output is
+ * the image; texels without surface get 0. What looks into the body (MODEL_MONTE_CARLO,
+ * ComputeThickness, DropLinksThroughAir) needs the surface, and "LinksThroughAir" is not told. On
+ * several ranks each may have all of an image, a part, or nothing: texels that two have alike count
+ * once.
+ *
  * Port 1, optional, for MODEL_MONTE_CARLO: the medium where it varies, a vtkImageData placed in the
  * unit of the surface (origin, spacing, direction matrix), with the arrays "Scattering" (the
  * reduced coefficient, as the property is) and "Absorption", per mm, 1 component (the same in all
@@ -51,11 +61,11 @@
  * times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a
  * vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
  * "LinksReused" is 1 where links of an earlier run were taken. "LinksThroughAir" (models that are
- * profiles, 3 components): of the light that links carry, those that are dropped included, the
- * share that goes through the air between parts of the body, see DropLinksThroughAir; estimated
- * from some 64 links of each patch, with one standard error "LinksThroughAirError", exact where
- * they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components): what a
- * flat surface gives back of the light that enters; a body may give back more or less, and a
+ * profiles, 3 components; not of texels): of the light that links carry, those that are dropped
+ * included, the share that goes through the air between parts of the body, see DropLinksThroughAir;
+ * estimated from some 64 links of each patch, with one standard error "LinksThroughAirError", exact
+ * where they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components):
+ * what a flat surface gives back of the light that enters; a body may give back more or less, and a
  * warning tells where it is more than enters. "ProfileError" (MODEL_TABULATED, 3 components):
  * standard error of that, relative; more where less than 1e-4 is absorbed. Light that Monte Carlo
  * lets enter again counts in LeavingFlux each time it leaves. Monte Carlo without links has in
@@ -71,7 +81,8 @@
  * finite, links that do not fit into memory. Monte Carlo: a surface that is open, inside out, has
  * no inside or crosses itself; irradiance below 0 without links; Anisotropy out of its range; a
  * medium without any of its arrays, that is flat, or has values below 0 or not finite. A medium
- * with another Model.
+ * with another Model. Texels: an image that has not all their arrays, values that are not finite or
+ * areas below 0, images beside surfaces, what looks into the body.
  *
  * H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model for Subsurface Light
  * Transport", SIGGRAPH 2001; H. W. Jensen, J. Buhler, "A Rapid Hierarchical Rendering Technique for
@@ -79,7 +90,7 @@
  * Radiosity and Subsurface Scattering", Graphics Hardware 2003; L. Wang, S. L. Jacques, L. Zheng,
  * "MCML - Monte Carlo modeling of light transport in multi-layered tissues", 1995.
  *
- * @sa vtkDirectIrradiance, vtkRadiosity
+ * @sa vtkDirectIrradiance, vtkRadiosity, vtkSurfaceToAtlas, vtkAtlasToSurface
  */
 #ifndef vtkSubsurfaceScattering_h
 #define vtkSubsurfaceScattering_h
@@ -373,7 +384,7 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by a third of it. Default 0:
+   * surface, of light that differs from its mean over each cluster by .6 of it. Default 0:
    * 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);

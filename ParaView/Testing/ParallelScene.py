@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A room of which each rank has a piece.
+"""A room, or a block, of which each rank has a piece.
 
 The room is a cube seen from inside with a bright ceiling and a block standing in it, so that what a
 rank does not have throws shadows on what it has.
@@ -43,15 +43,21 @@ def leave_memory(count):
     resource.setrlimit(resource.RLIMIT_AS, (used * 1024 + count, resource.RLIM_INFINITY))
 
 
-def make_piece(case, output):
-    """Fill a vtkPolyData with this rank's piece."""
+def make_block(case, output):
+    """Fill a vtkPolyData with this rank's piece of a lit block."""
+    make_piece(case, output, make_box((-1, -1, -1), (1, 1, 1), outside=True, count=3))
+
+
+def make_piece(case, output, patches=None):
+    """Fill a vtkPolyData with this rank's piece of some patches, those of the room by default."""
+    patches = patches or make_patches()
     controller = vtkMultiProcessController.GetGlobalController()
     rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
-    patches = make_patches()
     points, cells = vtkPoints(), vtkCellArray()
     points.SetDataTypeToDouble()
     arrays = {"Emission": vtkDoubleArray(), "Reflectance": vtkDoubleArray(),
-              "PatchId": vtkIdTypeArray(), "Rank": vtkIdTypeArray()}
+              "Irradiance": vtkDoubleArray(), "PatchId": vtkIdTypeArray(),
+              "Rank": vtkIdTypeArray()}
     if case == "ghosts":
         arrays[vtkDataSetAttributes.GhostArrayName()] = vtkUnsignedCharArray()
     for patch, ghost in choose_patches(case, rank, ranks, len(patches)):
@@ -59,7 +65,7 @@ def make_piece(case, output):
         for corner in patches[patch]:
             cells.InsertCellPoint(points.InsertNextPoint(corner))
         ceiling = min(corner[2] for corner in patches[patch]) == 1.0
-        values = (1.0 if ceiling else 0.0, 0.2 + 0.6 * (7 * patch % 11) / 11, patch, rank,
+        values = (1.0 if ceiling else 0.0, 0.2 + 0.6 * (7 * patch % 11) / 11, 1.0, patch, rank,
                   vtkDataSetAttributes.DUPLICATECELL if ghost else 0)
         for array, value in zip(arrays.values(), values):
             array.InsertNextValue(value)

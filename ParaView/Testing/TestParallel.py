@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """TestParallel.py CASE RANKS COMMAND...: over MPI the serial answer, or an error on every rank.
 
-COMMAND runs ParallelFilters.py; what stands between `--` and `--` in it is left out for the serial
-run. CASE is
+COMMAND runs ParallelFilters.py, or for a medium ParallelMedium.py; what stands between `--` and
+`--` in it is left out for the serial run. CASE is
   split   each rank has a part of the room
   empty   the first rank has everything, the others nothing
   ghosts  as split, with ghost cells
   error   as split, with a coordinate on the last rank that is no number
   array   as split, with an array on the last rank that has one value too many
   memory  as split, with too little memory on the last rank
+  medium  each rank has a part of a block, and all of the image of its medium
+  pieces  as medium, with a part of the image
 """
 
 import os
@@ -19,15 +21,23 @@ import tempfile
 
 from TestingTools import read_surface
 
-ARRAYS = {
+ROOM_ARRAYS = {
     "radiosity": ("Radiosity", "Irradiance", "NetFlux"),
     "scattering": ("DirectIrradiance", "TransmittedIrradiance", "ScatteredIrradiance",
                    "ViewFactorSum", "SkyFraction", "BackFaceFraction")}
-# What all ranks say where the last one fails.
-ERRORS = {"error": "The input has point coordinates that are not finite",
-          "array": "In the input the cell array \"Wrong\"", "memory": ""}
+PHOTON_ARRAYS = {"photons": ("ScatteredIrradiance", "ScatteredIrradianceError")}
+BLOCK_ARRAYS = {**PHOTON_ARRAYS, "table": ("ScatteredIrradiance",)}
+# What all ranks say where the last one fails, or all do.
+ON_LAST = "On rank {last} of {ranks}: "
+ERRORS = {"error": ON_LAST + "The input has point coordinates that are not finite",
+          "array": ON_LAST + "In the input the cell array \"Wrong\"", "memory": ON_LAST,
+          "pieces": "The medium is not the same on all ranks"}
 # Room for sums over patches in another order, in a solution to 1e-10.
 TOLERANCE = 1e-9
+
+
+def get_arrays(case):
+    return {"medium": BLOCK_ARRAYS, "pieces": PHOTON_ARRAYS}.get(case, ROOM_ARRAYS)
 
 
 def run(command, case, folder):
@@ -70,7 +80,7 @@ def test_answer(case, ranks, serial_command, command, folder):
     if codes != [0, 0]:
         return [f"exit codes {codes}"]
     problems = []
-    for name, arrays in ARRAYS.items():
+    for name, arrays in get_arrays(case).items():
         serial, parallel = (load(place, name) for place in folders)
         if serial.GetNumberOfCells() == 0:
             return ["the serial run has no result"]
@@ -86,8 +96,9 @@ def test_error(case, ranks, command, folder):
     place = os.path.join(folder, "parallel")
     result = run(command, case, place)
     problems = []
-    words = f"On rank {ranks - 1} of {ranks}: " + ERRORS[case]
-    for reporter in ("vtkRadiosity", "vtkDirectIrradiance"):
+    words = ERRORS[case].format(last=ranks - 1, ranks=ranks)
+    for reporter in (("vtkSubsurfaceScattering",) if case == "pieces" else
+                     ("vtkRadiosity", "vtkDirectIrradiance")):
         reports = [line for line in result.stdout.splitlines()
                    if reporter + " (" in line and words in line]
         if len(reports) != ranks:
@@ -95,7 +106,7 @@ def test_error(case, ranks, command, folder):
     if "the script came to its end" not in result.stdout:
         problems.append(f"the script did not come to its end; exit code {result.returncode}")
     else:
-        for name, arrays in ARRAYS.items():
+        for name, arrays in get_arrays(case).items():
             if load(place, name).GetCellData().GetArray(arrays[0]):
                 problems.append(f"{name}: there is a result in spite of the error")
     return problems

@@ -15,8 +15,8 @@ import unittest
 import vtklighttransport as lt
 from vtklighttransport import commands
 from vtkmodules.vtkCommonCore import vtkDoubleArray
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
 
 from TestingTools import (
     CUBE_CORNERS, CUBE_FACES, FolderTestCase, add_array, get_tuples, join_points, make_surface,
@@ -302,6 +302,47 @@ class TestCommandLine(FolderTestCase):
         self.check_failure(
             self.run_command("scatter", source, out, "--medium", self.path("no.vti")), 1,
             "no such file")
+
+    @unittest.skipUnless(hasattr(lt, "vtkSurfaceToAtlas"), "the mesher was switched off")
+    def test_scatter_texels(self):
+        atlas = lt.vtkSurfaceAtlas()
+        atlas.SetInputData(add_array(make_cube(outside=True), "Light", [6, 5, 4, 3, 2, 1]))
+        atlas.SetResolution(16)
+        texels = lt.vtkSurfaceToAtlas()
+        texels.SetInputConnection(atlas.GetOutputPort())
+        source, out = self.path("texels.vti"), self.path("out.vti")
+        writer = vtkXMLImageDataWriter()
+        writer.SetInputConnection(texels.GetOutputPort())
+        writer.SetFileName(source)
+        writer.SetDataModeToAscii()
+        self.assertEqual(writer.Write(), 1)
+        options = ("--irradiance", "Light", "--mm-per-unit", "5", "--device", "cpu")
+        result = self.run_command("scatter", source, out, *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("256 texels, ", result.stdout)
+        scattering = lt.vtkSubsurfaceScattering()
+        scattering.SetInputConnection(texels.GetOutputPort())
+        scattering.SetInputArrayToProcess(0, 0, 0, vtkDataObject.POINT, "Light")
+        scattering.SetMillimetersPerUnit(5.0)
+        scattering.SetDeviceToCPU()
+        scattering.Update()
+        expected = scattering.GetOutputDataObject(0).GetPointData().GetArray("ScatteredIrradiance")
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(out)
+        reader.Update()
+        found = reader.GetOutput().GetPointData().GetArray("ScatteredIrradiance")
+        self.assertEqual(found.GetNumberOfTuples(), 256)
+        for texel in range(256):
+            for value, wanted in zip(found.GetTuple(texel), expected.GetTuple(texel)):
+                self.assertAlmostEqual(value, wanted, delta=1e-9)
+        for arguments, code, message in (
+                (("scatter", source, self.path("out.vtp")), 2, "is not a .vti file"),
+                (("scatter", source, out, "--light", "0,0,1"), 2, "need the surface"),
+                (("scatter", source, out, "--mesh", "1"), 2, "need the surface"),
+                (("radiosity", source, self.path("out.vtp")), 2, "is none of"),
+                (("scatter", source, out, *options, "--model", "monte-carlo"), 1,
+                 "give the surface")):
+            self.check_failure(self.run_command(*arguments), code, message, "out.vti")
 
     def test_usage(self):
         source = self.make_lit_cube()

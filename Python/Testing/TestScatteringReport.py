@@ -123,6 +123,15 @@ class TestScatteringReport(ReportTestCase):
                           for name in ("MonteCarlo", "MonteCarlo", "Dipole", "BetterDipole")])
         self.assertIn("Exponents k", self.read_page()[0])
 
+    def test_dark(self):
+        """There is nothing to plot."""
+        cube = make_cube(1)
+        set_cell_array(cube, "Irradiance", 0.0)
+        result = self.run_command(self.save("dark.vtp", cube), "--models", "dipole")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual({row["error_l2"] for row in self.read_table()}, {"", "0"})
+        self.assertIn("Nothing differs from the reference.", self.read_page()[0])
+
     def test_interrupted(self):
         source = self.save("cube.vtp", make_cube(4))
         self.interrupt(self.make_command(source, "--reference-error", "0.1", "--target-errors",

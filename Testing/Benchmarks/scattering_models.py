@@ -144,12 +144,13 @@ class Medium:
 class Walks:
     """Photons that walk, the seconds that they take, and the filter's field data."""
 
-    def __init__(self, surface, material, across, photons):
+    def __init__(self, surface, material, across, photons, seed=1):
         self.filter = lt.vtkSubsurfaceScattering()
         self.filter.SetInputData(surface)
         Medium(material).set_on(self.filter, across)
         self.filter.SetModelToMonteCarlo()
         self.filter.SetNumberOfPhotons(photons)
+        self.filter.SetSeed(seed)
         begin, cpu_begin = time.perf_counter(), time.process_time()
         self.filter.Update()
         self.seconds = time.perf_counter() - begin

@@ -26,6 +26,7 @@ import math
 import os
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -79,8 +80,8 @@ class Ours:
         self.surface.GetCellData().AddArray(light)
         self.walks = Walks
 
-    def run(self, photons, _seed):
-        walks = self.walks(self.surface, self.medium, self.across, photons)
+    def run(self, photons, seed):
+        walks = self.walks(self.surface, self.medium, self.across, photons, seed)
         leaving = walks.field("LeavingShare")[0] + walks.field("UnscatteredShare")[0]
         return 1.0 - leaving, walks.field("LeavingShareError")[0]
 
@@ -210,8 +211,6 @@ class Mitsuba:
         return vtk_to_numpy(surface.GetPoints().GetData()).astype(float)[corners]
 
     def write(self, surface):
-        import tempfile
-
         from vtkmodules.vtkIOGeometry import vtkOBJWriter
         file = tempfile.NamedTemporaryFile(suffix=".obj")
         writer = vtkOBJWriter()
@@ -300,15 +299,21 @@ def main():
         if importlib.util.find_spec(PEERS[name]) is None:
             print(f"{name}: not installed")
             continue
-        # pmcxcl tells much of each run.
-        rows = subprocess.run(
-            [sys.executable, __file__, "--here", name, "--photons", str(options.photons)],
-            env=make_environment(name), capture_output=True, text=True, check=False)
-        for line in rows.stdout.splitlines():
+        run_apart(name, options.photons)
+
+
+def run_apart(name, photons):
+    """In a process of its own: rows as they come, of all else that tools tell the end of errors."""
+    command = [sys.executable, __file__, "--here", name, "--photons", str(photons)]
+    with tempfile.TemporaryFile("w+") as errors, subprocess.Popen(
+            command, env=make_environment(name), stdout=subprocess.PIPE, stderr=errors,
+            text=True) as process:
+        for line in process.stdout:
             if line.startswith(ROW):
-                print(line[len(ROW):], flush=True)
-        if rows.returncode:
-            print(f"{name}: " + " ".join(rows.stderr.split())[-400:], flush=True)
+                print(line[len(ROW):], end="", flush=True)
+        if process.wait():
+            errors.seek(0)
+            print(f"{name}: " + " ".join(errors.read().split())[-400:], flush=True)
 
 
 if __name__ == "__main__":

@@ -161,7 +161,7 @@ vtkSmartPointer<vtkAlgorithm> MakeAtlasToSurface(Choices& choices, const Room&)
 vtkSmartPointer<vtkAlgorithm> MakeViewFactors(Choices& choices, const Room&)
 {
   auto factors = vtkSmartPointer<vtkViewFactors>::New();
-  factors->SetTolerance(ChooseTolerance(choices, { 1e-1, 1e-2, 1e-3, 1e9 }));
+  factors->SetTolerance(ChooseTolerance(choices, { 1e-1, 3e-2, 1e-2, 1e9 }));
   factors->SetEnforceClosure(choices.Chance(3));
   factors->SetHierarchical(choices.Chance(3));
   factors->SetLinkTolerance(ChooseTolerance(choices, { 1e-2, 1e-1, 1.0 }));
@@ -212,7 +212,7 @@ vtkSmartPointer<vtkAlgorithm> MakeRadiosity(Choices& choices, const Room&)
   radiosity->SetLinkTolerance(ChooseTolerance(choices, { 1e-2, 1e-1, 1.0 }));
   radiosity->SetClusterTree(choices.Index(3));
   radiosity->SetRefineByBrightness(choices.Chance(4));
-  radiosity->SetViewFactorTolerance(ChooseTolerance(choices, { 1e-1, 1e-2, 1e-3 }));
+  radiosity->SetViewFactorTolerance(ChooseTolerance(choices, { 1e-1, 3e-2, 1e-2 }));
   radiosity->SetEnforceClosure(choices.Chance(3));
   radiosity->SetTwoSided(choices.Chance(3));
   radiosity->SetDeviceToCPU();
@@ -294,7 +294,7 @@ vtkSmartPointer<vtkAlgorithm> MakeSubsurfaceScattering(Choices& choices, const R
   auto scattering = vtkSmartPointer<vtkSubsurfaceScattering>::New();
   using Filter = vtkSubsurfaceScattering;
   ChooseMedium(choices, scattering.Get());
-  scattering->SetLinkTolerance(ChooseTolerance(choices, { 1e-2, 1e-3, 1e-4 }));
+  scattering->SetLinkTolerance(ChooseTolerance(choices, { 1e-2, 1e-3, 1e-4, 0.0 }));
   scattering->SetIncidence(choices.Index(2));
   scattering->SetDeviceToCPU();
   scattering->SetFeatureAngle(Choose(choices, 60.0, 0.0));
@@ -303,7 +303,9 @@ vtkSmartPointer<vtkAlgorithm> MakeSubsurfaceScattering(Choices& choices, const R
     Filter::MODEL_PHOTON_BEAM_DIFFUSION, Filter::MODEL_CHRISTENSEN_BURLEY,
     Filter::MODEL_CHRISTENSEN_BURLEY, Filter::MODEL_TABULATED }));
   scattering->SetBurleyFit(choices.Index(3));
-  scattering->SetLinkMethod(choices.Index(2));
+  scattering->SetLinkMethod(choices.Index(4));
+  scattering->SetNumberOfLinks(choices.Among({ 64, 16, 1, -1, VTK_INT_MAX }));
+  scattering->SetDropLinksThroughAir(choices.Chance(3));
   scattering->SetNumberOfPhotons(choices.Among({ 1000, 100, 100, 300, 1, -1 }));
   if (scattering->GetNumberOfPhotons() == 0)
   {
@@ -329,6 +331,7 @@ vtkSmartPointer<vtkAlgorithm> MakeSingleScattering(Choices& choices, const Room&
   ChooseMedium(choices, scattering.Get());
   ChooseLighting(choices, scattering);
   scattering->SetNumberOfSamples(choices.Among({ 16, 256, 1, -1 }));
+  scattering->SetMinimumContribution(ChooseTolerance(choices, { 1e-2, 1e-3, 1e9 }));
   return scattering;
 }
 } // namespace

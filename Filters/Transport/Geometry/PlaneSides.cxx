@@ -3,8 +3,7 @@
 #include "Geometry/PlaneSides.h"
 
 #include "Scene/PatchScene.h"
-
-#include <vector>
+#include "Shared/Pulse.h"
 
 namespace LightTransport
 {
@@ -42,5 +41,19 @@ bool IsAnyBehind(const PatchScene& scene, const PatchPlane& plane)
     }
   }
   return false;
+}
+
+//------------------------------------------------------------------------------
+std::vector<bool> FindHollows(const PatchScene& scene)
+{
+  std::vector<bool> hollows(scene.GetNumberOfPatches());
+  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  {
+    Pulse::Beat(patch);
+    PatchPlane plane = scene.GetPlane(patch);
+    plane.Normal = -plane.Normal;
+    hollows[patch] = IsAnyBehind(scene, plane);
+  }
+  return hollows;
 }
 } // namespace LightTransport

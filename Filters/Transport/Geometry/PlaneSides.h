@@ -7,12 +7,18 @@
 
 #include "Scene/PatchPlane.h"
 
+#include <vector>
+
 namespace LightTransport
 {
 class PatchScene;
 
-/// Whether anything is certainly behind a plane. (In front of it: behind it turned round.)
+/// Whether anything is certainly behind a plane.
 bool IsAnyBehind(const PatchScene& scene, const PatchPlane& plane);
+
+/// Of each patch, whether anything is certainly in front of it: of none where the scene is one
+/// convex body.
+std::vector<bool> FindHollows(const PatchScene& scene);
 } // namespace LightTransport
 
 #endif

@@ -126,4 +126,40 @@ InsidePath::Place InsidePath::Choose(double u, int first) const
   }
   return place;
 }
+
+//------------------------------------------------------------------------------
+double InsidePath::GetLeaving(const PhotonInterface& interface, int leg) const
+{
+  const Leg& last = this->Legs[leg];
+  return last.Weight * (1.0 - interface.GetInternalReflectance(last.Direction.dot(last.Normal)));
+}
+
+//------------------------------------------------------------------------------
+// As likely as all bands leave there.
+bool InsidePath::ChooseExit(const PhotonInterface& interface, double u, Exit& exit) const
+{
+  std::array<double, MostLegs> ends;
+  double total = 0.0;
+  for (int k = 0; k < this->NumberOfLegs; ++k)
+  {
+    total += this->GetLeaving(interface, k) * this->GetMeanTransmission(this->Legs[k].End);
+    ends[k] = total;
+  }
+  if (!(total > 0.0))
+  {
+    return false;
+  }
+  const auto last = ends.begin() + this->NumberOfLegs - 1;
+  const auto chosen = std::upper_bound(ends.begin(), last, u * total) - ends.begin();
+  const Leg& leg = this->Legs[chosen];
+  exit.Position = leg.Origin + (leg.End - leg.Begin) * leg.Direction;
+  exit.Direction = interface.RefractOutwards(leg.Direction, leg.Normal);
+  exit.Patch = leg.Patch;
+  const double mean = this->GetMeanTransmission(leg.End);
+  for (int band = 0; band < Bands; ++band)
+  {
+    exit.Weights[band] = total * std::exp(-this->Extinction[band] * leg.End) / mean;
+  }
+  return true;
+}
 } // namespace LightTransport

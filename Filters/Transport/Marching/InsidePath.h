@@ -44,6 +44,15 @@ public:
     double Weights[Bands];
   };
 
+  /// A place where some of it leaves the body.
+  struct Exit
+  {
+    Vector Position;
+    Vector Direction; ///< outside
+    vtkIdType Patch;
+    double Weights[Bands]; ///< what leaves there, over the probability of the place
+  };
+
   /// `from`: the patch that the ray starts on, or -1. What is worth less than `leastWeight`, on
   /// average over the bands, is not followed.
   InsidePath(const PhotonBoundary& boundary, const PhotonInterface& interface,
@@ -60,6 +69,11 @@ public:
   /// A point for a number evenly spread in (0, 1), on the leg `first`, which there must be, or
   /// behind: as dense as light of all bands reaches it.
   Place Choose(double u, int first = 0) const;
+
+  /// What leaves the body at the end of a leg, over what would reach it in a clear one.
+  double GetLeaving(const PhotonInterface& interface, int leg) const;
+  /// One of the places where it leaves, for such a number; false where there is none.
+  bool ChooseExit(const PhotonInterface& interface, double u, Exit& exit) const;
 
 private:
   /// More reflections are not followed.

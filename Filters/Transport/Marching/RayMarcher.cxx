@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Marching/RayMarcher.h"
 
+#include "Geometry/PlaneSides.h"
 #include "Photons/HenyeyGreenstein.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace LightTransport
 {
@@ -57,23 +59,75 @@ RayMarcher::RayMarcher(const PatchScene& scene, const std::vector<PhotonMedium>&
 }
 
 //------------------------------------------------------------------------------
+Outcome RayMarcher::Build()
+{
+  const std::vector<bool> hollows = FindHollows(this->Scene);
+  // Bodies that do not shade each other do not light each other, either.
+  this->HasHollows =
+    this->Sources.HasShadows && std::find(hollows.begin(), hollows.end(), true) != hollows.end();
+  return this->Boundary.Build(this->Scene, 0.0);
+}
+
+//------------------------------------------------------------------------------
 void RayMarcher::March(const Sample& sample, double radiance[LightBands]) const
 {
   const Vector& normal = this->Scene.GetNormal(sample.Patch);
-  const Vector inwards = this->Interface.RefractInwards(-sample.Outwards, normal);
-  const InsidePath path = this->Follow(sample.Point, inwards, sample.Patch);
-  if (path.GetNumberOfLegs() == 0)
-  {
-    return;
-  }
-  const InsidePath::Place chosen = path.Choose(sample.Place);
-  Scattering place{ chosen.Position, chosen.Direction, {} };
   const double leaving =
     (1.0 - this->Interface.GetExternalReflectance(sample.Outwards.dot(normal))) /
     (this->Index * this->Index);
+  Ray ray;
+  ray.Position = sample.Point;
+  ray.Direction = this->Interface.RefractInwards(-sample.Outwards, normal);
+  ray.Patch = sample.Patch;
+  std::fill_n(ray.Weights, LightBands, leaving);
+  PhotonRandom random(sample.Stream, 0);
+  double number = sample.Place;
+  for (bool goesOn = true; goesOn; number = random.Get())
+  {
+    const InsidePath path = this->Follow(ray);
+    if (path.GetNumberOfLegs() == 0)
+    {
+      return;
+    }
+    this->AddScattered(path, number, ray, sample, random, radiance);
+    goesOn = this->GoOn(path, ray, random);
+  }
+}
+
+//------------------------------------------------------------------------------
+// From inside a body through one of the places where the ray leaves it into a body again. False
+// where it does not enter, or next to nothing of it is left.
+bool RayMarcher::GoOn(const InsidePath& path, Ray& ray, PhotonRandom& random) const
+{
+  InsidePath::Exit exit;
+  ray.Reflections = 0;
+  if (!this->HasHollows || !path.ChooseExit(this->Interface, random.Get(), exit))
+  {
+    return false;
+  }
+  double mean = 0.0;
   for (int band = 0; band < LightBands; ++band)
   {
-    place.Weights[band] = leaving * this->Media[band].Scattering * chosen.Weights[band];
+    ray.Weights[band] *= exit.Weights[band];
+    mean += exit.Weights[band] / LightBands;
+  }
+  ray.Part *= mean;
+  ray.Position = exit.Position;
+  ray.Direction = exit.Direction;
+  ray.Patch = exit.Patch;
+  return ray.Part > this->LeastWeight && ray.Enter(this->Boundary, this->Interface, random);
+}
+
+//------------------------------------------------------------------------------
+// Light that is scattered at one point of a path.
+void RayMarcher::AddScattered(const InsidePath& path, double number, const Ray& ray,
+  const Sample& sample, PhotonRandom& random, double* radiance) const
+{
+  const InsidePath::Place chosen = path.Choose(number);
+  Scattering place{ chosen.Position, chosen.Direction, {} };
+  for (int band = 0; band < LightBands; ++band)
+  {
+    place.Weights[band] = ray.Weights[band] * this->Media[band].Scattering * chosen.Weights[band];
   }
   for (const PunctualLight& light : this->Sources.Punctual)
   {
@@ -95,7 +149,7 @@ void RayMarcher::March(const Sample& sample, double radiance[LightBands]) const
   }
   if (environment && environment->HasBackground())
   {
-    this->AddBackground(sample, place, radiance);
+    this->AddBackground(sample, place, random, radiance);
   }
 }
 
@@ -160,32 +214,65 @@ void RayMarcher::AddEntry(const EntrySearch::Entry& entry, const double* irradia
 }
 
 //------------------------------------------------------------------------------
-// Along a ray in a direction that the phase function chooses, and its reflections: at each end
-// some comes in. Radiance inside is larger by the square of the index, and smaller again outside.
-void RayMarcher::AddBackground(const Sample& sample, const Scattering& place,
+// Along a ray in a direction that the phase function chooses, and its reflections: at each end some
+// comes in. Radiance inside is larger by the square of the index, and smaller again outside.
+void RayMarcher::AddBackground(const Sample& sample, const Scattering& place, PhotonRandom& random,
   double* radiance) const
 {
-  double weights[LightBands];
-  const Vector direction = this->ChooseDirection(sample.Band, sample.Sky, place.Direction, weights);
-  const InsidePath path = this->Follow(place.Position, direction, -1);
-  for (int k = 0; k < path.GetNumberOfLegs(); ++k)
+  double phase[LightBands];
+  Ray ray;
+  ray.Position = place.Position;
+  ray.Direction = this->ChooseDirection(sample.Band, sample.Sky, place.Direction, phase);
+  ray.Patch = -1;
+  for (int band = 0; band < LightBands; ++band)
   {
-    const InsidePath::Leg& leg = path.GetLeg(k);
-    const double reflected = this->Interface.GetInternalReflectance(leg.Direction.dot(leg.Normal));
-    const Vector end = leg.Origin + (leg.End - leg.Begin) * leg.Direction;
-    const Vector towards = this->Interface.RefractOutwards(leg.Direction, leg.Normal);
-    if (reflected == 1.0 || !this->IsLit(end, towards, PhotonBoundary::Unlimited, leg.Patch))
+    ray.Weights[band] = place.Weights[band] * phase[band] * this->Index * this->Index;
+  }
+  for (bool goesOn = true; goesOn;)
+  {
+    const InsidePath path = this->Follow(ray);
+    for (int k = 0; k < path.GetNumberOfLegs(); ++k)
     {
-      continue;
+      this->AddSkyAt(path, k, ray, radiance);
     }
-    double sky[LightBands];
-    this->Sources.Environment->GetBackground(towards, sky);
-    const double factor = this->Index * this->Index * leg.Weight * (1.0 - reflected);
-    for (int band = 0; band < LightBands; ++band)
+    goesOn = this->GoOn(path, ray, random);
+    // What comes straight from the sky has been added.
+    if (!goesOn && ray.Reflections > 0)
     {
-      radiance[band] += place.Weights[band] * weights[band] * factor * sky[band] *
-        std::exp(-this->Media[band].GetExtinction() * leg.End);
+      this->AddSky(ray.Direction, ray.Weights, radiance);
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Straight, at the end of a leg.
+void RayMarcher::AddSkyAt(const InsidePath& path, int k, const Ray& ray, double* radiance) const
+{
+  const InsidePath::Leg& leg = path.GetLeg(k);
+  const double leaving = path.GetLeaving(this->Interface, k);
+  const Vector end = leg.Origin + (leg.End - leg.Begin) * leg.Direction;
+  const Vector towards = this->Interface.RefractOutwards(leg.Direction, leg.Normal);
+  if (leaving == 0.0 || !this->IsLit(end, towards, PhotonBoundary::Unlimited, leg.Patch))
+  {
+    return;
+  }
+  double weights[LightBands];
+  for (int band = 0; band < LightBands; ++band)
+  {
+    weights[band] =
+      ray.Weights[band] * leaving * std::exp(-this->Media[band].GetExtinction() * leg.End);
+  }
+  this->AddSky(towards, weights, radiance);
+}
+
+//------------------------------------------------------------------------------
+void RayMarcher::AddSky(const Vector& towards, const double* weights, double* radiance) const
+{
+  double sky[LightBands];
+  this->Sources.Environment->GetBackground(towards, sky);
+  for (int band = 0; band < LightBands; ++band)
+  {
+    radiance[band] += weights[band] * sky[band];
   }
 }
 
@@ -214,7 +301,7 @@ RayMarcher::Vector RayMarcher::ChooseDirection(int chosen, const double* turn, c
 bool RayMarcher::HasReflections() const
 {
   const Panorama* environment = this->Sources.Environment;
-  return this->Index > 1.0 &&
+  return (this->Index > 1.0 || this->HasHollows) &&
     (!this->Sources.Punctual.empty() || (environment && environment->HasPeaks()));
 }
 
@@ -245,7 +332,7 @@ void RayMarcher::Shine(const Entrance& entrance, const Receive& receive) const
 }
 
 //------------------------------------------------------------------------------
-// Straight inwards March looks; what follows is what has been reflected.
+// Straight inwards March looks; what follows is what has been reflected there, or enters again.
 void RayMarcher::ShineFrom(const Vector& towards, double distance, const double* irradiance,
   const Entrance& entrance, const Receive& receive) const
 {
@@ -255,30 +342,59 @@ void RayMarcher::ShineFrom(const Vector& towards, double distance, const double*
   {
     return;
   }
-  const InsidePath path =
-    this->Follow(entrance.Point, this->Interface.RefractInwards(-towards, normal), entrance.Patch);
-  if (path.GetNumberOfLegs() < 2 || !(path.GetShare(1) > 0.0))
+  PhotonRandom random(entrance.Stream, 0);
+  const double reflected = this->Interface.GetExternalReflectance(cosine);
+  Ray ray;
+  ray.Position = entrance.Point;
+  ray.Direction = this->Interface.RefractInwards(-towards, normal);
+  ray.Patch = entrance.Patch;
+  Scale(irradiance, entrance.Area * cosine * (1.0 - reflected), ray.Weights);
+  const InsidePath first = this->Follow(ray);
+  this->Scatter(first, 1, ray, entrance, random, receive);
+  // On goes by chance what has entered, or what has been reflected.
+  Scale(irradiance, entrance.Area * cosine, ray.Weights);
+  const bool isReflected = this->HasHollows && random.Get() < reflected;
+  ray.Direction = isReflected ? PhotonInterface::Reflect(-towards, normal) : ray.Direction;
+  bool goesOn = isReflected ? ray.Enter(this->Boundary, this->Interface, random)
+                            : this->GoOn(first, ray, random);
+  while (goesOn)
+  {
+    const InsidePath path = this->Follow(ray);
+    Entrance numbers = entrance;
+    for (double* number : { &numbers.Number, &numbers.Place, numbers.Turn, numbers.Turn + 1 })
+    {
+      *number = random.Get();
+    }
+    this->Scatter(path, 0, ray, numbers, random, receive);
+    goesOn = this->GoOn(path, ray, random);
+  }
+}
+
+//------------------------------------------------------------------------------
+// From the leg `first` on; the more often the larger its part of what is scattered, so that all
+// that leaves weighs about the same.
+void RayMarcher::Scatter(const InsidePath& path, int first, const Ray& ray,
+  const Entrance& entrance, PhotonRandom& random, const Receive& receive) const
+{
+  const double share = path.GetShare(first);
+  if (!(share > 0.0))
   {
     return;
   }
-  // The more often the larger its part of what is scattered, so that all that leaves weighs about
-  // the same.
-  const double expected = ScatteringsPerRay * path.GetShare(1) / path.GetShare(0);
+  const double expected = ScatteringsPerRay * ray.Part * share / path.GetShare(0);
   const int times = static_cast<int>(expected + entrance.Number);
-  const double entering =
-    entrance.Area * cosine * (1.0 - this->Interface.GetExternalReflectance(cosine)) / expected;
   for (int k = 0; k < times; ++k)
   {
-    const InsidePath::Place chosen = path.Choose(Shift(entrance.Place, k * Steps[0]), 1);
+    const InsidePath::Place chosen = path.Choose(Shift(entrance.Place, k * Steps[0]), first);
     const double turn[2] = { Shift(entrance.Turn[0], k * Steps[1]),
       Shift(entrance.Turn[1], k * Steps[2]) };
     Scattering place{ chosen.Position, chosen.Direction, {} };
     for (int band = 0; band < LightBands; ++band)
     {
       place.Weights[band] =
-        entering * irradiance[band] * this->Media[band].Scattering * chosen.Weights[band];
+        ray.Weights[band] * this->Media[band].Scattering * chosen.Weights[band] / expected;
     }
-    this->SendOut(place, (entrance.Band + k) % LightBands, turn, receive);
+    this->SendOut(place, (entrance.Band + k) % LightBands, turn, random, receive);
   }
 }
 
@@ -286,27 +402,32 @@ void RayMarcher::ShineFrom(const Vector& towards, double distance, const double*
 // In a direction that the phase function chooses, and reflected from there: at each end some
 // leaves.
 void RayMarcher::SendOut(const Scattering& place, int chosen, const double* turn,
-  const Receive& receive) const
+  PhotonRandom& random, const Receive& receive) const
 {
-  double weights[LightBands];
-  const Vector direction = this->ChooseDirection(chosen, turn, place.Direction, weights);
-  const InsidePath path = this->Follow(place.Position, direction, -1);
-  for (int k = 0; k < path.GetNumberOfLegs(); ++k)
+  double phase[LightBands];
+  Ray ray;
+  ray.Position = place.Position;
+  ray.Direction = this->ChooseDirection(chosen, turn, place.Direction, phase);
+  ray.Patch = -1;
+  std::transform(phase, phase + LightBands, place.Weights, ray.Weights, std::multiplies<double>());
+  for (bool goesOn = true; goesOn;)
   {
-    const InsidePath::Leg& leg = path.GetLeg(k);
-    const double leaving =
-      leg.Weight * (1.0 - this->Interface.GetInternalReflectance(leg.Direction.dot(leg.Normal)));
-    if (leaving == 0.0)
+    const InsidePath path = this->Follow(ray);
+    for (int k = 0; k < path.GetNumberOfLegs(); ++k)
     {
-      continue;
+      const double leaving = path.GetLeaving(this->Interface, k);
+      double flux[LightBands];
+      for (int band = 0; leaving > 0.0 && band < LightBands; ++band)
+      {
+        flux[band] = ray.Weights[band] * leaving *
+          std::exp(-this->Media[band].GetExtinction() * path.GetLeg(k).End);
+      }
+      if (leaving > 0.0)
+      {
+        receive(path.GetLeg(k).Patch, flux);
+      }
     }
-    double flux[LightBands];
-    for (int band = 0; band < LightBands; ++band)
-    {
-      flux[band] = place.Weights[band] * weights[band] * leaving *
-        std::exp(-this->Media[band].GetExtinction() * leg.End);
-    }
-    receive(leg.Patch, flux);
+    goesOn = this->GoOn(path, ray, random);
   }
 }
 

@@ -103,7 +103,9 @@ Outcome MonteCarloRun::ReadMedium()
     this->AllRanks.Gather(std::vector<std::uint64_t>{ this->Image->GetFingerprint() });
   return std::equal(all.begin() + 1, all.end(), all.begin())
     ? Outcome::Done()
-    : Outcome::Failed("The medium is not the same on all ranks: each of them needs all of it.");
+    : Outcome::Failed("The medium is not the same on all ranks: each of them needs all of it. Give "
+                      "it by a source or a reader that makes any part of it, as that of .vti "
+                      "files does.");
 }
 
 //------------------------------------------------------------------------------

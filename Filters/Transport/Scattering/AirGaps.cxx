@@ -4,7 +4,6 @@
 
 #include "Geometry/PlaneSides.h"
 #include "Scene/PatchScene.h"
-#include "Shared/Pulse.h"
 
 #include <algorithm>
 #include <tuple>
@@ -32,16 +31,12 @@ struct Passage
 Outcome AirGaps::Build(const PatchScene& scene)
 {
   this->Scene = &scene;
-  this->HasHollows = false;
-  std::vector<bool> hollows(scene.GetNumberOfPatches());
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  if (scene.IsOfTexels())
   {
-    Pulse::Beat(patch);
-    PatchPlane plane = scene.GetPlane(patch);
-    plane.Normal = -plane.Normal;
-    hollows[patch] = IsAnyBehind(scene, plane);
-    this->HasHollows = this->HasHollows || hollows[patch];
+    return Outcome::Done();
   }
+  const std::vector<bool> hollows = FindHollows(scene);
+  this->HasHollows = std::find(hollows.begin(), hollows.end(), true) != hollows.end();
   return this->HasHollows ? this->Hollows.Build(scene, &hollows) : Outcome::Done();
 }
 

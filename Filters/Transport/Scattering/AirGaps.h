@@ -24,7 +24,8 @@ public:
   /// and where bands differ.
   static constexpr double SampleSize = 64.0;
 
-  /// The scene must outlive this. Fails where rays cannot be cast (no memory).
+  /// The scene must outlive this. Fails where rays cannot be cast (no memory). Texels do not
+  /// enclose a body, and rays would find air in their gaps: none is looked for there.
   Outcome Build(const PatchScene& scene);
 
   /// False where the scene is one convex body: all of it is behind the plane of each patch. Then no

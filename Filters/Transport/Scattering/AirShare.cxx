@@ -21,7 +21,7 @@ AirShare::AirShare(const Links& links, const std::vector<double>& entering,
   std::vector<double> variances(bands, 0.0);
   std::vector<double> brightest(bands, 0.0);
   this->Shares.assign(bands, 0.0);
-  for (std::size_t k = 0; k < entering.size(); ++k)
+  for (std::size_t k = 0; bands > 0 && k < entering.size(); ++k)
   {
     const std::size_t band = k % bands;
     const double throughAir = entering[k] * links.ThroughAir[k];

@@ -56,12 +56,20 @@ Outcome ProfileRun::Check()
 }
 
 //------------------------------------------------------------------------------
+const char* ProfileRun::FindUseOfBody() const
+{
+  return this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir"
+                                               : this->ScatteringRun::FindUseOfBody();
+}
+
+//------------------------------------------------------------------------------
 // In an order for clusters, where there may be any.
 Outcome ProfileRun::Gather()
 {
   return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
     ? this->ScatteringRun::Gather()
-    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface);
+    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface,
+        this->NumberOfSides, this->TakesTexels);
 }
 
 //------------------------------------------------------------------------------
@@ -145,8 +153,11 @@ void ProfileRun::WriteScattered(const SceneOutput& output)
     FieldValues::Add(this->GetOutputFields(), "ProfileError", links.ProfileErrors.data(), Bands);
   }
   const AirShare air(links, this->GetEntering(), this->Scattered);
-  FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
-  FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
+  if (!this->Scene.IsOfTexels())
+  {
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
+  }
   this->CheckThickness();
   this->CheckEnergy(air);
 }

@@ -19,6 +19,7 @@ protected:
   Outcome Check() override;
   Outcome Gather() override;
   void WriteScattered(const SceneOutput& output) override;
+  const char* FindUseOfBody() const override;
   bool IsAnisotropic() const override { return this->IsTabulated(); }
   std::unique_ptr<LinkBuilder> MakeBuilder() const override;
 

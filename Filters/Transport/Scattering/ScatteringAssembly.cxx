@@ -12,6 +12,7 @@
 #include "vtkExchangeMatrix.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -70,8 +71,8 @@ struct StripSummary
 {
   vtkIdType Links = 0;
   vtkIdType LeftOut = 0;
-  PatchSummary Rows[RowsPerStrip];
-  PatchSummary Columns[vtkExchangeMatrix::TileSize];
+  std::array<PatchSummary, RowsPerStrip> Rows;
+  std::array<PatchSummary, vtkExchangeMatrix::TileSize> Columns;
 };
 
 //------------------------------------------------------------------------------

@@ -159,7 +159,9 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
   AirGaps gaps;
-  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  // Texels enclose no body: nobody knows what is air between them.
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
                     { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
@@ -170,7 +172,10 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   task.AllRanks.Sum(counts, 2);
   task.AllRanks.Sum(summary.Errors);
-  TakeAir(summary, task.AllRanks, links);
+  if (knowsAir)
+  {
+    TakeAir(summary, task.AllRanks, links);
+  }
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {
@@ -238,7 +243,8 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   }
   ScatteringRefinement::Summary summary;
   AirGaps gaps;
-  built = task.AllRanks.Agree(gaps.Build(task.Scene));
+  const bool knowsAir = !task.Scene.IsOfTexels();
+  built = knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? task.AllRanks.Agree(refinement.Fill(totals.data(), gaps, task.AllRanks,
                     task.Watch, links.Hierarchy, summary))
                 : built;
@@ -246,7 +252,10 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     return built;
   }
-  TakeAir(summary, task.AllRanks, links);
+  if (knowsAir)
+  {
+    TakeAir(summary, task.AllRanks, links);
+  }
   links.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", prospect.Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };

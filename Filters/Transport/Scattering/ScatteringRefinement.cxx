@@ -28,7 +28,7 @@ constexpr vtkIdType SampleSize = 256;
 constexpr vtkIdType BlockSize = 64;
 constexpr vtkIdType NumberOfBatches = 100;
 /// Deviation of the light from its mean over a cluster, as a part of it.
-constexpr double Deviation = 0.35;
+constexpr double Deviation = 0.6;
 ///@{ Thresholds that are tried: of what a patch receives, largest and smallest, and steps of
 /// halving between.
 constexpr double LargestThreshold = 1.0;

@@ -91,7 +91,8 @@ Outcome ScatteringRun::Check()
 //------------------------------------------------------------------------------
 const char* ScatteringRun::FindUseOfBody() const
 {
-  return this->Owner->GetComputeThickness() ? "ComputeThickness" : nullptr;
+  const char* drop = this->Owner->GetDropLinksThroughAir() ? "DropLinksThroughAir" : nullptr;
+  return this->Owner->GetComputeThickness() ? "ComputeThickness" : drop;
 }
 
 //------------------------------------------------------------------------------

@@ -35,11 +35,11 @@ public:
   }
 
 protected:
-  NumberProperties::List ListNumbers() const override;
   static constexpr int Bands = MediumProperties::Bands;
   /// The links, or photons in their place, as a fraction of the progress.
   static constexpr double LinksDone = 0.95;
 
+  NumberProperties::List ListNumbers() const override;
   Outcome Check() override;
   Outcome Read() override;
   Outcome Link() override;

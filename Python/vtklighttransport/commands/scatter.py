@@ -5,17 +5,18 @@
 from vtklighttransport.shell.body import (
     BODY, add_light_that_falls_in, light_body, make_scattering)
 from vtklighttransport.shell.files import (
-    IMAGE_READERS, add_output, check_input, check_output, get_extension, read_file, write_patches)
+    add_output, check_input, check_output, is_image, read_file, write_patches)
+from vtklighttransport.shell.lights import has_lights
 from vtklighttransport.shell.properties import (
     DEVICE, Choice, Number, Switch, add_properties, check_properties)
-from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
+from vtklighttransport.shell.scene import add_scene, check_mesh, is_remeshed, read_scene
 from vtklighttransport.shell.stages import Stage
 from vtklighttransport.summaries import get_summary
 
 HELP = "diffuse subsurface scattering"
 DESCRIPTION = (
     "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
-    "light, or a mesh with the cell array Irradiance.")
+    "light, or a mesh with the cell array Irradiance, or the texel image of an atlas with it.")
 PROPERTIES = (
     Choice("--model", "Model", "MODEL_",
            "the diffuse reflectance profile of a flat surface, or photons in the body itself "
@@ -49,8 +50,8 @@ PROPERTIES = (
 
 
 def add_options(parser):
-    add_scene(parser)
-    add_output(parser)
+    add_scene(parser, "or texels of its atlas, as vtkSurfaceToAtlas makes them: .vti")
+    add_output(parser, "of texels .vti")
     add_light_that_falls_in(parser)
     add_properties(parser, "vtkSubsurfaceScattering", PROPERTIES)
     parser.add_argument(
@@ -61,19 +62,37 @@ def add_options(parser):
 
 
 def check(options):
-    check_input(options)
-    check_output(options)
+    if is_image(options.input):
+        check_texels(options)
+    else:
+        check_input(options)
+        check_output(options)
     check_mesh(options)
     check_properties(options, "vtkSubsurfaceScattering", PROPERTIES)
-    if options.medium and get_extension(options.medium) not in IMAGE_READERS:
+    if options.medium and not is_image(options.medium):
         options.parser.error(f"argument --medium: '{options.medium}' is not a .vti file")
+
+
+def check_texels(options):
+    check_output(options, ".vti")
+    if has_lights(options) or is_remeshed(options):
+        options.parser.error(
+            f"argument input: '{options.input}' is an image of texels, and lights and --mesh need "
+            "the surface")
+
+
+def read_input(options, messages):
+    """The surface, or the texels of one."""
+    if is_image(options.input):
+        return read_file(options.input, "texels", options, messages)
+    return read_scene(options, messages)
 
 
 def run(options, messages):
     scattering = make_scattering(options, PROPERTIES)
     if options.medium:
         scattering.SetInputData(1, read_file(options.medium, "image", options, messages))
-    surface = light_body(options, messages, read_scene(options, messages), scattering)
+    surface = light_body(options, messages, read_input(options, messages), scattering)
     result = Stage("scattering", scattering, options.quiet).run(messages, surface)
     return write_patches(options, messages, result, describe(result))
 

@@ -58,6 +58,9 @@ def add_errors(page, record, subject):
     if not compared:
         page.add_paragraph("There is no result beside the reference.")
         return
+    if not any(row.get(name) for row in compared for name in ("error_l2", "error_l2_high")):
+        page.add_paragraph("Nothing differs from the reference.")
+        return
     page.add_figure(
         "error_time.png",
         f"Error of the {subject.QUANTITY} against {subject.TIME[1]}, from the mesh to its arrays; "

@@ -57,8 +57,9 @@ class Scattering(Subject):
         # Monte Carlo first: it is the reference as well, and tells where the body is not closed.
         self.methods = [
             make_method("MonteCarlo", "TargetError", options.target_errors, monte_carlo)]
+        # All pairs of patches, so that tolerances are what links are off by.
         self.methods += [make_method(name, "LinkTolerance", options.link_tolerances,
-                                     {"Model": number})
+                                     {"Model": number, "LinkMethod": self.kind.LINK_METHOD_DENSE})
                          for name, number in self.find_models() if name != "MonteCarlo"]
         self.reference = Method("MonteCarlo", "TargetError", [options.reference_error], monte_carlo)
         self.seeds = 0
@@ -95,7 +96,7 @@ class Scattering(Subject):
         low, high = difference.find_range()
         solution.row.update(
             error_l2=difference.error, error_l2_low=low, error_l2_high=high,
-            error_worst_band=float(difference.bands[band]), worst_band=BANDS[band],
+            error_worst_band=float(difference.bands[band]), worst_band=BANDS[band % len(BANDS)],
             error_reference=difference.noise,
             ratio_total=float((areas @ values).sum() / ((areas @ exact).sum() or 1.0)))
         solution.row["ratio_total_error"] = solution.row["ratio_total"] * math.hypot(

@@ -29,7 +29,8 @@ BODY = (
 )
 IRRADIANCE = InputArray(
     "--irradiance", 0,
-    "without a light: cell array of what falls in [Irradiance, or TransmittedIrradiance]")
+    "without a light: cell array (of texels: point array) of what falls in "
+    "[Irradiance, or TransmittedIrradiance]")
 
 
 def add_light_that_falls_in(parser):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces from files and into files."""
+"""Surfaces and images from files and into files."""
 
 import contextlib
 import errno
@@ -9,7 +9,7 @@ import os
 
 from vtklighttransport.replacement import check_place, replace_file
 from vtklighttransport.shell.stages import Failure, Stage
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 
 READERS = {
     ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
@@ -21,13 +21,18 @@ READERS = {
 IMAGE_READERS = {".vti": ("vtkIOXML", "vtkXMLImageDataReader")}
 
 
-def add_input(parser):
-    parser.add_argument("input", help="surface mesh: " + ", ".join(READERS))
+def add_input(parser, *others):
+    """`others` are texts of what may be read besides."""
+    parser.add_argument("input", help="; ".join(["surface mesh: " + ", ".join(READERS), *others]))
 
 
 def check_input(options):
     if get_extension(options.input) not in READERS:
         options.parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
+
+
+def is_image(file):
+    return get_extension(file) in IMAGE_READERS
 
 
 def get_extension(file):
@@ -59,13 +64,13 @@ def read_file(file, kind, options, messages):
     return data
 
 
-def add_output(parser):
-    parser.add_argument("output", help="result: .vtp")
+def add_output(parser, *others):
+    parser.add_argument("output", help="; ".join(["result: .vtp", *others]))
 
 
-def check_output(options):
-    if get_extension(options.output) != ".vtp":
-        options.parser.error(f"argument output: '{options.output}' is not a .vtp file")
+def check_output(options, extension=".vtp"):
+    if get_extension(options.output) != extension:
+        options.parser.error(f"argument output: '{options.output}' is not a {extension} file")
     with naming(options.output):
         check_place(options.output)
 
@@ -79,25 +84,25 @@ def naming(file):
         raise Failure(f"cannot write {file}: {error.strerror}") from error
 
 
-def write_surface(file, surface):
-    """A .vtp file; an OSError tells what prevents it.
+def write_data(file, data):
+    """A .vtp or .vti file; an OSError tells what prevents it.
 
     VTK's writer ends the process where a disk is full: it gets no disk to write to.
     """
-    writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(surface)
+    writer = vtkXMLImageDataWriter() if is_image(file) else vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
     # Encoded: with the libexpat1 of Debian 12's security updates VTK 9.2 cannot read raw files.
     writer.SetDataModeToBinary()
     writer.WriteToOutputStringOn()
     if writer.Write() != 1:
-        raise OSError(errno.EIO, "VTK cannot write the surface", file)
+        raise OSError(errno.EIO, "VTK cannot write the data", file)
     replace_file(file, writer.GetOutputString().encode())
 
 
 def write(options, messages, data):
     """The result in its file, or what was there before."""
     with naming(options.output):
-        write_surface(options.output, data)
+        write_data(options.output, data)
     if messages.errors:
         raise Failure(f"cannot write {options.output}")
 
@@ -105,4 +110,7 @@ def write(options, messages, data):
 def write_patches(options, messages, result, text):
     """Writes what a filter has added to patches; returns the line that tells of it."""
     write(options, messages, result)
-    return f"{options.output}: {result.GetNumberOfCells()} patches, {text}"
+    kind, count = "patches", result.GetNumberOfCells()
+    if is_image(options.output):
+        kind, count = "texels", result.GetNumberOfPoints()
+    return f"{options.output}: {count} {kind}, {text}"

@@ -13,8 +13,9 @@ MESHER = (
 )
 
 
-def add_scene(parser):
-    add_input(parser)
+def add_scene(parser, *others):
+    """`others` are texts of what may be read besides."""
+    add_input(parser, *others)
     add_properties(parser, "vtkPatchMesher", MESHER)
 
 

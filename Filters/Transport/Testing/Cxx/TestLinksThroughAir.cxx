@@ -112,6 +112,7 @@ vtkSmartPointer<vtkSubsurfaceScattering> MakeFilter(vtkDataObject* data, bool dr
   filter->SetModelToDipole();
   filter->SetLinkTolerance(1e-3);
   filter->SetDeviceToCPU();
+  filter->SetLinkMethodToDense();
   filter->SetDropLinksThroughAir(drops);
   return filter;
 }

@@ -34,6 +34,10 @@ struct Run
     this->Filter->AddObserver(vtkCommand::WarningEvent, this->Warnings);
     this->Filter->SetInputData(data);
     this->Filter->SetModel(model);
+    // Links of all pairs know what goes through air; photons are followed where there are none.
+    this->Filter->SetLinkMethod(model == vtkSubsurfaceScattering::MODEL_MONTE_CARLO
+        ? vtkSubsurfaceScattering::LINK_METHOD_AUTO
+        : vtkSubsurfaceScattering::LINK_METHOD_DENSE);
     this->Filter->SetMillimetersPerUnit(millimeters);
     this->Filter->SetIncidenceToTransmitted();
     this->Filter->SetLinkTolerance(3e-3);
