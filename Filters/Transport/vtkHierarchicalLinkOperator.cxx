@@ -165,20 +165,21 @@ template <int Count>
 void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
   double* received)
 {
+  double* target = received + first;
   if (hierarchy.GetNumberOfKernels() > 1)
   {
-    Gather<Count, true> gather{ hierarchy, bands, sent + first, received + first, first };
+    Gather<Count, true> gather{ hierarchy, bands, sent + first, target, first };
     Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
   }
   else
   {
-    Gather<Count, false> gather{ hierarchy, bands, sent + first, received + first, 0 };
+    Gather<Count, false> gather{ hierarchy, bands, sent + first, target, 0 };
     Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
   }
   const auto tiles = static_cast<vtkIdType>(hierarchy.GetCodedRows().Tiles.size());
   if (tiles > 0)
   {
-    GatherCodes<Count> gather{ hierarchy.GetCodedRows(), bands, sent + first, received + first,
+    GatherCodes<Count> gather{ hierarchy.GetCodedRows(), bands, sent + first, target,
       GatherCodes<Count>::MakeBook(hierarchy, first) };
     Threads::For(0, tiles, TilesPerTask, gather);
   }
