@@ -52,6 +52,8 @@ CHOICES = (
      {"BurleyFit": False, "TargetError": False, "Anisotropy": True, "LinkTolerance": True}),
 )
 POINTS, CELLS = 0, 1  # associations of arrays
+# Filters that take texels, too, whose arrays are those of points.
+TEXEL_FILTERS = ("SubsurfaceScattering",)
 
 
 def make_event(name, command, arguments):
@@ -118,9 +120,10 @@ def check_panel(name, proxy, surface):
         yield check_visibility(prop, prop not in HIDDEN[name])
     for prop, association, default in list_array_choices(proxy):
         box = PROXY_PANEL + prop + "/ComboBox"
-        data = surface.GetCellData() if association == CELLS else surface.GetPointData()
+        kinds = (POINTS, CELLS) if name in TEXEL_FILTERS else (association,)
+        count = sum(surface.GetAttributes(kind).GetNumberOfArrays() for kind in kinds)
         yield make_check(box, "currentText", default)
-        yield make_check(box, "count", str(data.GetNumberOfArrays()))
+        yield make_check(box, "count", str(count))
     for owner, prop, choice, states in CHOICES:
         if owner == name:
             yield make_event(PROXY_PANEL + prop + "/ComboBox", "set_string", choice)
