@@ -10,9 +10,10 @@
  *
  *   M_i = 1/A_i sum_j G_ij E_j,   G_ij = integral over patch i and patch j of R_d(|x - y|)
  *
- * for all pairs, adaptively near by and by simple rules far away (see LinkTolerance). The energy
- * that stays within the patch it entered comes from the profile's exact moments, so patches may be
- * any number of mean free paths wide.
+ * for all pairs, adaptively near by and by simple rules far away (see LinkTolerance), or for
+ * clusters of patches in place of the far ones (see LinkMethod). The energy that stays within the
+ * patch it entered comes from the profile's exact moments, so patches may be any number of mean
+ * free paths wide.
  *
  * With MODEL_MONTE_CARLO photons walk in the body itself instead: they start on the patches that
  * light enters, as diffuse light under either Incidence (cosine outside, refracted), are scattered

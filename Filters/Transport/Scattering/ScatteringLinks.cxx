@@ -38,8 +38,10 @@ constexpr double RoundingMargin = 1.01;
 /// to themselves, to areas, and to neighbours (in a triangle mesh there are about 40).
 constexpr double ShareOfValues = 0.3;
 constexpr double ShareOfAreas = 0.1;
-constexpr double ShareOfNeighbours = 0.1 / 40.0;
+constexpr double ShareOfNeighbours = 0.3 / 40.0;
 ///@}
+/// Pairs of patches that take as long as a link from a cluster, about.
+constexpr double PairsPerLink = 20.0;
 
 //------------------------------------------------------------------------------
 template <typename Summary>
@@ -224,9 +226,17 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     return this->LinkPatches(task);
   }
-  const ScatteringRefinement::Prospect& prospect = refinement.GetProspect();
+  return this->FillRows(task, clusters, refinement);
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters,
+  const ScatteringRefinement& refinement) const
+{
+  Links& links = task.Result;
   const int kernels = static_cast<int>(this->Bands.size());
-  Outcome built = LinkOperators::CheckRows(static_cast<double>(task.Areas.size()) * prospect.Links,
+  Outcome built = LinkOperators::CheckRows(static_cast<double>(task.Areas.size()) *
+      refinement.GetProspect().Links,
     kernels, task.AllRanks);
   if (!built)
   {
@@ -256,12 +266,8 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     TakeAir(summary, task.AllRanks, links);
   }
-  links.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
-    { "LinkError", prospect.Error },
-    { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
-  links.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
-    { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
-  if (built && this->Choice.AreCompressed)
+  this->Summarize(task, refinement, summary);
+  if (this->Choice.AreCompressed)
   {
     links.Summaries.emplace_back("CompressionError",
       links.Hierarchy->CompressRows(this->Choice.CompressionTolerance,
@@ -271,12 +277,27 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
 }
 
 //------------------------------------------------------------------------------
+void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refinement,
+  const ScatteringRefinement::Summary& summary) const
+{
+  task.Result.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
+    { "LinkError", refinement.GetProspect().Error },
+    { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
+  const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
+  task.Result.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
+    { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+}
+
+//------------------------------------------------------------------------------
+// The same on all ranks, whatever memory each has.
 bool ScatteringLinks::IsDense(const Task& task, const ScatteringRefinement& refinement) const
 {
   const auto patches = static_cast<double>(task.Areas.size());
-  const double bytes = vtkExchangeMatrix::GetEstimatedBytes(
-    static_cast<vtkIdType>(task.Areas.size()), static_cast<int>(this->Bands.size()));
-  return patches <= 20.0 * refinement.GetProspect().Links &&
+  const double bytes =
+    vtkExchangeMatrix::GetEstimatedBytes(static_cast<vtkIdType>(task.Areas.size()),
+      static_cast<int>(this->Bands.size()), task.AllRanks.GetNumber());
+  const bool isCheaper = patches <= PairsPerLink * refinement.GetProspect().Links &&
     bytes < TransportMemory::GetAvailableBytes();
+  return task.AllRanks.GetLargest(isCheaper ? 0 : 1) == 0;
 }
 } // namespace LightTransport

@@ -9,12 +9,13 @@
 #include "Links/LinkBuilder.h"
 #include "Scattering/ScatteringMedium.h"
 #include "Scattering/ScatteringModels.h"
+#include "Scattering/ScatteringRefinement.h"
 
 #include <vector>
 
 namespace LightTransport
 {
-class ScatteringRefinement;
+class ScatteringClusters;
 
 /// Which links there are.
 struct ScatteringLinkChoice
@@ -45,6 +46,10 @@ private:
   bool IsDense(const Task& task, const ScatteringRefinement& refinement) const;
   Outcome LinkPatches(Task& task) const;
   Outcome LinkClusters(Task& task) const;
+  Outcome FillRows(Task& task, const ScatteringClusters& clusters,
+    const ScatteringRefinement& refinement) const;
+  void Summarize(Task& task, const ScatteringRefinement& refinement,
+    const ScatteringRefinement::Summary& summary) const;
   double GetTolerance(bool isDense) const;
 
   int Model;

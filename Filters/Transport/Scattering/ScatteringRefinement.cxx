@@ -35,6 +35,8 @@ constexpr double LargestThreshold = 1.0;
 constexpr double SmallestThreshold = 1e-10;
 constexpr int ThresholdSteps = 12;
 ///@}
+/// Links of a body that are looked at for air, about.
+constexpr double MostAirSamples = 200000.0;
 /// A sample may have that much fewer links than all receivers.
 constexpr double LinkMargin = 0.98;
 } // namespace
@@ -197,7 +199,7 @@ struct ScatteringRefinement::Filler
     {
       return;
     }
-    const double chance = std::min(AirGaps::SampleSize * value.maxCoeff(), 1.0);
+    const double chance = std::min(this->Outer.GetAirSample() * value.maxCoeff(), 1.0);
     SplitMix number(static_cast<std::uint64_t>(receiver) *
         static_cast<std::uint64_t>(this->Outer.Clusters.GetSlots().GetNumberOfSlots()) +
       static_cast<std::uint64_t>(slot));
@@ -289,6 +291,13 @@ Outcome ScatteringRefinement::Fill(const double totals[], const AirGaps& gaps, c
 }
 
 //------------------------------------------------------------------------------
+// Of large bodies fewer links of each patch.
+double ScatteringRefinement::GetAirSample() const
+{
+  return std::min(AirGaps::SampleSize, MostAirSamples / static_cast<double>(this->Areas.size()));
+}
+
+//------------------------------------------------------------------------------
 // One patch stands for its cluster: the whole square is variance.
 void ScatteringRefinement::SumUpAir(const std::vector<Block>& blocks, const double totals[],
   bool isSample, Summary& summary) const
@@ -298,7 +307,7 @@ void ScatteringRefinement::SumUpAir(const std::vector<Block>& blocks, const doub
   const double largest = *std::max_element(this->Areas.begin(), this->Areas.end());
   for (int band = 0; band < Bands; ++band)
   {
-    summary.AirSamples.push_back(isSample ? totals[band] * largest / AirGaps::SampleSize : 0.0);
+    summary.AirSamples.push_back(isSample ? totals[band] * largest / this->GetAirSample() : 0.0);
     for (const Block& block : blocks)
     {
       for (const AirLink& link : block.ThroughAir)

@@ -103,6 +103,7 @@ private:
   Prospect Measure(double threshold) const;
   double FindThreshold(double tolerance, double mostLinks) const;
   double GetClusterError(int slot) const;
+  double GetAirSample() const;
   void SumUpAir(const std::vector<Block>& blocks, const double totals[], bool isSample,
     Summary& summary) const;
   Outcome Store(const std::vector<Block>& blocks, int mine, int ranks,
