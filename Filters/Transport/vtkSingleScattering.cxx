@@ -15,6 +15,7 @@
 #include "Scene/SmoothPoints.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
+#include "Shared/Pulse.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
@@ -187,6 +188,7 @@ void vtkSingleScattering::Run::ComputePatch(vtkIdType patch)
   mean.Fill(
     [&](int k, LightSum& sum)
     {
+      Pulse::Beat();
       const RayMarcher::Sample sample{ outside.GetPoint(shape, k, 0), patch,
         outside.GetDirection(shape.Normal, k, 2), inside.Get(k, 0),
         { inside.Get(k, 1), inside.Get(k, 2) }, k % LightBands, GetStream(key, k) };
@@ -220,6 +222,7 @@ void vtkSingleScattering::Run::FollowReflections(vtkIdType patch, const Polygon&
   };
   for (int k = 0; k < samples; ++k)
   {
+    Pulse::Beat();
     const RayMarcher::Entrance entrance{ surface.GetPoint(shape, k, 0), patch,
       this->Scene.GetAreas()[patch] / samples, inside.Get(k, 3), inside.Get(k, 0),
       { inside.Get(k, 1), inside.Get(k, 2) }, { surface.Get(k, 2), surface.Get(k, 3) },
