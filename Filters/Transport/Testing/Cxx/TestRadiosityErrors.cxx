@@ -229,7 +229,7 @@ void TestBandsAndBackground()
     Expect(light, "BackgroundRadiance at least 0",
       [bad](vtkRadiosity* radiosity) { radiosity->SetBackgroundRadiance(bad); });
   }
-  Expect(light, "BackgroundTemperature must be",
+  Expect(light, "BackgroundTemperature is not a number",
     [](vtkRadiosity* radiosity) { radiosity->SetBackgroundTemperature(vtkMath::Nan()); });
   Expect(light, "BackgroundRadiance has 3 components",
     [](vtkRadiosity* radiosity)
