@@ -147,7 +147,7 @@ def show_atlas(folder, summary):
     surface = snapshot(atlas)
     change = demand_kept_integral(surface)
 
-    folder.write_surface("dragon_atlas.vtp", surface)
+    folder.write_data("dragon_atlas.vtp", surface)
     write_maps(folder.name("dragon_maps.exr"), atlas.GetMaps())
     render_atlas(
         folder.name("dragon_atlas.png"), surface, atlas.GetMaps(), (0.3, 0.2, 1.0), (0.0, 1.0, 0.0)

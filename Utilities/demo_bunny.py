@@ -104,7 +104,7 @@ def show_bunny(folder, summary, name, material):
     ratio_behind = demand_energy("light from behind", behind, expected)
 
     file = "bunny_" + name.replace(" ", "")
-    folder.write_surface(file + ".vtp", surface)
+    folder.write_data(file + ".vtp", surface)
     demo_pictures.render_bunny(
         folder.name(file + ".png"), surface, translucent.refractive_index, make_light(FROM_FRONT)
     )

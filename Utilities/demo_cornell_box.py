@@ -99,7 +99,7 @@ def show_cornell_box(folder, summary, scene):
     print(f"Cornell box, {scene.surface.GetNumberOfCells()} patches")
     print(f"  meshing {scene.meshing_seconds:.2f} s, form factors {scene.factor_seconds:.2f} s")
     surface, differences = solve_with_all(scene, folder)
-    folder.write_surface("cornell_box.vtp", surface)
+    folder.write_data("cornell_box.vtp", surface)
     demo_pictures.render_cornell_box(folder.name("cornell_box.png"), surface)
     name = "Cornell box"
     summary.add(name, "patches", surface.GetNumberOfCells(), "")

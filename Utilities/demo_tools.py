@@ -8,7 +8,7 @@ import time
 
 import numpy
 
-from vtklighttransport.shell.files import make_reader, write_surface
+from vtklighttransport.shell.files import make_reader, write_data
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -76,8 +76,8 @@ class Folder:
         self.files.append(file)
         return os.path.join(self.path, file)
 
-    def write_surface(self, file, surface):
-        write_surface(self.name(file), surface)
+    def write_data(self, file, surface):
+        write_data(self.name(file), surface)
 
     def write_table(self, file, rows):
         with open(self.name(file), "w", newline="", encoding="utf-8") as stream:
