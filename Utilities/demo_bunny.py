@@ -111,11 +111,11 @@ def show_bunny(folder, summary, name, material):
     scene = "bunny, " + name
     summary.add(scene, "patches", surface.GetNumberOfCells(), "")
     summary.add(scene, "direct irradiance", direct_seconds, "s")
-    summary.add(scene, "links, all pairs", get_summary(surface, "LinkSeconds"), "s")
+    summary.add(scene, "links", get_summary(surface, "LinkSeconds"), "s")
+    summary.add(scene, "links of a patch", get_summary(surface, "LinksPerReceiver"), "")
     summary.add(scene, "links and scattering, CPU", cpu_seconds, "s")
     summary.add(scene, "scattering again with OpenGL", device_seconds, "s")
-    bound = get_summary(surface, "LinkErrorBound")
-    summary.add(scene, "bound on the links' relative error", bound, "")
+    summary.add(scene, "relative error of the links", get_summary(surface, "LinkError"), "")
     summary.add(scene, "largest difference of CPU and OpenGL", found, "of the largest value")
     for band, color in enumerate(("red", "green", "blue")):
         summary.add(scene, f"leaving / entering, front, {color}", ratio[band], "")
