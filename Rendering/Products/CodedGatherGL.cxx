@@ -62,13 +62,10 @@ Outcome CodedGatherGL::Initialize(const CodedLayout& tables, const ProductGL::Pa
 //------------------------------------------------------------------------------
 void CodedGatherGL::Upload(const CodedLayout& tables, const ProductGL::Pause& pause)
 {
-  this->UploadTable(this->Rows, tables.MakeRows());
-  this->UploadTable(this->Tiles, tables.MakeTiles());
-  this->UploadTable(this->Entries, tables.MakeEntries());
-  const std::vector<float> book = tables.MakeBook(this->Vectors.Groups);
-  const int size = vtkExchangeHierarchy::CodedRows::BookSize;
-  const int all[4] = { 0, 0, size, this->Vectors.Groups };
-  this->Engine.Upload(this->Book[0], all, size, book.data());
+  this->Engine.UploadTable(this->Rows, tables.MakeRows());
+  this->Engine.UploadTable(this->Tiles, tables.MakeTiles());
+  this->Engine.UploadTable(this->Entries, tables.MakeEntries());
+  this->Engine.UploadTable(this->Book, tables.MakeBook(this->Vectors.Groups));
   const int width = this->Vectors.Width;
   for (std::size_t part = 0; part < this->Parts.size(); ++part)
   {
@@ -84,14 +81,6 @@ void CodedGatherGL::Upload(const CodedLayout& tables, const ProductGL::Pause& pa
       pause();
     }
   }
-}
-
-//------------------------------------------------------------------------------
-void CodedGatherGL::UploadTable(const Group& table, const CodedLayout::Words& words)
-{
-  const int width = static_cast<int>(table[0]->GetWidth());
-  const int region[4] = { 0, 0, width, static_cast<int>(table[0]->GetHeight()) };
-  this->Engine.Upload(table[0], region, width, words.data());
 }
 
 //------------------------------------------------------------------------------

@@ -32,7 +32,6 @@ public:
 
 private:
   void Upload(const CodedLayout& tables, const ProductGL::Pause& pause);
-  void UploadTable(const Group& table, const CodedLayout::Words& words);
   Outcome HearEntries(const Group& sent);
 
   FloatTextures& Engine;

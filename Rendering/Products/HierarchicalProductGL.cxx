@@ -111,21 +111,13 @@ Outcome HierarchicalProductGL::Allocate(const HierarchyLayout& tables)
 //------------------------------------------------------------------------------
 void HierarchicalProductGL::Upload(const HierarchyLayout& tables, const Pause& pause)
 {
-  this->UploadTable(this->Children, tables.MakeChildren());
-  this->UploadTable(this->Rows, tables.MakeRows());
+  this->Engine.UploadTable(this->Children, tables.MakeChildren());
+  this->Engine.UploadTable(this->Rows, tables.MakeRows());
   if (!this->Tiles.empty())
   {
-    this->UploadTable(this->Lines, tables.MakeLines());
+    this->Engine.UploadTable(this->Lines, tables.MakeLines());
     this->UploadLinks(tables, pause);
   }
-}
-
-//------------------------------------------------------------------------------
-void HierarchicalProductGL::UploadTable(const Group& table, const std::vector<float>& texels)
-{
-  const int width = static_cast<int>(table[0]->GetWidth());
-  const int region[4] = { 0, 0, width, static_cast<int>(table[0]->GetHeight()) };
-  this->Engine.Upload(table[0], region, width, texels.data());
 }
 
 //------------------------------------------------------------------------------

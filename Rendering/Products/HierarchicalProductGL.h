@@ -35,7 +35,6 @@ private:
   Outcome InitializeCodes(const CodedLayout& tables, const Pause& pause);
   Outcome Allocate(const HierarchyLayout& tables);
   void Upload(const HierarchyLayout& tables, const Pause& pause);
-  void UploadTable(const Group& table, const std::vector<float>& texels);
   void UploadLinks(const HierarchyLayout& tables, const Pause& pause);
 
   Outcome Use(vtkShaderProgram*& program, const char* name, const char* body,

@@ -85,6 +85,15 @@ public:
   void Upload(vtkTextureObject* texture, const int region[4], int rowLength,
     const std::uint32_t* words);
 
+  /// Write all of a table, the first texture of a group.
+  template <typename Value>
+  void UploadTable(const Group& table, const std::vector<Value>& values)
+  {
+    const int width = static_cast<int>(table[0]->GetWidth());
+    const int all[4] = { 0, 0, width, static_cast<int>(table[0]->GetHeight()) };
+    this->Upload(table[0], all, width, values.data());
+  }
+
   /// Copy a region (x, y, width, height) to (x, line) between groups of as many textures.
   void Copy(const Group& target, int line, const Group& source, const int region[4]);
 

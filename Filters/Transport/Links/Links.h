@@ -5,6 +5,7 @@
 #ifndef Links_h
 #define Links_h
 
+#include "Links/LinksThroughAir.h"
 #include "Shared/Outcome.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkExchangeMatrix.h"
@@ -62,12 +63,9 @@ struct Links
   std::vector<double> ProfileTotals;
   std::vector<double> ProfileErrors;
   ///@}
-  ///@{ Of those, what goes through air (AirShare has it): per patch and band what its links through
-  /// air carry for a unit of light on it, the variance of that, and of each band what one link that
-  /// was looked at stands for at most (0: all were). Dropped ones are not among the links.
-  std::vector<double> ThroughAir;
-  std::vector<double> ThroughAirVariances;
-  std::vector<double> AirSamples;
+  ///@{ Of those, what goes through air (AirShare has the share of it). Dropped ones are not among
+  /// the links.
+  LinksThroughAir ThroughAir;
   bool AreThroughAirDropped = false;
   ///@}
 

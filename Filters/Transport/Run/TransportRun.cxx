@@ -134,8 +134,14 @@ void TransportRun::WarnOnce(const std::vector<std::string>& warnings) const
 //------------------------------------------------------------------------------
 Outcome TransportRun::Gather()
 {
-  return this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Spatial,
-    this->NumberOfSides, this->TakesTexels);
+  return this->GatherInOrder(PatchScene::Order::Spatial);
+}
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::GatherInOrder(PatchScene::Order order)
+{
+  return this->Scene.Build(this->Input, this->AllRanks, order, this->NumberOfSides,
+    this->TakesTexels);
 }
 
 //------------------------------------------------------------------------------
@@ -144,9 +150,7 @@ Outcome TransportRun::GatherForClusters(int clusterTree)
   const bool usesAtlas = clusterTree == vtkTransportAlgorithm::CLUSTER_TREE_ATLAS ||
     (clusterTree == vtkTransportAlgorithm::CLUSTER_TREE_AUTO &&
       PolygonGathering::HasAtlas(this->Input, this->AllRanks));
-  return this->Scene.Build(this->Input, this->AllRanks,
-    usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial, this->NumberOfSides,
-    this->TakesTexels);
+  return this->GatherInOrder(usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial);
 }
 
 //------------------------------------------------------------------------------

@@ -62,6 +62,7 @@ protected:
   /// Arrays and summaries into the output.
   virtual void Write() = 0;
 
+  Outcome GatherInOrder(PatchScene::Order order);
   /// Gather in the order that links between clusters need, for a ClusterTree
   /// (vtkTransportAlgorithm::ClusterTreeType): Auto takes atlases where all surfaces have one.
   Outcome GatherForClusters(int clusterTree);

@@ -33,11 +33,28 @@ Outcome AirGaps::Build(const PatchScene& scene)
   this->Scene = &scene;
   if (scene.IsOfTexels())
   {
+    // They enclose no body: nobody knows what is air between them.
     return Outcome::Done();
   }
   const std::vector<bool> hollows = FindHollows(scene);
   this->HasHollows = std::find(hollows.begin(), hollows.end(), true) != hollows.end();
   return this->HasHollows ? this->Hollows.Build(scene, &hollows) : Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+LinksThroughAir AirGaps::StartSums(const std::vector<double>& areas,
+  const ScatteringProfiles& profiles, double sampleSize) const
+{
+  LinksThroughAir sums;
+  sums.Carried.assign(areas.size() * profiles.size(), 0.0);
+  sums.Variances = sums.Carried;
+  const double largest = *std::max_element(areas.begin(), areas.end());
+  const bool isSample = this->HasHollows && sampleSize != AllLinks;
+  for (const auto& profile : profiles)
+  {
+    sums.Samples.push_back(isSample ? profile->GetTotal() * largest / sampleSize : 0.0);
+  }
+  return sums;
 }
 
 //------------------------------------------------------------------------------

@@ -14,6 +14,11 @@
 #define AirGaps_h
 
 #include "Geometry/SceneRayCaster.h"
+#include "Links/LinksThroughAir.h"
+#include "Scattering/ScatteringProfile.h"
+#include "Support/SplitMix.h"
+
+#include <vector>
 
 namespace LightTransport
 {
@@ -23,6 +28,7 @@ public:
   /// Links of a patch that are looked at where not all of them are; a little more of small patches
   /// and where bands differ.
   static constexpr double SampleSize = 64.0;
+  static constexpr double AllLinks = 0.0;
 
   /// The scene must outlive this. Fails where rays cannot be cast (no memory). Texels do not
   /// enclose a body, and rays would find air in their gaps: none is looked for there.
@@ -31,6 +37,17 @@ public:
   /// False where the scene is one convex body: all of it is behind the plane of each patch. Then no
   /// ray is ever cast.
   bool MayBeThere() const { return this->HasHollows; }
+
+  /// Nothing yet, for patches of these areas, of samples of so many links of each patch, or
+  /// AllLinks.
+  LinksThroughAir StartSums(const std::vector<double>& areas, const ScatteringProfiles& profiles,
+    double sampleSize) const;
+
+  /// Whether a link that is to be looked at with some probability is, by a number of its own.
+  static bool IsInSample(SplitMix& number, double probability)
+  {
+    return number.GetNextHalf() < probability * 0x1p32;
+  }
 
   /// Whether there is such air between two patches. Thread-safe.
   bool AreBetween(vtkIdType i, vtkIdType j) const;

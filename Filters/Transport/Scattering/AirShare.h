@@ -17,7 +17,7 @@ struct AirShare
   AirShare(const Links& links, const std::vector<double>& entering,
     const std::vector<double>& leaving);
 
-  ///@{ One for each band; none where nobody knows of air. The error is one standard error, at least
+  ///@{ One for each band. The error is one standard error, at least
   /// what one link of the sample
   /// would add; 0 where all links were looked at.
   std::vector<double> Shares;

@@ -68,8 +68,7 @@ Outcome ProfileRun::Gather()
 {
   return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
     ? this->ScatteringRun::Gather()
-    : this->Scene.Build(this->Input, this->AllRanks, PatchScene::Order::Surface,
-        this->NumberOfSides, this->TakesTexels);
+    : this->GatherInOrder(PatchScene::Order::Surface);
 }
 
 //------------------------------------------------------------------------------
@@ -113,7 +112,7 @@ void ProfileRun::CheckEnergy(const AirShare& air) const
     text << "In component " << worst << " " << gains[worst]
          << " times the light that enters leaves again, which cannot be: a flat surface gives back "
          << links.ProfileTotals[worst] << " by this model";
-    if (!links.AreThroughAirDropped && !air.Shares.empty() && air.Shares[worst] > 0.0)
+    if (!links.AreThroughAirDropped && air.Shares[worst] > 0.0)
     {
       text << ", " << 100.0 * air.Shares[worst]
            << " % goes through the air between parts of the body (DropLinksThroughAir leaves that "

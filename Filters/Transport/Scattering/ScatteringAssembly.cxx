@@ -25,12 +25,11 @@ constexpr int RowsPerStrip = 8;
 /// Calls of the monitor; the same on all ranks. The first tiles, of neighbours, take the longest.
 constexpr int NumberOfBatches = 500;
 
-///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours. Those are
-/// closer than NeighbourReach times the sum of both radii; in a triangle mesh there are about 40.
+///@{ How the tolerance is granted: in proportion to values, to areas, and to neighbours: in a
+/// triangle mesh there are about 40.
 constexpr double ShareOfValues = 0.4;
 constexpr double ShareOfAreas = 0.3;
 constexpr double ShareOfNeighbours = 0.3 / 40.0;
-constexpr double NeighbourReach = 2.0;
 ///@}
 
 /// Above the longest distance in the scene.
@@ -59,8 +58,8 @@ struct PatchSummary
     for (int band = 0; band < ScatteringIntegrals::NumberOfBands; ++band)
     {
       const vtkIdType k = patch * ScatteringIntegrals::NumberOfBands + band;
-      summary.ThroughAir[k] += this->ThroughAir[band];
-      summary.ThroughAirVariances[k] += this->ThroughAirVariance[band];
+      summary.ThroughAir.Carried[k] += this->ThroughAir[band];
+      summary.ThroughAir.Variances[k] += this->ThroughAirVariance[band];
     }
   }
 };
@@ -208,20 +207,16 @@ private:
     {
       const double reach = this->Patches.Radii[i] + this->Patches.Radii[j];
       const double distance = (this->Patches.Centroids[i] - this->Patches.Centroids[j]).norm();
-      const double areas = this->Patches.Areas[i] * this->Patches.Areas[j];
       if (distance - reach > this->CutOff)
       {
         ++summary.LeftOut;
-        pair.Error = this->PerArea * areas;
+        pair.Error = this->PerArea * (this->Patches.Areas[i] * this->Patches.Areas[j]);
         return;
       }
       ++summary.Links;
-      double tolerance = this->PerArea * areas;
-      if (distance < NeighbourReach * reach)
-      {
-        tolerance += this->PerNeighbour * std::min(this->Patches.Areas[i], this->Patches.Areas[j]);
-      }
-      this->Patches.AddPair(this->Integrals, i, j, tolerance / areas, result);
+      const double tolerance =
+        this->Patches.GetTolerance(i, j, distance, this->PerArea, this->PerNeighbour);
+      this->Patches.AddPair(this->Integrals, i, j, tolerance, result);
       this->LookForAir(i, j, result.Value, pair);
     }
     pair.Error = result.Error;
@@ -249,7 +244,7 @@ private:
       chance = std::min(AirGaps::SampleSize * part, 1.0);
       const auto count = static_cast<std::uint64_t>(this->Patches.Areas.size());
       SplitMix number(static_cast<std::uint64_t>(i) * count + static_cast<std::uint64_t>(j));
-      if (!(number.GetNextHalf() < chance * 0x1p32))
+      if (!AirGaps::IsInSample(number, chance))
       {
         return;
       }
@@ -287,15 +282,8 @@ Outcome ScatteringAssembly::Fill(const PatchScene& scene, double millimetersPerS
   StripFiller filler(body, integrals, profiles, tolerance, furthest, air, exchange);
   summary = Summary();
   summary.Errors.assign(body.Areas.size(), 0.0);
-  summary.ThroughAir.assign(body.Areas.size() * profiles.size(), 0.0);
-  summary.ThroughAirVariances.assign(body.Areas.size() * profiles.size(), 0.0);
-  const bool isSample = air.Gaps.MayBeThere() && !air.AreDropped;
-  for (const auto& profile : profiles)
-  {
-    const double largest = *std::max_element(body.Areas.begin(), body.Areas.end());
-    summary.AirSamples.push_back(
-      isSample ? profile->GetTotal() * largest / AirGaps::SampleSize : 0.0);
-  }
+  summary.ThroughAir = air.Gaps.StartSums(body.Areas, profiles,
+    air.AreDropped ? AirGaps::AllLinks : AirGaps::SampleSize);
   const vtkIdType strips =
     static_cast<vtkIdType>(exchange->GetTiles().size()) * StripFiller::StripsPerTile;
   for (int batch = 0; batch < NumberOfBatches; ++batch)

@@ -12,6 +12,7 @@
 #ifndef ScatteringAssembly_h
 #define ScatteringAssembly_h
 
+#include "Links/LinksThroughAir.h"
 #include "Scattering/ScatteringProfile.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
@@ -37,13 +38,7 @@ struct Summary
   /// Per patch: estimated error of the links over the profile's total, the left-out ones included,
   /// in mm^2.
   std::vector<double> Errors;
-  ///@{ Per patch and band: what its links through air carry for a unit of light on it, in mm^2, and
-  /// the variance of that where it is an estimate.
-  std::vector<double> ThroughAir;
-  std::vector<double> ThroughAirVariances;
-  ///@}
-  /// Per band, what one link of such a sample stands for at most, in mm^2.
-  std::vector<double> AirSamples;
+  LinksThroughAir ThroughAir; ///< in mm^2
 };
 
 /// What becomes of links through air: a sample of them is looked for, or all of them, which are

@@ -14,16 +14,12 @@ namespace
 {
 /// Of a cluster, at most.
 constexpr int MostPieces = 4;
-/// Patches closer than this times the sum of their radii are neighbours.
-constexpr double NeighbourReach = 2.0;
 /// Of the squared spread: a wider piece is not what it is at its centre.
 constexpr double WidestSpread2 = 0.5;
 constexpr double SmallestSquare = 1e-60;
-///@{ Of the correction of a cluster's value, over the squared spread of its pieces: of 1 / r over a
-/// disc. The inverse of the largest factor by which values are extrapolated.
+/// Of the correction of a cluster's value, over the squared spread of its pieces: of 1 / r over a
+/// disc.
 constexpr double ErrorOfCorrection = 6.0;
-constexpr double MostExtrapolation = 1.0;
-///@}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -110,16 +106,6 @@ bool ScatteringClusters::HoldsPatch(int slot, vtkIdType patch) const
 }
 
 //------------------------------------------------------------------------------
-bool ScatteringClusters::IsWithin(int slot, int other) const
-{
-  while (slot > 0 && slot != other)
-  {
-    slot = this->Slots.GetParent(slot);
-  }
-  return slot == other;
-}
-
-//------------------------------------------------------------------------------
 vtkIdType ScatteringClusters::Pick(int slot, double number) const
 {
   double left = number * this->Places[slot].Area;
@@ -185,8 +171,7 @@ ScatteringClusters::Estimate ScatteringClusters::Look(vtkIdType receiver, int no
   // leave of the moments.
   const Bands rough = this->Integrals.GetValue((here.Center - all.Center).squaredNorm()).max(0.0);
   const double within = moment + here.Moment;
-  const double factor = std::min(within / std::max(all.Moment - moment, MostExtrapolation * within),
-    1.0 / MostExtrapolation);
+  const double factor = within / std::max(all.Moment - moment, within);
   const Bands correction = factor * (estimate.Value - rough);
   const Bands spread2 = changes / estimate.Squares.max(SmallestSquare);
   estimate.Error = correction.abs() * (ErrorOfCorrection * spread2).min(1.0);
@@ -235,14 +220,11 @@ ScatteringClusters::Bands ScatteringClusters::IntegratePatch(vtkIdType receiver,
     this->Patches.AddSelf(this->Integrals, patch, this->Factors.PerNeighbour / area, result);
     return result.Value / area;
   }
-  const double reach = this->Patches.Radii[receiver] + this->Patches.Radii[patch];
   const double distance =
     (this->Patches.Centroids[receiver] - this->Patches.Centroids[patch]).norm();
-  const double forNeighbours = distance < NeighbourReach * reach
-    ? this->Factors.PerNeighbour / std::max(area, this->Patches.Areas[patch])
-    : 0.0;
-  this->Patches.AddPair(this->Integrals, receiver, patch, this->Factors.PerArea + forNeighbours,
-    result);
+  const double tolerance = this->Patches.GetTolerance(receiver, patch, distance,
+    this->Factors.PerArea, this->Factors.PerNeighbour);
+  this->Patches.AddPair(this->Integrals, receiver, patch, tolerance, result);
   return result.Value / area;
 }
 } // namespace LightTransport

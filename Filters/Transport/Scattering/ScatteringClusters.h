@@ -51,8 +51,7 @@ public:
   const LinkSlots& GetSlots() const { return this->Slots; }
   double GetArea(int slot) const { return this->Places[slot].Area; }
   bool HoldsPatch(int slot, vtkIdType patch) const;
-  /// Whether a slot is another one, or below it.
-  bool IsWithin(int slot, int other) const;
+  vtkIdType GetFirstPatch(int slot) const { return this->Places[slot].First; }
 
   /// A patch of a slot, by a number from 0 to 1: as likely as its area is large.
   vtkIdType Pick(int slot, double number) const;

@@ -44,17 +44,6 @@ constexpr double ShareOfNeighbours = 0.3 / 40.0;
 constexpr double PairsPerLink = 20.0;
 
 //------------------------------------------------------------------------------
-template <typename Summary>
-void TakeAir(Summary& summary, const Ranks& ranks, Links& links)
-{
-  ranks.Sum(summary.ThroughAir);
-  ranks.Sum(summary.ThroughAirVariances);
-  links.ThroughAir = std::move(summary.ThroughAir);
-  links.ThroughAirVariances = std::move(summary.ThroughAirVariances);
-  links.AirSamples = std::move(summary.AirSamples);
-}
-
-//------------------------------------------------------------------------------
 Outcome FailForSize(double size)
 {
   std::ostringstream text;
@@ -161,9 +150,7 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   Outcome built = LinkOperators::AllocateMatrix(task.Areas, static_cast<int>(this->Bands.size()),
     "set LinkMethod to Adaptive, or ", task.AllRanks, links.Matrix);
   AirGaps gaps;
-  // Texels enclose no body: nobody knows what is air between them.
-  const bool knowsAir = !task.Scene.IsOfTexels();
-  built = built && knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
+  built = built ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
   built = built ? ScatteringAssembly::Fill(task.Scene, task.Scale, task.Profiles, links.Tolerance,
                     { gaps, this->Choice.DropsThroughAir }, links.Matrix, task.Watch, summary)
                 : built;
@@ -174,10 +161,8 @@ Outcome ScatteringLinks::LinkPatches(Task& task) const
   double counts[2] = { static_cast<double>(summary.Links), static_cast<double>(summary.LeftOut) };
   task.AllRanks.Sum(counts, 2);
   task.AllRanks.Sum(summary.Errors);
-  if (knowsAir)
-  {
-    TakeAir(summary, task.AllRanks, links);
-  }
+  summary.ThroughAir.SumUp(task.AllRanks);
+  links.ThroughAir = std::move(summary.ThroughAir);
   double bound = 0.0;
   for (std::size_t patch = 0; patch < task.Areas.size(); ++patch)
   {
@@ -246,26 +231,18 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
   links.ClusterTree = task.Scene.GetOrder() == PatchScene::Order::Atlas ? "Atlas" : "Surface";
   links.Hierarchy->SetTree(task.Areas, clusters.GetSlots().GetNodes(), task.AllRanks.GetMine(),
     task.AllRanks.GetNumber(), kernels);
-  std::vector<double> totals;
-  for (const auto& profile : task.Profiles)
-  {
-    totals.push_back(profile->GetTotal());
-  }
   ScatteringRefinement::Summary summary;
   AirGaps gaps;
-  const bool knowsAir = !task.Scene.IsOfTexels();
-  built = knowsAir ? task.AllRanks.Agree(gaps.Build(task.Scene)) : built;
-  built = built ? task.AllRanks.Agree(refinement.Fill(totals.data(), gaps, task.AllRanks,
+  built = task.AllRanks.Agree(gaps.Build(task.Scene));
+  built = built ? task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks,
                     task.Watch, links.Hierarchy, summary))
                 : built;
   if (!built)
   {
     return built;
   }
-  if (knowsAir)
-  {
-    TakeAir(summary, task.AllRanks, links);
-  }
+  summary.ThroughAir.SumUp(task.AllRanks);
+  links.ThroughAir = std::move(summary.ThroughAir);
   this->Summarize(task, refinement, summary);
   if (this->Choice.AreCompressed)
   {

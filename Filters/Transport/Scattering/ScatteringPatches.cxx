@@ -4,8 +4,15 @@
 
 #include "Scene/PatchScene.h"
 
+#include <algorithm>
+
 namespace LightTransport
 {
+namespace
+{
+constexpr double NeighbourReach = 2.0;
+} // namespace
+
 //------------------------------------------------------------------------------
 ScatteringPatches::ScatteringPatches(const PatchScene& scene, double scale)
 {
@@ -64,6 +71,19 @@ void ScatteringPatches::AddSelf(const ScatteringIntegrals& integrals, vtkIdType 
   }
   result.Value += 2.0 * pairs.Value;
   result.Error += 2.0 * pairs.Error;
+}
+
+//------------------------------------------------------------------------------
+double ScatteringPatches::GetTolerance(vtkIdType i, vtkIdType j, double distance, double perArea,
+  double perNeighbour) const
+{
+  const double areas = this->Areas[i] * this->Areas[j];
+  double tolerance = perArea * areas;
+  if (distance < NeighbourReach * (this->Radii[i] + this->Radii[j]))
+  {
+    tolerance += perNeighbour * std::min(this->Areas[i], this->Areas[j]);
+  }
+  return tolerance / areas;
 }
 
 //------------------------------------------------------------------------------

@@ -32,6 +32,12 @@ public:
     ScatteringIntegrals::Result& result) const;
   ///@}
 
+  /// What a pair at a distance may be wrong by over the areas of both: so much anyway, and where
+  /// they are neighbours (closer than twice the sum of their radii) so much more of the smaller
+  /// area.
+  double GetTolerance(vtkIdType i, vtkIdType j, double distance, double perArea,
+    double perNeighbour) const;
+
   /// Mean squared distance of a patch's points from its centroid.
   double GetMoment(vtkIdType patch) const;
 

@@ -20,6 +20,14 @@ bool ScatteringReceiver::IsNegligible(int slot) const
 }
 
 //------------------------------------------------------------------------------
+void ScatteringReceiver::SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const
+{
+  const double area = this->Clusters->GetArea(part.Slot);
+  part.Value = area * estimate.Value;
+  part.Squares = area * estimate.Squares;
+}
+
+//------------------------------------------------------------------------------
 // Below what is smooth all is: a patch there is what it is at its centre, too.
 ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
 {
@@ -29,8 +37,7 @@ ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
   if (!part.IsLeftOut && !this->Clusters->GetSlots().IsPatch(slot))
   {
     const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
-    part.Value = this->Clusters->GetArea(slot) * estimate.Value;
-    part.Squares = this->Clusters->GetArea(slot) * estimate.Squares;
+    this->SetSmooth(estimate, part);
   }
   return part;
 }
@@ -39,7 +46,6 @@ ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
 void ScatteringReceiver::Add(int slot)
 {
   const std::size_t index = this->Parts.size();
-  const double area = this->Clusters->GetArea(slot);
   Part part;
   part.Slot = slot;
   part.IsLeftOut = this->IsNegligible(slot);
@@ -52,7 +58,7 @@ void ScatteringReceiver::Add(int slot)
   {
     part.Value =
       this->Clusters->IntegratePatch(this->Patch, this->Clusters->GetSlots().GetPatch(slot));
-    part.Squares = part.Value.square() / area;
+    part.Squares = part.Value.square() / this->Clusters->GetArea(slot);
     part.IsExact = true;
     this->Parts[index] = part;
     return;
@@ -62,8 +68,7 @@ void ScatteringReceiver::Add(int slot)
     const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
     if (estimate.IsSmooth)
     {
-      this->Parts[index].Value = area * estimate.Value;
-      this->Parts[index].Squares = area * estimate.Squares;
+      this->SetSmooth(estimate, this->Parts[index]);
       return;
     }
   }
@@ -97,6 +102,7 @@ bool ScatteringReceiver::IsOwn(const Part& part) const
 //------------------------------------------------------------------------------
 ScatteringReceiver::Part ScatteringReceiver::GetPart(int slot) const
 {
+  const vtkIdType first = this->Clusters->GetFirstPatch(slot);
   const Part* part = &this->Parts[0];
   while (part->Slot != slot)
   {
@@ -105,7 +111,7 @@ ScatteringReceiver::Part ScatteringReceiver::GetPart(int slot) const
       return this->MakeSmooth(slot);
     }
     const Part* below = part + 1;
-    while (!this->Clusters->IsWithin(slot, below->Slot))
+    while (!this->Clusters->HoldsPatch(below->Slot, first))
     {
       below += 1 + below->NumberBelow;
     }

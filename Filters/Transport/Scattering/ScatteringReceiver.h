@@ -58,6 +58,7 @@ public:
 
 private:
   void Add(int slot);
+  void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
   Part MakeSmooth(int slot) const;
   bool IsNegligible(int slot) const;
   template <typename Divide, typename Take>

@@ -57,8 +57,9 @@ bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
 }
 
 //------------------------------------------------------------------------------
-void ScatteringRefinement::LookAtSample()
+void ScatteringRefinement::Begin()
 {
+  this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
   const vtkIdType count = std::min(patches, SampleSize);
   this->Receivers.assign(count, ScatteringReceiver(this->Clusters, this->LeaveOut));
@@ -122,17 +123,13 @@ double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks) c
     const bool isFine = prospect.Error <= tolerance || prospect.Links > mostLinks;
     (isFine ? low : high) = middle;
   }
-  return std::exp(mostLinks < std::numeric_limits<double>::infinity() &&
-        this->Measure(std::exp(low)).Links > mostLinks
-      ? high
-      : low);
+  return std::exp(this->Measure(std::exp(low)).Links > mostLinks ? high : low);
 }
 
 //------------------------------------------------------------------------------
 void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
 {
-  this->LookAtSample();
-  this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
+  this->Begin();
   const double most =
     mostLinks > 0.0 ? LinkMargin * mostLinks : std::numeric_limits<double>::infinity();
   this->Threshold = this->FindThreshold(tolerance, most);
@@ -159,8 +156,7 @@ double ScatteringRefinement::GetClusterError(int slot) const
 //------------------------------------------------------------------------------
 void ScatteringRefinement::ChooseUniform(int clusters)
 {
-  this->LookAtSample();
-  this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
+  this->Begin();
   std::priority_queue<std::pair<double, int>> queue;
   // The root holds all receivers.
   queue.emplace(std::numeric_limits<double>::infinity(), 0);
@@ -186,7 +182,7 @@ void ScatteringRefinement::ChooseUniform(int clusters)
 struct ScatteringRefinement::Filler
 {
   const ScatteringRefinement& Outer;
-  const double* Totals;
+  const Values& Totals;
   const AirGaps& Gaps;
   vtkIdType First; ///< block
   vtkIdType Step;  ///< from one block to the next
@@ -203,7 +199,7 @@ struct ScatteringRefinement::Filler
     SplitMix number(static_cast<std::uint64_t>(receiver) *
         static_cast<std::uint64_t>(this->Outer.Clusters.GetSlots().GetNumberOfSlots()) +
       static_cast<std::uint64_t>(slot));
-    if (!(number.GetNextHalf() < chance * 0x1p32))
+    if (!AirGaps::IsInSample(number, chance))
     {
       return;
     }
@@ -258,14 +254,20 @@ struct ScatteringRefinement::Filler
 };
 
 //------------------------------------------------------------------------------
-Outcome ScatteringRefinement::Fill(const double totals[], const AirGaps& gaps, const Ranks& ranks,
-  const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const
+Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const AirGaps& gaps,
+  const Ranks& ranks, const Monitor& monitor, vtkExchangeHierarchy* exchange,
+  Summary& summary) const
 {
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
   const vtkIdType all = (patches + BlockSize - 1) / BlockSize;
   const vtkIdType step = ranks.GetNumber();
   const vtkIdType mine = (all - ranks.GetMine() + step - 1) / step;
   std::vector<Block> blocks(mine);
+  Values totals = Values::Zero();
+  for (int band = 0; band < Bands; ++band)
+  {
+    totals[band] = profiles[band]->GetTotal();
+  }
   const Filler filler{ *this, totals, gaps, ranks.GetMine(), step, blocks };
   for (vtkIdType batch = 0; batch < NumberOfBatches; ++batch)
   {
@@ -286,7 +288,8 @@ Outcome ScatteringRefinement::Fill(const double totals[], const AirGaps& gaps, c
   ranks.Sum(counts, 2);
   summary.Links = counts[0];
   summary.LeftOut = counts[1];
-  this->SumUpAir(blocks, totals, gaps.MayBeThere(), summary);
+  summary.ThroughAir = gaps.StartSums(this->Areas, profiles, this->GetAirSample());
+  this->SumUpAir(blocks, totals, summary.ThroughAir);
   return this->Store(blocks, ranks.GetMine(), ranks.GetNumber(), exchange);
 }
 
@@ -299,22 +302,18 @@ double ScatteringRefinement::GetAirSample() const
 
 //------------------------------------------------------------------------------
 // One patch stands for its cluster: the whole square is variance.
-void ScatteringRefinement::SumUpAir(const std::vector<Block>& blocks, const double totals[],
-  bool isSample, Summary& summary) const
+void ScatteringRefinement::SumUpAir(const std::vector<Block>& blocks, const Values& totals,
+  LinksThroughAir& sums) const
 {
-  summary.ThroughAir.assign(this->Areas.size() * Bands, 0.0);
-  summary.ThroughAirVariances.assign(this->Areas.size() * Bands, 0.0);
-  const double largest = *std::max_element(this->Areas.begin(), this->Areas.end());
-  for (int band = 0; band < Bands; ++band)
+  for (const Block& block : blocks)
   {
-    summary.AirSamples.push_back(isSample ? totals[band] * largest / this->GetAirSample() : 0.0);
-    for (const Block& block : blocks)
+    for (const AirLink& link : block.ThroughAir)
     {
-      for (const AirLink& link : block.ThroughAir)
+      for (int band = 0; band < Bands; ++band)
       {
         const double value = totals[band] * link.Value[band];
-        summary.ThroughAir[link.Sender * Bands + band] += value;
-        summary.ThroughAirVariances[link.Sender * Bands + band] += value * value;
+        sums.Carried[link.Sender * Bands + band] += value;
+        sums.Variances[link.Sender * Bands + band] += value * value;
       }
     }
   }

@@ -22,6 +22,7 @@
 #ifndef ScatteringRefinement_h
 #define ScatteringRefinement_h
 
+#include "Links/LinksThroughAir.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringReceiver.h"
 #include "Shared/Monitor.h"
@@ -64,17 +65,13 @@ public:
   {
     double Links = 0.0;
     double LeftOut = 0.0;
-    ///@{ As in Links: of links that were looked at, each between the receiver and a patch of the
-    /// cluster.
-    std::vector<double> ThroughAir;
-    std::vector<double> ThroughAirVariances;
-    std::vector<double> AirSamples;
-    ///@}
+    /// Of links that were looked at, each between the receiver and a patch of the cluster.
+    LinksThroughAir ThroughAir;
   };
 
-  /// This rank's rows, times the profiles' totals. The counts are those of all ranks, what goes
+  /// This rank's rows. The counts are those of all ranks, what goes
   /// through air that of this one.
-  Outcome Fill(const double totals[], const AirGaps& gaps, const Ranks& ranks,
+  Outcome Fill(const ScatteringProfiles& profiles, const AirGaps& gaps, const Ranks& ranks,
     const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const;
 
 private:
@@ -95,17 +92,16 @@ private:
     std::vector<AirLink> ThroughAir;
   };
   struct Filler;
-  using Sample = std::vector<ScatteringReceiver>;
 
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
-  void LookAtSample();
+  void Begin();
   Prospect Measure(double threshold) const;
   double FindThreshold(double tolerance, double mostLinks) const;
   double GetClusterError(int slot) const;
   double GetAirSample() const;
-  void SumUpAir(const std::vector<Block>& blocks, const double totals[], bool isSample,
-    Summary& summary) const;
+  void SumUpAir(const std::vector<Block>& blocks, const ScatteringIntegrals::Bands& totals,
+    LinksThroughAir& sums) const;
   Outcome Store(const std::vector<Block>& blocks, int mine, int ranks,
     vtkExchangeHierarchy* exchange) const;
 
@@ -113,7 +109,7 @@ private:
   const std::vector<double>& Areas;
   const double Reference;
   const double LeaveOut;
-  Sample Receivers; ///< some of all, by which rows are foreseen
+  std::vector<ScatteringReceiver> Receivers; ///< some of all, by which rows are foreseen
   /// Nodes that are divided for all receivers.
   std::vector<bool> AreDivided;
   double Threshold = 0.0;
