@@ -66,20 +66,12 @@ void CodedGatherGL::Upload(const CodedLayout& tables, const ProductGL::Pause& pa
   this->Engine.UploadTable(this->Tiles, tables.MakeTiles());
   this->Engine.UploadTable(this->Entries, tables.MakeEntries());
   this->Engine.UploadTable(this->Book, tables.MakeBook(this->Vectors.Groups));
-  const int width = this->Vectors.Width;
   for (std::size_t part = 0; part < this->Parts.size(); ++part)
   {
     const int begin = this->Parts[part].FirstLine;
-    int at = 0;
-    for (int line = begin; line < begin + this->Parts[part].Lines; ++line)
-    {
-      const CodedLayout::Words words = tables.MakeBytes(line);
-      const int height = static_cast<int>(words.size() / 4) / width;
-      const int region[4] = { 0, at, width, height };
-      this->Engine.Upload(this->Bytes[part][0], region, width, words.data());
-      at += height;
-      pause();
-    }
+    this->Engine.UploadLines(
+      this->Bytes[part][0], begin, begin + this->Parts[part].Lines,
+      [&tables](int line) { return tables.MakeBytes(line); }, pause);
   }
 }
 

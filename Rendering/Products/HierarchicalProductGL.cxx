@@ -123,20 +123,12 @@ void HierarchicalProductGL::Upload(const HierarchyLayout& tables, const Pause& p
 //------------------------------------------------------------------------------
 void HierarchicalProductGL::UploadLinks(const HierarchyLayout& tables, const Pause& pause)
 {
-  const int width = this->Vectors.Width;
   for (std::size_t tile = 0; tile < this->Tiles.size(); ++tile)
   {
     const int begin = this->Tiles[tile].FirstLine;
-    int at = 0;
-    for (int line = begin; line < begin + this->Tiles[tile].Lines; ++line)
-    {
-      const std::vector<float> texels = tables.MakeLinks(line);
-      const int height = static_cast<int>(texels.size() / 4) / width;
-      const int region[4] = { 0, at, width, height };
-      this->Engine.Upload(this->Links[tile][0], region, width, texels.data());
-      at += height;
-      pause();
-    }
+    this->Engine.UploadLines(
+      this->Links[tile][0], begin, begin + this->Tiles[tile].Lines,
+      [&tables](int line) { return tables.MakeLinks(line); }, pause);
   }
 }
 

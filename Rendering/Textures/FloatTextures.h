@@ -94,6 +94,25 @@ public:
     this->Upload(table[0], all, width, values.data());
   }
 
+  /// Write lines [first, last) of a table below each other into a texture: make(line) has whole
+  /// rows of texels, of four values each. `pause` is called after each.
+  template <typename Make, typename Pause>
+  void UploadLines(vtkTextureObject* texture, int first, int last, const Make& make,
+    const Pause& pause)
+  {
+    const int width = static_cast<int>(texture->GetWidth());
+    int at = 0;
+    for (int line = first; line < last; ++line)
+    {
+      const auto values = make(line);
+      const int height = static_cast<int>(values.size() / 4) / width;
+      const int region[4] = { 0, at, width, height };
+      this->Upload(texture, region, width, values.data());
+      at += height;
+      pause();
+    }
+  }
+
   /// Copy a region (x, y, width, height) to (x, line) between groups of as many textures.
   void Copy(const Group& target, int line, const Group& source, const int region[4]);
 
