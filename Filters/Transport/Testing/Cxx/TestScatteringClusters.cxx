@@ -7,6 +7,7 @@
 #include "VoxelBodies.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkSMPTools.h"
 #include "vtkStringArray.h"
 #include "vtkSubsurfaceScattering.h"
@@ -265,6 +266,52 @@ void TestReuse(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
+// A sheet with an open border, one of two sides in one place, and a thin one whose sides are meshed
+// differently; the last in two blocks as well.
+void TestSheets()
+{
+  const auto add = [](Surface& surface, double height, int parts)
+  {
+    if (height > 0.0)
+    {
+      surface.AddGrid({ 0, 0, height }, { 1, 0, 0 }, { 0, 1, 0 }, parts, parts);
+    }
+    else
+    {
+      surface.AddGrid({ 0, 0, height }, { 0, 1, 0 }, { 1, 0, 0 }, parts, parts);
+    }
+  };
+  const std::vector<std::vector<std::pair<double, int>>> sheets = { { { 0.004, 28 } },
+    { { 0.0, 20 }, { 1e-9, 20 } }, { { 0.0, 20 }, { 0.004, 14 } } };
+  for (const auto& sides : sheets)
+  {
+    Surface surface;
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    for (const auto& side : sides)
+    {
+      add(surface, side.first, side.second);
+      Surface block;
+      add(block, side.first, side.second);
+      auto data = block.Get();
+      AddLight(data, false);
+      blocks->SetBlock(blocks->GetNumberOfBlocks(), data);
+    }
+    auto data = surface.Get();
+    AddLight(data, false);
+    auto pairs = MakeFilter(data, Scattering::LINK_METHOD_DENSE, 5.0);
+    auto clusters = MakeFilter(data, Scattering::LINK_METHOD_ADAPTIVE, 5.0);
+    clusters->SetNumberOfLinks(1000);
+    const double error = Compare(GetResult(clusters), GetResult(pairs));
+    Check(error < 1e-2, std::to_string(sides.size()) + " sides: " + std::to_string(error));
+    const double leaving = GetSummary(clusters->GetPolyDataOutput(), "LeavingFlux");
+    clusters->SetInputDataObject(blocks);
+    clusters->Update();
+    CheckClose(GetSummary(clusters->GetOutputDataObject(0), "LeavingFlux"), leaving, 1e-6,
+      "blocks are one body");
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestMethods(vtkPolyData* data)
 {
   Surface one;
@@ -391,6 +438,7 @@ int TestScatteringClusters(int, char*[])
   TestEvenLight(data);
   TestPlaces(data);
   TestReuse(data);
+  TestSheets();
   TestMethods(data);
   TestAir();
   TestThreads(data);
