@@ -10,26 +10,13 @@ The first rank gathers the results and writes them.
 import os
 import sys
 
-import PluginTools  # noqa: F401 (loads the plugin)
+from PluginTools import make_source  # loads the plugin
 
 from paraview import simple
 from TestingTools import write_surface
 
 case, folder = sys.argv[1:]
-scripts = os.path.dirname(os.path.abspath(__file__))
-body = simple.ProgrammableSource(
-    OutputDataSetType="vtkPolyData",
-    Script=f"""
-import sys
-sys.path.insert(0, {scripts!r})
-sys.dont_write_bytecode = True
-import ParallelScene
-ParallelScene.make_block({case!r}, self.GetPolyDataOutput())
-""",
-    ScriptRequestInformation="""
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-self.GetOutputInformation(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
-""")
+body = make_source("make_block", case)
 if case == "pieces":
     image = simple.ProgrammableSource(
         OutputDataSetType="vtkImageData",

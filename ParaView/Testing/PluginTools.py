@@ -16,6 +16,24 @@ def get_data(name):
     return os.path.join(os.environ["LIGHT_TRANSPORT_DATA"], name)
 
 
+def make_source(make, case):
+    """Of polygons, a piece on each rank, by a function of ParallelScene.py."""
+    folder = os.path.dirname(os.path.abspath(__file__))
+    return simple.ProgrammableSource(
+        OutputDataSetType="vtkPolyData",
+        Script=f"""
+import sys
+sys.path.insert(0, {folder!r})
+sys.dont_write_bytecode = True
+import ParallelScene
+ParallelScene.{make}({case!r}, self.GetPolyDataOutput())
+""",
+        ScriptRequestInformation="""
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+self.GetOutputInformation(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
+""")
+
+
 def finish(problems):
     """pvpython's exit code says nothing after an exception, so it is set here."""
     for problem in problems:
