@@ -84,7 +84,7 @@ LinkKey ScatteringLinks::GetKey() const
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
       this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
-      this->Choice.CompressionTolerance },
+      this->Choice.CompressionTolerance, this->Choice.IsKept ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -126,7 +126,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
       this->Choice.DropsThroughAir;
     built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
   }
-  if (!built)
+  if (!built || !links.GetExchange())
   {
     return built;
   }
@@ -207,9 +207,21 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   {
     refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
   }
+  if (links.Choice)
+  {
+    const double most = isUniform || isAuto ? 0.0 : this->Choice.Number;
+    return refinement.Keep(*links.Choice, most, task.AllRanks)
+      ? this->FillRows(task, clusters, refinement)
+      : Outcome::Done();
+  }
   if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
+  }
+  if (this->Choice.IsKept)
+  {
+    links.Choice = std::make_shared<LinkChoice>(refinement.GetChoice());
+    links.Choice->Arrangement = task.Scene.GetArrangement();
   }
   return this->FillRows(task, clusters, refinement);
 }
@@ -260,6 +272,7 @@ void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refineme
   task.Result.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", refinement.GetProspect().Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
+  task.Result.ReusedShare = summary.Links > 0.0 ? summary.Reused / summary.Links : 0.0;
   const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
   task.Result.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
     { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringReceiver.h"
 
+#include <algorithm>
+
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
@@ -10,6 +12,14 @@ void ScatteringReceiver::Look(vtkIdType patch)
   this->Patch = patch;
   this->Parts.clear();
   this->Add(0);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::Look(vtkIdType patch, const int* begin, const int* end)
+{
+  this->Patch = patch;
+  this->Parts.clear();
+  this->AddKept(0, begin, end);
 }
 
 //------------------------------------------------------------------------------
@@ -84,6 +94,32 @@ void ScatteringReceiver::Add(int slot)
   }
   part.NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
   this->Parts[index] = part;
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::AddKept(int slot, const int* begin, const int* end)
+{
+  const std::size_t index = this->Parts.size();
+  if (begin == end || *begin == slot)
+  {
+    this->Add(slot);
+    this->Parts[index].IsKept = begin != end;
+    return;
+  }
+  Part part;
+  part.Slot = slot;
+  part.IsDivided = true;
+  this->Parts.push_back(part);
+  const LinkSlots::Node children = this->Clusters->GetSlots().GetChildren(slot);
+  for (int child = children.First; child < children.Last; ++child)
+  {
+    const int* const middle = std::find_if(begin, end,
+      [&](int kept)
+      { return !this->Clusters->HoldsPatch(child, this->Clusters->GetFirstPatch(kept)); });
+    this->AddKept(child, begin, middle);
+    begin = middle;
+  }
+  this->Parts[index].NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
 }
 
 //------------------------------------------------------------------------------

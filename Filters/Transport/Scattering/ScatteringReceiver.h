@@ -28,6 +28,8 @@ public:
     Bands Squares = Bands::Zero(); ///< of its square
     bool IsExact = false;          ///< patch by patch
     bool IsLeftOut = false;        ///< certainly too little
+    bool IsDivided = false;        ///< whatever it is, which nothing here tells
+    bool IsKept = false;           ///< as it was chosen before
     int NumberBelow = 0;           ///< parts that follow it and lie below it
   };
 
@@ -39,6 +41,9 @@ public:
 
   /// Look at all clusters from a patch.
   void Look(vtkIdType patch);
+  /// Look at the clusters from which it received before it moved, and at all that were left out:
+  /// [begin, end) in the order of their patches.
+  void Look(vtkIdType patch, const int* begin, const int* end);
   vtkIdType GetPatch() const { return this->Patch; }
 
   /// What a link from a part misses at most of light that differs by 1 from its mean there, root
@@ -58,6 +63,7 @@ public:
 
 private:
   void Add(int slot);
+  void AddKept(int slot, const int* begin, const int* end);
   void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
   Part MakeSmooth(int slot) const;
   bool IsNegligible(int slot) const;
@@ -75,7 +81,7 @@ template <typename Divide, typename Take>
 void ScatteringReceiver::VisitPart(const Part& part, const Divide& divide, const Take& take) const
 {
   const LinkSlots& slots = this->Clusters->GetSlots();
-  if (slots.IsPatch(part.Slot) || part.IsLeftOut || !divide(part))
+  if (slots.IsPatch(part.Slot) || part.IsLeftOut || !(part.IsDivided || divide(part)))
   {
     take(part);
     return;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringRefinement.h"
 
+#include "Links/LinkChoice.h"
 #include "Scattering/AirGaps.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
@@ -39,6 +40,18 @@ constexpr int ThresholdSteps = 12;
 constexpr double MostAirSamples = 200000.0;
 /// A sample may have that much fewer links than all receivers.
 constexpr double LinkMargin = 0.98;
+///@{ By what the error and the number of kept links may exceed those of others, at most, and what
+/// they are refined to.
+constexpr double MostGrowth = 1.2;
+constexpr double GrowthAimedAt = 1.1;
+///@}
+
+//------------------------------------------------------------------------------
+/// Whether a rank fills the row of a patch.
+bool IsOfRank(vtkIdType patch, const Ranks& ranks)
+{
+  return patch / BlockSize % ranks.GetNumber() == ranks.GetMine();
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -52,8 +65,9 @@ ScatteringRefinement::ScatteringRefinement(const ScatteringClusters& clusters,
 bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
   const ScatteringReceiver::Part& part, double threshold) const
 {
+  const double most = part.IsKept ? threshold : std::min(threshold, this->NewThreshold);
   return this->AreDivided[part.Slot] || receiver.IsOwn(part) ||
-    (receiver.GetDeviation(part) > threshold).any();
+    (receiver.GetDeviation(part) > most).any();
 }
 
 //------------------------------------------------------------------------------
@@ -75,6 +89,21 @@ void ScatteringRefinement::Begin()
 }
 
 //------------------------------------------------------------------------------
+void ScatteringRefinement::Look(vtkIdType patch, ScatteringReceiver& receiver) const
+{
+  if (this->Kept)
+  {
+    const int* const columns = this->Kept->Columns.data();
+    receiver.Look(patch, columns + this->Kept->Offsets[patch],
+      columns + this->Kept->Offsets[patch + 1]);
+  }
+  else
+  {
+    receiver.Look(patch);
+  }
+}
+
+//------------------------------------------------------------------------------
 ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) const
 {
   const auto count = static_cast<vtkIdType>(this->Receivers.size());
@@ -86,6 +115,10 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     {
       Pulse::Beat();
       const ScatteringReceiver& receiver = this->Receivers[k];
+      if (!IsOfRank(receiver.GetPatch(), this->SharedWith))
+      {
+        continue;
+      }
       receiver.Visit([&](const ScatteringReceiver::Part& part)
         { return this->Divides(receiver, part, threshold); },
         [&](const ScatteringReceiver::Part& part)
@@ -96,6 +129,9 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     }
   };
   Threads::For(0, count, 1, measure);
+  // One rank has each of them: no order changes the sums.
+  this->SharedWith.Sum(links);
+  this->SharedWith.Sum(squares.data()->data(), 4 * squares.size());
   double area = 0.0;
   Values errors = Values::Zero();
   Prospect prospect;
@@ -135,6 +171,48 @@ void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
   this->Threshold = this->FindThreshold(tolerance, most);
   this->Expected = this->Measure(this->Threshold);
   this->Limited = this->Expected.Error > tolerance;
+}
+
+//------------------------------------------------------------------------------
+// Kept links are refined until they tell hardly more than others would.
+bool ScatteringRefinement::Keep(const LinkChoice& kept, double mostLinks, const Ranks& ranks)
+{
+  const double error = std::min(this->Expected.Error, kept.Error);
+  const double links = std::min(MostGrowth * std::min(this->Expected.Links, kept.LinksPerReceiver),
+    mostLinks > 0.0 ? mostLinks : std::numeric_limits<double>::infinity());
+  this->NewThreshold = this->Threshold;
+  this->Kept = &kept;
+  this->SharedWith = ranks;
+  const bool isUniform = this->Threshold == std::numeric_limits<double>::infinity();
+  this->AreDivided = kept.AreDivided;
+  const auto look = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      if (IsOfRank(this->Receivers[k].GetPatch(), ranks))
+      {
+        this->Look(this->Receivers[k].GetPatch(), this->Receivers[k]);
+      }
+    }
+  };
+  Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, look);
+  if (!isUniform)
+  {
+    this->Threshold = this->FindThreshold(GrowthAimedAt * error, links);
+  }
+  this->Expected = this->Measure(this->Threshold);
+  return this->Expected.Error <= MostGrowth * error && this->Expected.Links <= links;
+}
+
+//------------------------------------------------------------------------------
+LinkChoice ScatteringRefinement::GetChoice() const
+{
+  LinkChoice choice;
+  choice.Error = this->Expected.Error;
+  choice.LinksPerReceiver = this->Expected.Links;
+  choice.AreDivided = this->AreDivided;
+  return choice;
 }
 
 //------------------------------------------------------------------------------
@@ -226,6 +304,7 @@ struct ScatteringRefinement::Filler
         const Values value =
           part.IsExact ? part.Value : clusters.Integrate(receiver.GetPatch(), part.Slot);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
+        block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);
         for (int band = 0; band < Bands; ++band)
         {
@@ -246,7 +325,7 @@ struct ScatteringRefinement::Filler
       for (vtkIdType patch = first; patch < std::min(first + BlockSize, patches); ++patch)
       {
         Pulse::Beat();
-        receiver.Look(patch);
+        this->Outer.Look(patch, receiver);
         this->AddRow(receiver, this->Blocks[k]);
       }
     }
@@ -279,15 +358,17 @@ Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const Air
       return goesOn;
     }
   }
-  double counts[2] = {};
+  double counts[3] = {};
   for (const Block& block : blocks)
   {
     counts[0] += static_cast<double>(block.Columns.size());
     counts[1] += block.LeftOut;
+    counts[2] += block.Reused;
   }
-  ranks.Sum(counts, 2);
+  ranks.Sum(counts, 3);
   summary.Links = counts[0];
   summary.LeftOut = counts[1];
+  summary.Reused = counts[2];
   summary.ThroughAir = gaps.StartSums(this->Areas, profiles, this->GetAirSample());
   this->SumUpAir(blocks, totals, summary.ThroughAir);
   return this->Store(blocks, ranks.GetMine(), ranks.GetNumber(), exchange);
