@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringIntegrals.h"
 
+#include "Scattering/CoplanarTriangles.h"
 #include "Scattering/EdgeNeighbours.h"
 #include "Scattering/ParallelTriangles.h"
 #include "Shared/GaussLegendre.h"
@@ -42,6 +43,11 @@ constexpr double NegligiblePart = 0.01;
 constexpr double WidestPart = 1.5;
 constexpr int PointsOfPart = 12;
 ///@}
+
+/// Of the relative tolerance: what leaves a plane by less of its size is in it.
+constexpr double Flatness = 0.1;
+/// Of the rule between two values of a potential.
+constexpr int PointsOfPotential = 2;
 
 /// Above the longest distance, for rounding.
 constexpr double Margin = 1.01;
@@ -137,13 +143,33 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
   this->SquaredCore = FloatOf(this->FirstPiece << PlaceBits);
   const std::uint32_t lastPiece =
     pieceOf(Margin * (maximumDistance * maximumDistance + this->SquaredCore)) + 1;
-  this->Table.resize(lastPiece - this->FirstPiece + 1);
-  for (std::size_t i = 0; i < this->Table.size(); ++i)
+  this->Table = this->Interpolate(lastPiece,
+    [this](int band, double squared) { return this->EvaluateExactly(band, squared); });
+  Bands potentials = Bands::Zero();
+  Bands reached = Bands::Zero();
+  this->Potentials = this->Interpolate(lastPiece,
+    [&](int band, double squared)
+    {
+      const double radius = std::sqrt(squared);
+      potentials[band] += this->IntegratePotential(band, reached[band], radius);
+      reached[band] = radius;
+      return potentials[band];
+    });
+}
+
+//------------------------------------------------------------------------------
+// Values are asked for from the centre outwards, at the end of one piece and at the beginning of
+// the next.
+ScatteringIntegrals::Pieces ScatteringIntegrals::Interpolate(std::uint32_t lastPiece,
+  const std::function<double(int band, double squaredDistance)>& evaluate) const
+{
+  Pieces table(lastPiece - this->FirstPiece + 1);
+  for (std::size_t i = 0; i < table.size(); ++i)
   {
     const std::uint32_t bits = static_cast<std::uint32_t>(i + this->FirstPiece) << PlaceBits;
     const double begin = FloatOf(bits);
     const double length = FloatOf(bits + (1u << PlaceBits)) - begin;
-    for (Lane& coefficients : this->Table[i].Coefficients)
+    for (Lane& coefficients : table[i].Coefficients)
     {
       coefficients.setZero();
     }
@@ -152,17 +178,33 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
       double values[3];
       for (int k = 0; k < 3; ++k)
       {
-        const double squared = begin + 0.5 * k * length - this->SquaredCore;
-        const double value = this->EvaluateExactly(band, squared);
+        const double value = evaluate(band, begin + 0.5 * k * length - this->SquaredCore);
         values[k] = value > SmallestValue ? value : 0.0;
       }
-      this->Table[i].Coefficients[0][band] = static_cast<float>(values[0]);
-      this->Table[i].Coefficients[1][band] =
+      table[i].Coefficients[0][band] = static_cast<float>(values[0]);
+      table[i].Coefficients[1][band] =
         static_cast<float>(4.0 * values[1] - 3.0 * values[0] - values[2]);
-      this->Table[i].Coefficients[2][band] =
+      table[i].Coefficients[2][band] =
         static_cast<float>(2.0 * (values[0] + values[2] - 2.0 * values[1]));
     }
   }
+  return table;
+}
+
+//------------------------------------------------------------------------------
+// What flows through a circle, over its circumference, is the slope.
+double ScatteringIntegrals::IntegratePotential(int band, double begin, double end) const
+{
+  static const GaussLegendre rule(PointsOfPotential);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rule.Nodes.size() && end > begin; ++k)
+  {
+    const double radius = begin + (end - begin) * rule.Nodes[k];
+    double moments[3];
+    this->Profiles[band]->GetMoments(radius, moments);
+    sum += (end - begin) * rule.Weights[k] * moments[0] / radius;
+  }
+  return this->InverseTotals[band] * sum;
 }
 
 //------------------------------------------------------------------------------
@@ -364,6 +406,10 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
   {
     return false;
   }
+  if (this->AddCoplanarPair(a, b, tolerance, sum))
+  {
+    return true;
+  }
   EdgeNeighbours neighbours;
   ParallelTriangles sheets;
   std::function<Bands(const GaussLegendre&)> integrate;
@@ -395,6 +441,25 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
     return false;
   }
   RefineRule(integrate, this->RelativeTolerance, tolerance, sum);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Of the widest ones little is left of the potentials.
+bool ScatteringIntegrals::AddCoplanarPair(const Triangle& a, const Triangle& b, double tolerance,
+  Sum& sum) const
+{
+  CoplanarTriangles plane;
+  if (!this->Singular || std::max(a.Radius, b.Radius) > WidePair * this->Scale ||
+    !plane.Set(a.Corners, b.Corners, Flatness * this->RelativeTolerance))
+  {
+    return false;
+  }
+  const CoplanarTriangles::Sum whole = plane.Integrate([this](double squaredDistance)
+    { return Bands(Evaluate(this->Find(squaredDistance, this->Potentials)).cast<double>()); },
+    this->RelativeTolerance, tolerance);
+  sum.Value += whole.Value;
+  sum.SquaredError += whole.SquaredError.maxCoeff();
   return true;
 }
 

@@ -11,7 +11,8 @@
  * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other;
  * where the largest is not enough the larger triangle is cut in four;
  * - two with a long edge in common (EdgeNeighbours), and two wide ones in parallel planes
- * (ParallelTriangles): exact along the radius.
+ * (ParallelTriangles): exact along the radius;
+ * - two in one plane, near a peak of 1/r (CoplanarTriangles): along their edges.
  *
  * All values are divided by the profiles' totals, so that one tolerance serves all bands.
  */
@@ -86,7 +87,7 @@ public:
   /// And their derivative by the squared distance.
   Bands GetValue(double squaredDistance, Bands& derivative) const
   {
-    const Place place = this->Find(squaredDistance);
+    const Place place = this->Find(squaredDistance, this->Table);
     const Lane* const c = place.Of->Coefficients;
     derivative = ((c[1] + 2.0f * place.At * c[2]) / place.Length).cast<double>();
     return Evaluate(place).cast<double>();
@@ -145,19 +146,20 @@ private:
     std::memcpy(&value, &bits, sizeof(value));
     return value;
   }
-  /// Where in the table a squared distance is.
+  using Pieces = std::vector<Piece>;
+  /// Where in a table a squared distance is.
   struct Place
   {
     const Piece* Of;
     float At;     ///< 0 to 1
     float Length; ///< of the piece
   };
-  Place Find(double squaredDistance) const
+  Place Find(double squaredDistance, const Pieces& table) const
   {
     const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredCore));
     constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
     constexpr std::uint32_t exponent = ~((1u << MantissaBits) - 1u);
-    return { &this->Table[(bits >> PlaceBits) - this->FirstPiece],
+    return { &table[(bits >> PlaceBits) - this->FirstPiece],
       static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits)),
       FloatOf(bits & exponent) * (1.0f / (1u << PieceBits)) };
   }
@@ -166,7 +168,10 @@ private:
     const Lane* const c = place.Of->Coefficients;
     return c[0] + place.At * (c[1] + place.At * c[2]);
   }
-  Lane Evaluate(double squaredDistance) const { return Evaluate(this->Find(squaredDistance)); }
+  Lane Evaluate(double squaredDistance) const
+  {
+    return Evaluate(this->Find(squaredDistance, this->Table));
+  }
   Bands GetSlopes(double squaredDistance) const
   {
     Bands slopes = this->SlopesOfSource / (squaredDistance + this->SquaredScales).sqrt();
@@ -180,14 +185,18 @@ private:
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
-  /// For what cannot be cut at a bounded price; false for all else.
   /// Whether two corners are the same.
   static bool HaveEdge(const Triangle& a, const Triangle& b);
+  /// For what cannot be cut at a bounded price; false for all else.
   bool AddWidePair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
+  bool AddCoplanarPair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
   static void RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
     double relativeTolerance, double tolerance, Sum& sum);
   void Tabulate(double maximumDistance);
+  Pieces Interpolate(std::uint32_t lastPiece,
+    const std::function<double(int band, double squaredDistance)>& evaluate) const;
   double EvaluateExactly(int band, double squaredDistance) const;
+  double IntegratePotential(int band, double begin, double end) const;
 
   const ScatteringProfiles& Profiles;
   double InverseTotals[NumberOfBands];
@@ -203,7 +212,8 @@ private:
   Bands SlopesOfSource = Bands::Zero();
   Bands SlopesOfCentre = Bands::Zero();
   ///@}
-  std::vector<Piece> Table;
+  Pieces Table;
+  Pieces Potentials; ///< whose Laplacians in the plane the profiles are
   std::uint32_t FirstPiece = 0;
 };
 } // namespace LightTransport
