@@ -49,11 +49,6 @@ constexpr double Flatness = 0.1;
 /// Of the rule between two values of a potential.
 constexpr int PointsOfPotential = 2;
 
-/// Above the longest distance, for rounding.
-constexpr double Margin = 1.01;
-/// What is smaller counts as nothing: denormal numbers would be slow.
-constexpr double SmallestValue = 1e-30;
-
 /// Of the smaller of a singular profile's scale and the longest distance: closer than this all is
 /// one. What that changes of an integral is less than this, of all that is given back.
 constexpr double CoreSize = 1e-6;
@@ -137,17 +132,12 @@ ScatteringIntegrals::ScatteringIntegrals(const ScatteringProfiles& profiles, dou
 //------------------------------------------------------------------------------
 void ScatteringIntegrals::Tabulate(double maximumDistance)
 {
-  const auto pieceOf = [](double value) { return BitsOf(static_cast<float>(value)) >> PlaceBits; };
-  this->FirstPiece = pieceOf(this->SquaredCore);
-  // The table starts at the beginning of a piece, so that no piece reaches below distance zero.
-  this->SquaredCore = FloatOf(this->FirstPiece << PlaceBits);
-  const std::uint32_t lastPiece =
-    pieceOf(Margin * (maximumDistance * maximumDistance + this->SquaredCore)) + 1;
-  this->Table = this->Interpolate(lastPiece,
+  this->Table = RadialTable(this->SquaredCore, maximumDistance,
     [this](int band, double squared) { return this->EvaluateExactly(band, squared); });
+  this->SquaredCore = this->Table.GetSquaredCore();
   Bands potentials = Bands::Zero();
   Bands reached = Bands::Zero();
-  this->Potentials = this->Interpolate(lastPiece,
+  this->Potentials = RadialTable(this->SquaredCore, maximumDistance,
     [&](int band, double squared)
     {
       const double radius = std::sqrt(squared);
@@ -155,40 +145,7 @@ void ScatteringIntegrals::Tabulate(double maximumDistance)
       reached[band] = radius;
       return potentials[band];
     });
-}
-
-//------------------------------------------------------------------------------
-// Values are asked for from the centre outwards, at the end of one piece and at the beginning of
-// the next.
-ScatteringIntegrals::Pieces ScatteringIntegrals::Interpolate(std::uint32_t lastPiece,
-  const std::function<double(int band, double squaredDistance)>& evaluate) const
-{
-  Pieces table(lastPiece - this->FirstPiece + 1);
-  for (std::size_t i = 0; i < table.size(); ++i)
-  {
-    const std::uint32_t bits = static_cast<std::uint32_t>(i + this->FirstPiece) << PlaceBits;
-    const double begin = FloatOf(bits);
-    const double length = FloatOf(bits + (1u << PlaceBits)) - begin;
-    for (Lane& coefficients : table[i].Coefficients)
-    {
-      coefficients.setZero();
-    }
-    for (int band = 0; band < NumberOfBands; ++band)
-    {
-      double values[3];
-      for (int k = 0; k < 3; ++k)
-      {
-        const double value = evaluate(band, begin + 0.5 * k * length - this->SquaredCore);
-        values[k] = value > SmallestValue ? value : 0.0;
-      }
-      table[i].Coefficients[0][band] = static_cast<float>(values[0]);
-      table[i].Coefficients[1][band] =
-        static_cast<float>(4.0 * values[1] - 3.0 * values[0] - values[2]);
-      table[i].Coefficients[2][band] =
-        static_cast<float>(2.0 * (values[0] + values[2] - 2.0 * values[1]));
-    }
-  }
-  return table;
+  this->Moments = ProfileMoments(this->Profiles, maximumDistance);
 }
 
 //------------------------------------------------------------------------------
@@ -416,15 +373,7 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
   if (neighbours.Set(a.Corners, b.Corners) && neighbours.GetSharedLength() >= wide)
   {
     integrate = [&](const GaussLegendre& rule)
-    {
-      Bands value = Bands::Zero();
-      neighbours.Integrate(this->Profiles, rule, value.data());
-      for (int band = 0; band < NumberOfBands; ++band)
-      {
-        value[band] *= this->InverseTotals[band];
-      }
-      return value;
-    };
+    { return neighbours.Integrate(this->Moments, rule); };
   }
   else if (std::min(a.Radius, b.Radius) >= wide && sheets.Set(a.Corners, b.Corners, scale, core) &&
     (!this->Singular || std::min(a.Radius, b.Radius) >= WidePair * sheets.GetScale()))
@@ -456,7 +405,7 @@ bool ScatteringIntegrals::AddCoplanarPair(const Triangle& a, const Triangle& b, 
     return false;
   }
   const CoplanarTriangles::Sum whole = plane.Integrate([this](double squaredDistance)
-    { return Bands(Evaluate(this->Find(squaredDistance, this->Potentials)).cast<double>()); },
+    { return Bands(this->Potentials.Evaluate(squaredDistance).cast<double>()); },
     this->RelativeTolerance, tolerance);
   sum.Value += whole.Value;
   sum.SquaredError += whole.SquaredError.maxCoeff();
@@ -514,13 +463,9 @@ void ScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) cons
         const double stretch = std::cosh(first + width * (part + rule.Nodes[k]));
         const double reach = height * stretch;
         const double weight = 2.0 * triangle.Area * width * rule.Weights[k] / stretch;
-        for (int band = 0; band < NumberOfBands; ++band)
-        {
-          double moments[3];
-          this->Profiles[band]->GetMoments(reach, moments);
-          result.Value[band] += weight * this->InverseTotals[band] *
-            (moments[0] - 2.0 * moments[1] / reach + moments[2] / (reach * reach));
-        }
+        const ProfileMoments::Means means = this->Moments.GetMeans(reach);
+        result.Value += weight * reach *
+          (means.Of[0] - 2.0f * means.Of[1] + means.Of[2]).max(0.0f).cast<double>();
       }
     }
   }

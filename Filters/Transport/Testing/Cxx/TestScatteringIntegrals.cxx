@@ -157,7 +157,7 @@ void TestWidePatch()
 {
   const ScatteringProfiles profiles = MakeProfiles();
   const double size = 3000.0;
-  const ScatteringIntegrals integrals(profiles, size, Tolerance);
+  const ScatteringIntegrals integrals(profiles, 2.0 * size, Tolerance);
   const Triangle patch(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
   double perimeter = 0.0;
   for (int k = 0; k < 3; ++k)
