@@ -87,7 +87,8 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     this->Owner->GetMillimetersPerUnit(),
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
       this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir(),
-      this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance() });
+      this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance(),
+      static_cast<LinkDevice>(this->Owner->GetDevice()) });
 }
 
 //------------------------------------------------------------------------------

@@ -165,6 +165,27 @@ double ScatteringIntegrals::IntegratePotential(int band, double begin, double en
 }
 
 //------------------------------------------------------------------------------
+void ScatteringIntegrals::Describe(vtkDeviceLinkRefiner::ProfileTable& table) const
+{
+  table.SquaredCore = this->SquaredCore;
+  table.PieceBits = PieceBits;
+  table.FirstPiece = this->FirstPiece;
+  table.IsSingular = this->Singular;
+  table.Pieces.resize(this->Table.size());
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    table.Decays[band] = this->Decays[band];
+    for (std::size_t piece = 0; piece < this->Table.size(); ++piece)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        table.Pieces[piece][k][band] = this->Table[piece].Coefficients[k][band];
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Over the total, finite at 0, too.
 double ScatteringIntegrals::EvaluateExactly(int band, double squaredDistance) const
 {
