@@ -167,19 +167,20 @@ double ScatteringIntegrals::IntegratePotential(int band, double begin, double en
 //------------------------------------------------------------------------------
 void ScatteringIntegrals::Describe(vtkDeviceLinkRefiner::ProfileTable& table) const
 {
-  table.SquaredCore = this->SquaredCore;
-  table.PieceBits = PieceBits;
-  table.FirstPiece = this->FirstPiece;
+  const std::vector<RadialTable::Piece>& pieces = this->Table.GetPieces();
+  table.SquaredCore = this->Table.GetSquaredCore();
+  table.PieceBits = RadialTable::PieceBits;
+  table.FirstPiece = this->Table.GetFirstPiece();
   table.IsSingular = this->Singular;
-  table.Pieces.resize(this->Table.size());
+  table.Pieces.resize(pieces.size());
   for (int band = 0; band < NumberOfBands; ++band)
   {
     table.Decays[band] = this->Decays[band];
-    for (std::size_t piece = 0; piece < this->Table.size(); ++piece)
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece)
     {
       for (int k = 0; k < 3; ++k)
       {
-        table.Pieces[piece][k][band] = this->Table[piece].Coefficients[k][band];
+        table.Pieces[piece][k][band] = pieces[piece].Coefficients[k][band];
       }
     }
   }
