@@ -23,7 +23,9 @@ struct LinkChoice
   ///@{ As told when it was made.
   double Error = 0.0;
   double LinksPerReceiver = 0.0;
+  bool IsLimited = false; ///< by the number of links
   ///@}
+  double Threshold = 0.0; ///< relative (ScatteringRefinement)
   std::vector<bool> AreDivided; ///< slots that are divided for all receivers
   ///@{ Receiver k has the slots columns[offsets[k]] to columns[offsets[k + 1]], in the order of the
   /// patches that they hold; none where it belongs to another rank. Empty until TakeRows.

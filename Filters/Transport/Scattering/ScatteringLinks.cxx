@@ -5,6 +5,7 @@
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
 #include "Scattering/AirGaps.h"
+#include "Scattering/RefinementOnDevice.h"
 #include "Scattering/ScatteringAssembly.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringIntegrals.h"
@@ -199,20 +200,21 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
     ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
   ScatteringRefinement refinement(clusters, task.Areas, reference, factors.PerArea);
+  const double most = isAuto ? 0.0 : this->Choice.Number;
+  if (links.Choice)
+  {
+    const bool holds = isUniform
+      ? refinement.KeepUniform(this->Choice.Number, *links.Choice, task.AllRanks)
+      : refinement.KeepAdaptive(most, *links.Choice, task.AllRanks);
+    return holds ? this->FillRows(task, clusters, refinement) : Outcome::Done();
+  }
   if (isUniform)
   {
     refinement.ChooseUniform(this->Choice.Number);
   }
   else
   {
-    refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
-  }
-  if (links.Choice)
-  {
-    const double most = isUniform || isAuto ? 0.0 : this->Choice.Number;
-    return refinement.Keep(*links.Choice, most, task.AllRanks)
-      ? this->FillRows(task, clusters, refinement)
-      : Outcome::Done();
+    refinement.ChooseAdaptive(links.Tolerance, most);
   }
   if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
@@ -244,11 +246,7 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
   links.Hierarchy->SetTree(task.Areas, clusters.GetSlots().GetNodes(), task.AllRanks.GetMine(),
     task.AllRanks.GetNumber(), kernels);
   ScatteringRefinement::Summary summary;
-  AirGaps gaps;
-  built = task.AllRanks.Agree(gaps.Build(task.Scene));
-  built = built ? task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks,
-                    task.Watch, links.Hierarchy, summary))
-                : built;
+  built = this->ChooseRows(task, clusters, refinement, summary);
   if (!built)
   {
     return built;
@@ -266,6 +264,41 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
 }
 
 //------------------------------------------------------------------------------
+// Auto comes back to the CPU where the device cannot.
+Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& clusters,
+  const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const
+{
+  AirGaps gaps;
+  vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
+  Outcome chosen = task.AllRanks.Agree(gaps.Build(task.Scene));
+  // Those that are kept have been chosen.
+  if (chosen && !refinement.IsKept())
+  {
+    chosen = LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner);
+  }
+  const auto fill = [&](RefinementOnDevice* device)
+  {
+    return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
+      device, task.Result.Hierarchy, summary));
+  };
+  std::string where = refinement.IsKept() ? "CPU: links of an earlier position are kept" : "CPU";
+  if (chosen && refiner)
+  {
+    RefinementOnDevice device(refiner, clusters);
+    chosen = fill(&device);
+    if (!device.HasFailed() || this->Choice.Device == LinkDevice::OpenGL)
+    {
+      task.Result.Remarks.emplace_back("LinksChosenOn", refiner->GetDeviceName());
+      return chosen;
+    }
+    where = "CPU: " + chosen.GetMessage();
+    chosen = Outcome::Done();
+  }
+  task.Result.Remarks.emplace_back("LinksChosenOn", where);
+  return chosen ? fill(nullptr) : chosen;
+}
+
+//------------------------------------------------------------------------------
 void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refinement,
   const ScatteringRefinement::Summary& summary) const
 {
@@ -274,8 +307,9 @@ void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refineme
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
   task.Result.ReusedShare = summary.Links > 0.0 ? summary.Reused / summary.Links : 0.0;
   const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
-  task.Result.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
-    { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+  task.Result.Remarks.emplace_back("LinkMethodUsed", isUniform ? "Uniform" : "Adaptive");
+  task.Result.Remarks.emplace_back("LinksLimitedBy",
+    refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance");
 }
 
 //------------------------------------------------------------------------------

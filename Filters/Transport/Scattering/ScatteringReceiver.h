@@ -8,6 +8,7 @@
 #ifndef ScatteringReceiver_h
 #define ScatteringReceiver_h
 
+#include "Scattering/RefinementOnDevice.h"
 #include "Scattering/ScatteringClusters.h"
 #include "vtkType.h"
 
@@ -27,6 +28,7 @@ public:
     Bands Value = Bands::Zero();   ///< integral of the profile over it
     Bands Squares = Bands::Zero(); ///< of its square
     bool IsExact = false;          ///< patch by patch
+    bool IsFactor = false;         ///< the value is that of a link
     bool IsLeftOut = false;        ///< certainly too little
     bool IsDivided = false;        ///< whatever it is, which nothing here tells
     bool IsKept = false;           ///< as it was chosen before
@@ -44,6 +46,8 @@ public:
   /// Look at the clusters from which it received before it moved, and at all that were left out:
   /// [begin, end) in the order of their patches.
   void Look(vtkIdType patch, const int* begin, const int* end);
+  /// Likewise where a device has looked.
+  void Adopt(vtkIdType patch, const RefinementOnDevice::Walk& walk);
   vtkIdType GetPatch() const { return this->Patch; }
 
   /// What a link from a part misses at most of light that differs by 1 from its mean there, root
@@ -63,7 +67,13 @@ public:
 
 private:
   void Add(int slot);
+  void AddLinked(int slot);
   void AddKept(int slot, const int* begin, const int* end);
+  void AddFound(int slot, RefinementOnDevice::Walk& walk);
+  void AddPart(RefinementOnDevice::Walk& walk);
+  void AddPatch(int slot);
+  template <typename AddChild>
+  void AddNode(int slot, const AddChild& addChild);
   void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
   Part MakeSmooth(int slot) const;
   bool IsNegligible(int slot) const;

@@ -4,6 +4,7 @@
 
 #include "Links/LinkChoice.h"
 #include "Scattering/AirGaps.h"
+#include "Scattering/RefinementOnDevice.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
@@ -45,6 +46,10 @@ constexpr double LinkMargin = 0.98;
 constexpr double MostGrowth = 1.2;
 constexpr double GrowthAimedAt = 1.1;
 ///@}
+/// As LinkMargin, of kept links.
+constexpr double KeptMargin = 0.99;
+/// What is left of an error by rounding.
+constexpr double NoError = 1e-6;
 
 //------------------------------------------------------------------------------
 /// Whether a rank fills the row of a patch.
@@ -174,16 +179,45 @@ void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
 }
 
 //------------------------------------------------------------------------------
-// Kept links are refined until they tell hardly more than others would.
-bool ScatteringRefinement::Keep(const LinkChoice& kept, double mostLinks, const Ranks& ranks)
+bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks)
 {
-  const double error = std::min(this->Expected.Error, kept.Error);
-  const double links = std::min(MostGrowth * std::min(this->Expected.Links, kept.LinksPerReceiver),
-    mostLinks > 0.0 ? mostLinks : std::numeric_limits<double>::infinity());
-  this->NewThreshold = this->Threshold;
+  this->ChooseUniform(clusters);
+  const Prospect others = this->Expected;
+  this->StartFrom(kept, ranks);
+  this->Expected = this->Measure(this->Threshold);
+  return this->IsAsGoodAs(others, std::numeric_limits<double>::infinity());
+}
+
+//------------------------------------------------------------------------------
+// By the threshold that they had others of the same clusters would be about as many, and as good:
+// else the body is another one. Kept links are refined until they are hardly worse.
+bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept,
+  const Ranks& ranks)
+{
+  this->Begin();
+  this->Limited = kept.IsLimited;
+  this->NewThreshold = kept.Threshold * this->Reference;
+  const Prospect others = this->Measure(this->NewThreshold);
+  this->StartFrom(kept, ranks);
+  this->Threshold = std::numeric_limits<double>::infinity();
+  this->Expected = this->Measure(this->Threshold);
+  const double aim = GrowthAimedAt * std::min(others.Error, kept.Error);
+  const double most =
+    mostLinks > 0.0 ? KeptMargin * mostLinks : std::numeric_limits<double>::infinity();
+  if (this->Expected.Error > aim)
+  {
+    this->Threshold = this->FindThreshold(aim, std::min(most, this->GetMostLinks(others)));
+    this->Expected = this->Measure(this->Threshold);
+  }
+  const bool couldBeFiner = kept.IsLimited && others.Links < kept.LinksPerReceiver / MostGrowth;
+  return !couldBeFiner && this->IsAsGoodAs(others, most);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::StartFrom(const LinkChoice& kept, const Ranks& ranks)
+{
   this->Kept = &kept;
   this->SharedWith = ranks;
-  const bool isUniform = this->Threshold == std::numeric_limits<double>::infinity();
   this->AreDivided = kept.AreDivided;
   const auto look = [&](vtkIdType begin, vtkIdType end)
   {
@@ -197,12 +231,20 @@ bool ScatteringRefinement::Keep(const LinkChoice& kept, double mostLinks, const 
     }
   };
   Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, look);
-  if (!isUniform)
-  {
-    this->Threshold = this->FindThreshold(GrowthAimedAt * error, links);
-  }
-  this->Expected = this->Measure(this->Threshold);
-  return this->Expected.Error <= MostGrowth * error && this->Expected.Links <= links;
+}
+
+//------------------------------------------------------------------------------
+double ScatteringRefinement::GetMostLinks(const Prospect& others) const
+{
+  return MostGrowth * std::min(others.Links, this->Kept->LinksPerReceiver);
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringRefinement::IsAsGoodAs(const Prospect& others, double mostLinks) const
+{
+  const double error = MostGrowth * std::min(others.Error, this->Kept->Error);
+  return this->Expected.Error <= std::max(error, NoError) &&
+    this->Expected.Links <= std::min(mostLinks, this->GetMostLinks(others));
 }
 
 //------------------------------------------------------------------------------
@@ -211,6 +253,8 @@ LinkChoice ScatteringRefinement::GetChoice() const
   LinkChoice choice;
   choice.Error = this->Expected.Error;
   choice.LinksPerReceiver = this->Expected.Links;
+  choice.Threshold = this->Threshold / this->Reference;
+  choice.IsLimited = this->Limited;
   choice.AreDivided = this->AreDivided;
   return choice;
 }
@@ -257,13 +301,26 @@ void ScatteringRefinement::ChooseUniform(int clusters)
 }
 
 //------------------------------------------------------------------------------
+// As Divides has it.
+std::vector<double> ScatteringRefinement::GetLimits() const
+{
+  std::vector<double> limits(this->AreDivided.size(), this->Threshold);
+  for (std::size_t slot = 0; slot < limits.size(); ++slot)
+  {
+    limits[slot] = this->AreDivided[slot] ? -1.0 : limits[slot];
+  }
+  return limits;
+}
+
+//------------------------------------------------------------------------------
 struct ScatteringRefinement::Filler
 {
   const ScatteringRefinement& Outer;
   const Values& Totals;
   const AirGaps& Gaps;
-  vtkIdType First; ///< block
-  vtkIdType Step;  ///< from one block to the next
+  const RefinementOnDevice* Device; ///< has looked, where there is one
+  vtkIdType First;                  ///< block
+  vtkIdType Step;                   ///< from one block to the next
   std::vector<Block>& Blocks;
 
   /// As between patches, to one of the patches of the cluster.
@@ -301,8 +358,9 @@ struct ScatteringRefinement::Filler
           return;
         }
         const ScatteringClusters& clusters = this->Outer.Clusters;
-        const Values value =
-          part.IsExact ? part.Value : clusters.Integrate(receiver.GetPatch(), part.Slot);
+        const Values value = part.IsExact || part.IsFactor
+          ? part.Value
+          : clusters.Integrate(receiver.GetPatch(), part.Slot);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
         block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);
@@ -325,7 +383,14 @@ struct ScatteringRefinement::Filler
       for (vtkIdType patch = first; patch < std::min(first + BlockSize, patches); ++patch)
       {
         Pulse::Beat();
-        this->Outer.Look(patch, receiver);
+        if (this->Device)
+        {
+          receiver.Adopt(patch, this->Device->GetWalk(patch));
+        }
+        else
+        {
+          this->Outer.Look(patch, receiver);
+        }
         this->AddRow(receiver, this->Blocks[k]);
       }
     }
@@ -334,8 +399,8 @@ struct ScatteringRefinement::Filler
 
 //------------------------------------------------------------------------------
 Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const AirGaps& gaps,
-  const Ranks& ranks, const Monitor& monitor, vtkExchangeHierarchy* exchange,
-  Summary& summary) const
+  const Ranks& ranks, const Monitor& monitor, RefinementOnDevice* device,
+  vtkExchangeHierarchy* exchange, Summary& summary) const
 {
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
   const vtkIdType all = (patches + BlockSize - 1) / BlockSize;
@@ -347,16 +412,25 @@ Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const Air
   {
     totals[band] = profiles[band]->GetTotal();
   }
-  const Filler filler{ *this, totals, gaps, ranks.GetMine(), step, blocks };
-  for (vtkIdType batch = 0; batch < NumberOfBatches; ++batch)
+  const Filler filler{ *this, totals, gaps, device, ranks.GetMine(), step, blocks };
+  Outcome goesOn = device ? device->Initialize(this->LeaveOut, this->GetLimits()) : Outcome::Done();
+  const vtkIdType batches =
+    device ? (patches - 1) / RefinementOnDevice::BatchSize + 1 : NumberOfBatches;
+  for (vtkIdType batch = 0; goesOn && batch < batches; ++batch)
   {
-    Threads::For(mine * batch / NumberOfBatches, mine * (batch + 1) / NumberOfBatches, 1, filler);
-    if (Outcome goesOn =
-          monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(NumberOfBatches));
-        !goesOn)
+    const vtkIdType first = mine * batch / batches;
+    const vtkIdType last = mine * (batch + 1) / batches;
+    goesOn =
+      device ? device->Refine(first * BlockSize, std::min(last * BlockSize, patches)) : goesOn;
+    if (goesOn)
     {
-      return goesOn;
+      Threads::For(first, last, 1, filler);
+      goesOn = monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(batches));
     }
+  }
+  if (!goesOn)
+  {
+    return goesOn;
   }
   double counts[3] = {};
   for (const Block& block : blocks)

@@ -42,6 +42,7 @@ class vtkExchangeHierarchy;
 namespace LightTransport
 {
 class AirGaps;
+class RefinementOnDevice;
 struct LinkChoice;
 
 class ScatteringRefinement
@@ -57,10 +58,13 @@ public:
   void ChooseAdaptive(double tolerance, double mostLinks);
   ///@}
 
-  /// After one of these, whose choice the kept one is measured by: keep a choice instead, which
-  /// must outlive this. False where it would not do, see LinkTolerance of vtkSubsurfaceScattering.
-  /// Collective.
-  bool Keep(const LinkChoice& kept, double mostLinks, const Ranks& ranks);
+  ///@{ Or keep a choice, which must outlive this. False where it does not do any more, see
+  ///ReuseLinks
+  /// of vtkSubsurfaceScattering. Collective.
+  bool KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks);
+  bool KeepAdaptive(double mostLinks, const LinkChoice& kept, const Ranks& ranks);
+  ///@}
+  bool IsKept() const { return this->Kept != nullptr; }
   /// What is to be kept when patches move, but for their rows.
   LinkChoice GetChoice() const;
 
@@ -74,6 +78,9 @@ public:
   /// Whether the number of links kept ChooseAdaptive from the tolerance.
   bool IsLimited() const { return this->Limited; }
 
+  /// Of every slot: what a link from it may miss; negative where it is divided anyway.
+  std::vector<double> GetLimits() const;
+
   struct Summary
   {
     double Links = 0.0;
@@ -84,9 +91,11 @@ public:
   };
 
   /// This rank's rows. The counts are those of all ranks, what goes
-  /// through air that of this one.
+  /// through air that of this one. `device` looks for the receivers where there is one, which one
+  /// rank alone may have.
   Outcome Fill(const ScatteringProfiles& profiles, const AirGaps& gaps, const Ranks& ranks,
-    const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const;
+    const Monitor& monitor, RefinementOnDevice* device, vtkExchangeHierarchy* exchange,
+    Summary& summary) const;
 
 private:
   static constexpr int Bands = ScatteringIntegrals::NumberOfBands;
@@ -111,6 +120,9 @@ private:
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
   void Begin();
+  void StartFrom(const LinkChoice& kept, const Ranks& ranks);
+  double GetMostLinks(const Prospect& others) const;
+  bool IsAsGoodAs(const Prospect& others, double mostLinks) const;
   void Look(vtkIdType patch, ScatteringReceiver& receiver) const;
   Prospect Measure(double threshold) const;
   double FindThreshold(double tolerance, double mostLinks) const;
