@@ -25,6 +25,7 @@ void ScatteringReceiver::SetSmooth(const ScatteringClusters::Estimate& estimate,
   const double area = this->Clusters->GetArea(part.Slot);
   part.Value = area * estimate.Value;
   part.Squares = area * estimate.Squares;
+  part.IsFactor = this->Clusters->IsFactor(estimate);
 }
 
 //------------------------------------------------------------------------------
@@ -36,7 +37,7 @@ ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
   part.IsLeftOut = this->IsNegligible(slot);
   if (!part.IsLeftOut && !this->Clusters->GetSlots().IsPatch(slot))
   {
-    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
+    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot, false);
     this->SetSmooth(estimate, part);
   }
   return part;
@@ -65,7 +66,7 @@ void ScatteringReceiver::Add(int slot)
   }
   if (!this->IsOwn(part))
   {
-    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
+    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot, true);
     if (estimate.IsSmooth)
     {
       this->SetSmooth(estimate, this->Parts[index]);

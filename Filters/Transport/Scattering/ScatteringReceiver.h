@@ -27,6 +27,7 @@ public:
     Bands Value = Bands::Zero();   ///< integral of the profile over it
     Bands Squares = Bands::Zero(); ///< of its square
     bool IsExact = false;          ///< patch by patch
+    bool IsFactor = false;         ///< the value is that of a link
     bool IsLeftOut = false;        ///< certainly too little
     int NumberBelow = 0;           ///< parts that follow it and lie below it
   };

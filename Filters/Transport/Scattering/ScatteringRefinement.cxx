@@ -223,8 +223,9 @@ struct ScatteringRefinement::Filler
           return;
         }
         const ScatteringClusters& clusters = this->Outer.Clusters;
-        const Values value =
-          part.IsExact ? part.Value : clusters.Integrate(receiver.GetPatch(), part.Slot);
+        const Values value = part.IsExact || part.IsFactor
+          ? part.Value
+          : clusters.Integrate(receiver.GetPatch(), part.Slot);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
         block.Columns.push_back(part.Slot);
         for (int band = 0; band < Bands; ++band)
