@@ -165,6 +165,28 @@ double ScatteringIntegrals::IntegratePotential(int band, double begin, double en
 }
 
 //------------------------------------------------------------------------------
+void ScatteringIntegrals::Describe(vtkDeviceLinkRefiner::ProfileTable& table) const
+{
+  const std::vector<RadialTable::Piece>& pieces = this->Table.GetPieces();
+  table.SquaredCore = this->Table.GetSquaredCore();
+  table.PieceBits = RadialTable::PieceBits;
+  table.FirstPiece = this->Table.GetFirstPiece();
+  table.IsSingular = this->Singular;
+  table.Pieces.resize(pieces.size());
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    table.Decays[band] = this->Decays[band];
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        table.Pieces[piece][k][band] = pieces[piece].Coefficients[k][band];
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Over the total, finite at 0, too.
 double ScatteringIntegrals::EvaluateExactly(int band, double squaredDistance) const
 {

@@ -23,6 +23,7 @@
 #include "Scattering/RadialTable.h"
 #include "Scattering/ScatteringProfile.h"
 #include "Shared/GaussLegendre.h"
+#include "vtkDeviceLinkRefiner.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -95,6 +96,8 @@ public:
   bool AreSingular() const { return this->Singular; }
   /// By how much their logarithms change per mm, at most, far out.
   const Bands& GetDecays() const { return this->Decays; }
+  /// The table behind GetValue, for a device.
+  void Describe(vtkDeviceLinkRefiner::ProfileTable& table) const;
 
   /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
   void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
