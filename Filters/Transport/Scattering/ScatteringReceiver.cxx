@@ -35,6 +35,7 @@ void ScatteringReceiver::SetSmooth(const ScatteringClusters::Estimate& estimate,
   const double area = this->Clusters->GetArea(part.Slot);
   part.Value = area * estimate.Value;
   part.Squares = area * estimate.Squares;
+  part.IsFactor = this->Clusters->IsFactor(estimate);
 }
 
 //------------------------------------------------------------------------------
@@ -46,7 +47,7 @@ ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
   part.IsLeftOut = this->IsNegligible(slot);
   if (!part.IsLeftOut && !this->Clusters->GetSlots().IsPatch(slot))
   {
-    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
+    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot, false);
     this->SetSmooth(estimate, part);
   }
   return part;
@@ -79,7 +80,7 @@ void ScatteringReceiver::AddLinked(int slot)
   }
   if (!this->IsOwn(part))
   {
-    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
+    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot, true);
     if (estimate.IsSmooth)
     {
       this->SetSmooth(estimate, part);
