@@ -59,7 +59,7 @@ public:
   ///@}
 
   ///@{ Or keep a choice, which must outlive this. False where it does not do any more, see
-  ///ReuseLinks
+  /// ReuseLinks
   /// of vtkSubsurfaceScattering. Collective.
   bool KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks);
   bool KeepAdaptive(double mostLinks, const LinkChoice& kept, const Ranks& ranks);
@@ -119,7 +119,9 @@ private:
 
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
+  vtkIdType GetSample(vtkIdType index) const;
   void Begin();
+  void LookAround();
   void StartFrom(const LinkChoice& kept, const Ranks& ranks);
   double GetMostLinks(const Prospect& others) const;
   bool IsAsGoodAs(const Prospect& others, double mostLinks) const;
