@@ -91,6 +91,7 @@ LinkKey ScatteringLinks::GetKey() const
     key.Parameters.insert(key.Parameters.end(),
       { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
+  key.Parameters.insert(key.Parameters.end(), this->Choice.Light.begin(), this->Choice.Light.end());
   return key;
 }
 
@@ -198,10 +199,11 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   const ScatteringClusters::Tolerances factors{ ShareOfValues * links.Tolerance,
     ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
-  ScatteringRefinement refinement(clusters, task.Areas, reference, factors.PerArea);
+  ScatteringRefinement refinement(clusters, task.Areas, this->Choice.Light, reference,
+    factors.PerArea);
   if (isUniform)
   {
-    refinement.ChooseUniform(this->Choice.Number);
+    refinement.ChooseUniform(this->Choice.Number, links.Tolerance);
   }
   else
   {

@@ -26,6 +26,7 @@ struct ScatteringLinkChoice
   bool DropsThroughAir = false; ///< of all pairs
   bool AreCompressed = false;   ///< those from clusters
   double CompressionTolerance = 0.0;
+  std::vector<double> Light; ///< that they are chosen for, patches x components; empty for any
 };
 
 class ScatteringLinks : public LinkBuilder
