@@ -90,6 +90,7 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
       this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir(),
       this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance(),
+      static_cast<LinkDevice>(this->Owner->GetDevice()),
       refines ? this->Irradiance : std::vector<double>() });
 }
 

@@ -235,4 +235,36 @@ ScatteringClusters::Bands ScatteringClusters::IntegratePatch(vtkIdType receiver,
   this->Patches.AddPair(this->Integrals, receiver, patch, tolerance, result);
   return result.Value / area;
 }
+
+//------------------------------------------------------------------------------
+void ScatteringClusters::Describe(vtkDeviceLinkRefiner::Body& body) const
+{
+  body.NumberOfNodes = this->Slots.GetNumberOfNodes();
+  body.Slots.resize(this->Places.size());
+  for (int index = 0; index < static_cast<int>(this->Places.size()); ++index)
+  {
+    const Place& place = this->Places[index];
+    vtkDeviceLinkRefiner::Slot& slot = body.Slots[index];
+    slot.Center = { place.Center[0], place.Center[1], place.Center[2] };
+    slot.Area = place.Area;
+    slot.Moment = place.Moment;
+    slot.Radius = place.Radius;
+    slot.FirstPatch = static_cast<int>(place.First);
+    slot.LastPatch = static_cast<int>(place.Last);
+    if (!this->Slots.IsPatch(index))
+    {
+      const LinkSlots::Node children = this->Slots.GetChildren(index);
+      slot.FirstChild = children.First;
+      slot.LastChild = children.Last;
+      slot.FirstPiece = this->PieceOffsets[index];
+      slot.LastPiece = this->PieceOffsets[index + 1];
+    }
+  }
+  body.Pieces = this->Pieces;
+  body.RelativeTolerance = this->Factors.Relative;
+  body.TolerancePerArea = this->Factors.PerArea;
+  body.WidestSpread2 = WidestSpread2;
+  body.ErrorOfCorrection = ErrorOfCorrection;
+  this->Integrals.Describe(body.Profile);
+}
 } // namespace LightTransport

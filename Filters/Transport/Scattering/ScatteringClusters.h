@@ -10,6 +10,7 @@
 #include "Links/LinkSlots.h"
 #include "Scattering/ScatteringIntegrals.h"
 #include "Scattering/ScatteringPatches.h"
+#include "vtkDeviceLinkRefiner.h"
 #include "vtkType.h"
 
 #include <Eigen/Core>
@@ -53,7 +54,10 @@ public:
   const Eigen::Vector3d& GetCenter(int slot) const { return this->Places[slot].Center; }
   double GetMoment(int slot) const { return this->Places[slot].Moment; }
   bool HoldsPatch(int slot, vtkIdType patch) const;
+  ///@{ Patches [first, last) of a slot.
   vtkIdType GetFirstPatch(int slot) const { return this->Places[slot].First; }
+  vtkIdType GetLastPatch(int slot) const { return this->Places[slot].Last; }
+  ///@}
 
   /// A patch of a slot, by a number from 0 to 1: as likely as its area is large.
   vtkIdType Pick(int slot, double number) const;
@@ -71,6 +75,9 @@ public:
   /// The integral of the profile over a slot, averaged over the receiver.
   Bands Integrate(vtkIdType receiver, int slot) const;
   Bands IntegratePatch(vtkIdType receiver, vtkIdType patch) const;
+
+  /// All that Look knows, for a device.
+  void Describe(vtkDeviceLinkRefiner::Body& body) const;
 
 private:
   /// Of a slot.

@@ -5,6 +5,7 @@
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
 #include "Scattering/AirGaps.h"
+#include "Scattering/RefinementOnDevice.h"
 #include "Scattering/ScatteringAssembly.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringIntegrals.h"
@@ -234,11 +235,7 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
   links.Hierarchy->SetTree(task.Areas, clusters.GetSlots().GetNodes(), task.AllRanks.GetMine(),
     task.AllRanks.GetNumber(), kernels);
   ScatteringRefinement::Summary summary;
-  AirGaps gaps;
-  built = task.AllRanks.Agree(gaps.Build(task.Scene));
-  built = built ? task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks,
-                    task.Watch, links.Hierarchy, summary))
-                : built;
+  built = this->ChooseRows(task, clusters, refinement, summary);
   if (!built)
   {
     return built;
@@ -256,6 +253,40 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
 }
 
 //------------------------------------------------------------------------------
+// Auto comes back to the CPU where the device cannot. It knows no light.
+Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& clusters,
+  const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const
+{
+  AirGaps gaps;
+  vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
+  Outcome chosen = task.AllRanks.Agree(gaps.Build(task.Scene));
+  const bool isLit = !this->Choice.Light.empty();
+  chosen = chosen && !isLit
+    ? LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner)
+    : chosen;
+  const auto fill = [&](RefinementOnDevice* device)
+  {
+    return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
+      device, task.Result.Hierarchy, summary));
+  };
+  std::string where = isLit ? "CPU: for the light that is given" : "CPU";
+  if (chosen && refiner)
+  {
+    RefinementOnDevice device(refiner, clusters);
+    chosen = fill(&device);
+    if (!device.HasFailed() || this->Choice.Device == LinkDevice::OpenGL)
+    {
+      task.Result.Remarks.emplace_back("LinksChosenOn", refiner->GetDeviceName());
+      return chosen;
+    }
+    where = "CPU: " + chosen.GetMessage();
+    chosen = Outcome::Done();
+  }
+  task.Result.Remarks.emplace_back("LinksChosenOn", where);
+  return chosen ? fill(nullptr) : chosen;
+}
+
+//------------------------------------------------------------------------------
 void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refinement,
   const ScatteringRefinement::Summary& summary) const
 {
@@ -263,8 +294,9 @@ void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refineme
     { "LinkError", refinement.GetProspect().Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
   const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
-  task.Result.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
-    { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+  task.Result.Remarks.emplace_back("LinkMethodUsed", isUniform ? "Uniform" : "Adaptive");
+  task.Result.Remarks.emplace_back("LinksLimitedBy",
+    refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance");
 }
 
 //------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #ifndef ScatteringReceiver_h
 #define ScatteringReceiver_h
 
+#include "Scattering/RefinementOnDevice.h"
 #include "Scattering/ScatteringClusters.h"
 #include "vtkType.h"
 
@@ -27,6 +28,7 @@ public:
     Bands Value = Bands::Zero();   ///< integral of the profile over it
     Bands Squares = Bands::Zero(); ///< of its square
     bool IsExact = false;          ///< patch by patch
+    bool IsFactor = false;         ///< the value is that of a link
     bool IsLeftOut = false;        ///< certainly too little
     int NumberBelow = 0;           ///< parts that follow it and lie below it
   };
@@ -39,6 +41,8 @@ public:
 
   /// Look at all clusters from a patch.
   void Look(vtkIdType patch);
+  /// Likewise where a device has looked.
+  void Adopt(vtkIdType patch, const RefinementOnDevice::Walk& walk);
   vtkIdType GetPatch() const { return this->Patch; }
 
   /// What a link from a part misses at most of light that differs by 1 from its mean there, root
@@ -61,6 +65,11 @@ public:
 
 private:
   void Add(int slot);
+  void AddFound(int slot, RefinementOnDevice::Walk& walk);
+  void AddPart(RefinementOnDevice::Walk& walk);
+  void AddPatch(int slot);
+  template <typename AddChild>
+  void AddNode(int slot, const AddChild& addChild);
   void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
   Part MakeSmooth(int slot) const;
   bool IsNegligible(int slot) const;

@@ -3,6 +3,7 @@
 #include "Scattering/ScatteringRefinement.h"
 
 #include "Scattering/AirGaps.h"
+#include "Scattering/RefinementOnDevice.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
@@ -298,13 +299,26 @@ void ScatteringRefinement::ChooseUniform(int clusters, double tolerance)
 }
 
 //------------------------------------------------------------------------------
+// As Divides has it, for any light.
+std::vector<double> ScatteringRefinement::GetLimits() const
+{
+  std::vector<double> limits(this->AreDivided.size(), this->Threshold);
+  for (std::size_t slot = 0; slot < limits.size(); ++slot)
+  {
+    limits[slot] = this->AreDivided[slot] ? -1.0 : limits[slot];
+  }
+  return limits;
+}
+
+//------------------------------------------------------------------------------
 struct ScatteringRefinement::Filler
 {
   const ScatteringRefinement& Outer;
   const Values& Totals;
   const AirGaps& Gaps;
-  vtkIdType First; ///< block
-  vtkIdType Step;  ///< from one block to the next
+  const RefinementOnDevice* Device; ///< has looked, where there is one
+  vtkIdType First;                  ///< block
+  vtkIdType Step;                   ///< from one block to the next
   std::vector<Block>& Blocks;
 
   /// As between patches, to one of the patches of the cluster.
@@ -344,8 +358,9 @@ struct ScatteringRefinement::Filler
       },
       [&](const ScatteringReceiver::Part& below)
       {
-        value += below.IsExact ? below.Value
-                               : this->Outer.Clusters.Integrate(receiver.GetPatch(), below.Slot);
+        value += below.IsExact || below.IsFactor
+          ? below.Value
+          : this->Outer.Clusters.Integrate(receiver.GetPatch(), below.Slot);
       });
     return value;
   }
@@ -385,7 +400,14 @@ struct ScatteringRefinement::Filler
       for (vtkIdType patch = first; patch < std::min(first + BlockSize, patches); ++patch)
       {
         Pulse::Beat();
-        receiver.Look(patch);
+        if (this->Device)
+        {
+          receiver.Adopt(patch, this->Device->GetWalk(patch));
+        }
+        else
+        {
+          receiver.Look(patch);
+        }
         this->AddRow(receiver, this->Blocks[k]);
       }
     }
@@ -394,8 +416,8 @@ struct ScatteringRefinement::Filler
 
 //------------------------------------------------------------------------------
 Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const AirGaps& gaps,
-  const Ranks& ranks, const Monitor& monitor, vtkExchangeHierarchy* exchange,
-  Summary& summary) const
+  const Ranks& ranks, const Monitor& monitor, RefinementOnDevice* device,
+  vtkExchangeHierarchy* exchange, Summary& summary) const
 {
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
   const vtkIdType all = (patches + BlockSize - 1) / BlockSize;
@@ -407,16 +429,25 @@ Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const Air
   {
     totals[band] = profiles[band]->GetTotal();
   }
-  const Filler filler{ *this, totals, gaps, ranks.GetMine(), step, blocks };
-  for (vtkIdType batch = 0; batch < NumberOfBatches; ++batch)
+  const Filler filler{ *this, totals, gaps, device, ranks.GetMine(), step, blocks };
+  Outcome goesOn = device ? device->Initialize(this->LeaveOut, this->GetLimits()) : Outcome::Done();
+  const vtkIdType batches =
+    device ? (patches - 1) / RefinementOnDevice::BatchSize + 1 : NumberOfBatches;
+  for (vtkIdType batch = 0; goesOn && batch < batches; ++batch)
   {
-    Threads::For(mine * batch / NumberOfBatches, mine * (batch + 1) / NumberOfBatches, 1, filler);
-    if (Outcome goesOn =
-          monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(NumberOfBatches));
-        !goesOn)
+    const vtkIdType first = mine * batch / batches;
+    const vtkIdType last = mine * (batch + 1) / batches;
+    goesOn =
+      device ? device->Refine(first * BlockSize, std::min(last * BlockSize, patches)) : goesOn;
+    if (goesOn)
     {
-      return goesOn;
+      Threads::For(first, last, 1, filler);
+      goesOn = monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(batches));
     }
+  }
+  if (!goesOn)
+  {
+    return goesOn;
   }
   double counts[2] = {};
   for (const Block& block : blocks)

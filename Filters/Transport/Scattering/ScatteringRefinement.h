@@ -43,6 +43,7 @@ namespace LightTransport
 {
 class AirGaps;
 class Ranks;
+class RefinementOnDevice;
 
 class ScatteringRefinement
 {
@@ -70,6 +71,9 @@ public:
   /// Whether the number of links kept ChooseAdaptive from the tolerance.
   bool IsLimited() const { return this->Limited; }
 
+  /// Of every slot: what a link from it may miss; negative where it is divided anyway.
+  std::vector<double> GetLimits() const;
+
   struct Summary
   {
     double Links = 0.0;
@@ -79,9 +83,11 @@ public:
   };
 
   /// This rank's rows. The counts are those of all ranks, what goes
-  /// through air that of this one.
+  /// through air that of this one. `device` looks for the receivers where there is one, which one
+  /// rank alone may have.
   Outcome Fill(const ScatteringProfiles& profiles, const AirGaps& gaps, const Ranks& ranks,
-    const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const;
+    const Monitor& monitor, RefinementOnDevice* device, vtkExchangeHierarchy* exchange,
+    Summary& summary) const;
 
 private:
   static constexpr int Bands = ScatteringIntegrals::NumberOfBands;
