@@ -230,9 +230,8 @@ std::vector<float> CodedLayout::MakeBook(int groups) const
   {
     const int code = value / 4 % CodedRows::BookSize;
     const int band = value / (4 * CodedRows::BookSize) * 4 + value % 4;
-    const int kernel = kernels == 1 ? 0 : band;
     texels[static_cast<std::size_t>(value)] =
-      kernel < kernels ? this->Coded.Book[static_cast<std::size_t>(code) * kernels + kernel] : 0.0f;
+      this->Coded.Book[static_cast<std::size_t>(code) * kernels + band % kernels];
   }
   return texels;
 }

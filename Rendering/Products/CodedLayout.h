@@ -60,7 +60,8 @@ public:
   Words MakeBytes(int line) const;
   ///@}
 
-  /// For each code and each group of four bands, the values: a line of texels for each group.
+  /// For each code and each group of four bands, the values of the bands' kernels: a line of texels
+  /// for each group.
   std::vector<float> MakeBook(int groups) const;
 
 private:

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <sstream>
+#include <vector>
 
 namespace LightTransport
 {
@@ -100,26 +102,25 @@ void ProfileRun::CheckEnergy(const AirShare& air) const
   {
     return;
   }
-  double gains[Bands];
-  for (int band = 0; band < Bands; ++band)
-  {
-    gains[band] =
-      this->EnteringFlux[band] > 0.0 ? this->LeavingFlux[band] / this->EnteringFlux[band] : 0.0;
-  }
-  const auto worst = std::max_element(gains, gains + Bands) - gains;
+  std::vector<double> gains;
+  std::transform(this->LeavingFlux.begin(), this->LeavingFlux.end(), this->EnteringFlux.begin(),
+    std::back_inserter(gains),
+    [](double leaving, double entering) { return entering > 0.0 ? leaving / entering : 0.0; });
+  const auto worst = std::max_element(gains.begin(), gains.end()) - gains.begin();
   if (gains[worst] > margin)
   {
+    const double total = links.ProfileTotals[worst % Bands];
     std::ostringstream text;
     text << "In component " << worst << " " << gains[worst]
          << " times the light that enters leaves again, which cannot be: a flat surface gives back "
-         << links.ProfileTotals[worst] << " by this model";
+         << total << " by this model";
     if (!links.AreThroughAirDropped && air.Shares[worst] > 0.0)
     {
       text << ", " << 100.0 * air.Shares[worst]
            << " % goes through the air between parts of the body (DropLinksThroughAir leaves that "
               "out)";
     }
-    if (gains[worst] > links.ProfileTotals[worst])
+    if (gains[worst] > total)
     {
       text << ", and straight links claim too much across hollows, sharp edges and thin walls";
     }
@@ -155,8 +156,10 @@ void ProfileRun::WriteScattered(const SceneOutput& output)
   const AirShare air(links, this->GetEntering(), this->Scattered);
   if (!this->Scene.IsOfTexels())
   {
-    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
-    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(),
+      this->GetNumberOfComponents());
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(),
+      this->GetNumberOfComponents());
   }
   this->CheckThickness();
   this->CheckEnergy(air);

@@ -532,15 +532,14 @@ void TestAborts(vtkPolyData* data)
   vtkNew<Aborter> aborter;
   filter->AddObserver(vtkCommand::ProgressEvent, aborter);
   const std::vector<double> expected = GetScattered(filter);
-  const int events = aborter->Events;
-  Check(!expected.empty() && events > 20, std::to_string(events) + " events");
-  for (int part = 1; part < 4; ++part)
+  Check(!expected.empty(), "a whole run");
+  for (const int event : { 3, 30, 300 })
   {
     aborter->Events = 0;
-    aborter->AbortAt = 1 + events * part / 4;
+    aborter->AbortAt = event;
     // Another tolerance: links anew.
     filter->SetLinkTolerance(2e-2);
-    Check(GetScattered(filter).empty(), "aborted at event " + std::to_string(aborter->AbortAt));
+    Check(GetScattered(filter).empty(), "aborted at event " + std::to_string(event));
     aborter->AbortAt = 0;
     filter->SetAbortExecute(0);
     filter->SetLinkTolerance(0.0);
