@@ -447,7 +447,8 @@ public:
   ///@}
 
   ///@{
-  /// Where the links are applied. Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
+  /// Where the links are applied, and those from clusters chosen (field data "LinksChosenOn").
+  /// Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
   vtkGetMacro(Device, int);
   void SetDeviceToAuto() { this->SetDevice(DEVICE_AUTO); }

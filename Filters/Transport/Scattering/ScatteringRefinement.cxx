@@ -538,6 +538,42 @@ struct ScatteringRefinement::Filler
 };
 
 //------------------------------------------------------------------------------
+// The monitor hears equally often on all ranks.
+Outcome ScatteringRefinement::FillAll(vtkIdType blocks, const Filler& filler,
+  const Monitor& monitor)
+{
+  Outcome goesOn = Outcome::Done();
+  for (vtkIdType batch = 0; goesOn && batch < NumberOfBatches; ++batch)
+  {
+    Threads::For(blocks * batch / NumberOfBatches, blocks * (batch + 1) / NumberOfBatches, 1,
+      filler);
+    goesOn = monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(NumberOfBatches));
+  }
+  return goesOn;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRefinement::FillFromDevice(RefinementOnDevice& device, const Filler& filler,
+  const Monitor& monitor) const
+{
+  const auto patches = static_cast<vtkIdType>(this->Areas.size());
+  Outcome goesOn = device.Initialize(this->LeaveOut, this->GetLimits());
+  for (vtkIdType first = 0; goesOn && first < patches;)
+  {
+    const vtkIdType blocks = device.GetBatchSize() / BlockSize;
+    const vtkIdType last = std::min(first + blocks * BlockSize, patches);
+    goesOn = device.Refine(first, last);
+    if (goesOn)
+    {
+      Threads::For(first / BlockSize, (last + BlockSize - 1) / BlockSize, 1, filler);
+      goesOn = monitor.Check(static_cast<double>(last) / static_cast<double>(patches));
+    }
+    first = last;
+  }
+  return goesOn;
+}
+
+//------------------------------------------------------------------------------
 Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const AirGaps& gaps,
   const Ranks& ranks, const Monitor& monitor, RefinementOnDevice* device,
   vtkExchangeHierarchy* exchange, Summary& summary) const
@@ -553,24 +589,11 @@ Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const Air
     totals[band] = profiles[band]->GetTotal();
   }
   const Filler filler{ *this, totals, gaps, device, ranks.GetMine(), step, blocks };
-  Outcome goesOn = device ? device->Initialize(this->LeaveOut, this->GetLimits()) : Outcome::Done();
-  const vtkIdType batches =
-    device ? (patches - 1) / RefinementOnDevice::BatchSize + 1 : NumberOfBatches;
-  for (vtkIdType batch = 0; goesOn && batch < batches; ++batch)
+  Outcome filled = device ? this->FillFromDevice(*device, filler, monitor)
+                          : ScatteringRefinement::FillAll(mine, filler, monitor);
+  if (!filled)
   {
-    const vtkIdType first = mine * batch / batches;
-    const vtkIdType last = mine * (batch + 1) / batches;
-    goesOn =
-      device ? device->Refine(first * BlockSize, std::min(last * BlockSize, patches)) : goesOn;
-    if (goesOn)
-    {
-      Threads::For(first, last, 1, filler);
-      goesOn = monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(batches));
-    }
-  }
-  if (!goesOn)
-  {
-    return goesOn;
+    return filled;
   }
   double counts[3] = {};
   for (const Block& block : blocks)

@@ -125,6 +125,10 @@ private:
   };
   struct Filler;
 
+  static Outcome FillAll(vtkIdType blocks, const Filler& filler, const Monitor& monitor);
+  Outcome FillFromDevice(RefinementOnDevice& device, const Filler& filler,
+    const Monitor& monitor) const;
+
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
   ScatteringIntegrals::Bands GetDeviation(const ScatteringReceiver& receiver,
