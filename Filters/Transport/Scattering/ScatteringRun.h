@@ -51,6 +51,8 @@ protected:
   /// What looks into the body, which texels do not enclose; nullptr where nothing does.
   virtual const char* FindUseOfBody() const;
   virtual std::unique_ptr<LinkBuilder> MakeBuilder() const = 0;
+  /// A failure where the input is texels, and something looks into the body.
+  Outcome CheckTexels() const;
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
   /// Adds what leaves to LeavingFlux.
@@ -80,7 +82,6 @@ protected:
   std::string DeviceExplanation;
 
 private:
-  Outcome CheckTexels() const;
   Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEnteringShare() const;
