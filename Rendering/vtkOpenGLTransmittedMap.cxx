@@ -100,6 +100,7 @@ struct vtkOpenGLTransmittedMap::Parts
   State Drawn; ///< what the last drawing, or attempt, was made for
   bool HasFailed = false;
   vtkTimeStamp RunTime;
+  State Known; ///< whose surface was last taken; stays when the device's memory goes
   vtkTimeStamp SurfaceTime;
 
   void Clear()
@@ -254,7 +255,11 @@ Outcome vtkOpenGLTransmittedMap::Draw(const State& state)
     {
       return set;
     }
-    parts.SurfaceTime.Modified();
+    if (!state.HasSurfaceOf(parts.Known))
+    {
+      parts.Known = state;
+      parts.SurfaceTime.Modified();
+    }
   }
   if (Outcome checked = parts.Drawing->CheckSize(this->Resolution, "IrradianceMapSize"); !checked)
   {

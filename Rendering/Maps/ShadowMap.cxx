@@ -66,10 +66,11 @@ void VisitSurfaces(vtkDataObject* data, const Visit& visit)
 }
 
 //------------------------------------------------------------------------------
-// Composite data know nothing of what changes in their blocks.
+// Of the shape alone: arrays come and go. Composite data know nothing of what changes in their
+// blocks.
 vtkMTimeType GetTime(vtkDataObject* data)
 {
-  vtkMTimeType time = data->GetMTime();
+  vtkMTimeType time = vtkCompositeDataSet::SafeDownCast(data) ? data->GetMTime() : 0;
   VisitSurfaces(data,
     [&](vtkPolyData* surface)
     {

@@ -40,8 +40,9 @@ namespace ScatteringScene
 constexpr int Faces = 6;
 constexpr int ChartsPerSide = 4;
 
-/// A ball of radius 1: each face of a cube is side x side squares, halved, and one chart.
-inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3])
+/// A ball of radius 1: each face of a cube is side x side squares, halved, and one chart;
+/// `firstChart` of the 16 that there is room for.
+inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3], int firstChart = 0)
 {
   auto ball = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -54,6 +55,7 @@ inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3])
   charts->SetName("ChartId");
   for (int face = 0; face < Faces; ++face)
   {
+    const int chart = firstChart + face;
     const int ahead = face / 2;
     const double sign = face % 2 == 0 ? 1.0 : -1.0;
     const vtkIdType first = points->GetNumberOfPoints();
@@ -69,9 +71,9 @@ inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3])
         vtkMath::Normalize(place);
         vtkMath::Add(place, center, place);
         points->InsertNextPoint(place);
-        coordinates->InsertNextTuple2((face % ChartsPerSide + static_cast<double>(i) / side) /
+        coordinates->InsertNextTuple2((chart % ChartsPerSide + static_cast<double>(i) / side) /
             ChartsPerSide,
-          (face / ChartsPerSide + static_cast<double>(j) / side) / ChartsPerSide);
+          (chart / ChartsPerSide + static_cast<double>(j) / side) / ChartsPerSide);
       }
     }
     for (int j = 0; j < side; ++j)
@@ -83,8 +85,8 @@ inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3])
         const vtkIdType upper[3] = { corner, corner + side + 2, corner + side + 1 };
         triangles->InsertNextCell(3, lower);
         triangles->InsertNextCell(3, upper);
-        charts->InsertNextValue(face);
-        charts->InsertNextValue(face);
+        charts->InsertNextValue(chart);
+        charts->InsertNextValue(chart);
       }
     }
   }
