@@ -305,18 +305,19 @@ public:
   ///@{
   /**
    * Keep the choice of links from clusters for a body that moves: when points have other
-   * coordinates, but polygons the same point ids in the same blocks (or texels of an image other
-   * positions, normals and areas), only the factors of links are evaluated anew, for the clusters
-   * that were chosen for an earlier position. Links are refined where that is not enough, and
-   * chosen afresh, clusters and all, where their error, as told, would exceed 1.2 times what it was
-   * when they were chosen, or what new ones of these clusters would tell, or their number 1.2 times
-   * that, or NumberOfLinks. So results within a movement differ from those of a new filter,
-   * within 1.2 times the error of links; they depend on the positions for which links were chosen
-   * last, and on none between: a body that comes back there has its links back. Rigid movements
-   * keep all links. Field data "LinksReused" is the share of links that were kept; links are chosen
-   * afresh as well after any property of links is changed. Switched off each result is that of a
-   * new filter, to the bit. Links between all pairs have nothing to be kept: all of them are
-   * evaluated anew. Default on.
+   * coordinates, but polygons the same point ids in the same blocks (or the same texels of an image
+   * other positions, normals and areas), only the factors of links are evaluated anew, for the
+   * clusters that were chosen for an earlier position. Links are refined where that is not enough.
+   * They are chosen afresh, clusters and all, where otherwise their error, as told, would
+   * exceed 1.2 times what it was when they were chosen (or, where NumberOfLinks is what limits
+   * them, what new ones of these clusters would tell), or their number 1.2 times that, or
+   * NumberOfLinks. So results within a movement differ from those of a new filter, within 1.2 times
+   * the error of links. They depend on the position for which links were chosen last, and on none
+   * since: a body that comes back there has its links back. Rigid movements keep all links. Field
+   * data "LinksReused" is the share of links that were kept. Links are chosen afresh as well after
+   * any property of links has been changed. Switched off, each result is that of a new filter, to
+   * the bit. Links between all pairs have nothing to be kept: all of them are evaluated anew.
+   * Default on.
    */
   vtkSetMacro(ReuseLinks, bool);
   vtkGetMacro(ReuseLinks, bool);

@@ -20,24 +20,28 @@ void VisitLinks(const vtkExchangeHierarchy& links, const Visitor& visit)
   for (int row = nodes; row < links.GetNumberOfSlots(); ++row)
   {
     Pulse::Beat(row);
-    for (std::int64_t link = links.GetOffsets()[row]; link < links.GetOffsets()[row + 1]; ++link)
+    const auto range = links.GetRow(row);
+    for (std::int64_t link = range.first; link < range.second; ++link)
     {
       visit(row - nodes, links.GetColumns()[link]);
     }
   }
-  const vtkExchangeHierarchy::CodedRows& coded = links.GetCodedRows();
-  for (const auto& tile : coded.Tiles)
+  using CodedRows = vtkExchangeHierarchy::CodedRows;
+  const CodedRows& coded = links.GetCodedRows();
+  int slots[CodedRows::BookSize];
+  for (const CodedRows::Tile& tile : coded.Tiles)
   {
     Pulse::Beat();
+    coded.VisitSlots(tile, [&](int place, int slot) { slots[place] = slot; });
     coded.VisitPieces(tile,
       [&](int row, const std::uint8_t* bytes, int pairs)
       {
-        coded.VisitLinks(tile, bytes, pairs,
+        CodedRows::VisitLinks(tile, bytes, pairs,
           [&](int place, int code)
           {
             if (code > 0)
             {
-              visit(row - nodes, coded.Slots[tile.FirstSlot + place]);
+              visit(row - nodes, slots[place]);
             }
           });
       });

@@ -58,6 +58,8 @@ constexpr double LinkMargin = 0.98;
 constexpr double MostGrowth = 1.2;
 constexpr double GrowthAimedAt = 1.1;
 ///@}
+/// Of kept links, over that of others: the first by which the error is what is aimed at.
+constexpr double KeptThresholds[] = { 2.0, 1.5, 1.2, 1.0 };
 /// As LinkMargin, of kept links.
 constexpr double KeptMargin = 0.99;
 /// What is left of an error by rounding.
@@ -100,26 +102,49 @@ Values ScatteringRefinement::GetDeviation(const ScatteringReceiver& receiver,
 }
 
 //------------------------------------------------------------------------------
+vtkIdType ScatteringRefinement::GetSampleSize() const
+{
+  const vtkIdType most = this->Light.GetNumberOfComponents() > 0 ? LitSampleSize : SampleSize;
+  return std::min(static_cast<vtkIdType>(this->Areas.size()), most);
+}
+
+//------------------------------------------------------------------------------
+vtkIdType ScatteringRefinement::GetSample(vtkIdType index) const
+{
+  const auto patches = static_cast<vtkIdType>(this->Areas.size());
+  return (2 * index + 1) * patches / (2 * this->GetSampleSize());
+}
+
+//------------------------------------------------------------------------------
 void ScatteringRefinement::Begin(double tolerance)
 {
   this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
-  const auto patches = static_cast<vtkIdType>(this->Areas.size());
-  const bool isLit = this->Light.GetNumberOfComponents() > 0;
-  const vtkIdType count = std::min(patches, isLit ? LitSampleSize : SampleSize);
+  this->LookAround();
+  if (this->Light.GetNumberOfComponents() > 0)
+  {
+    this->LookAtLight(tolerance);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Of what is shared with other ranks each looks from its own receivers.
+void ScatteringRefinement::LookAround()
+{
+  const vtkIdType count = this->GetSampleSize();
   this->Receivers.assign(count, ScatteringReceiver(this->Clusters, this->LeaveOut));
   const auto look = [&](vtkIdType begin, vtkIdType end)
   {
     for (vtkIdType k = begin; k < end; ++k)
     {
       Pulse::Beat();
-      this->Receivers[k].Look((2 * k + 1) * patches / (2 * count));
+      const vtkIdType patch = this->GetSample(k);
+      if (IsOfRank(patch, this->SharedWith))
+      {
+        this->Look(patch, this->Receivers[k]);
+      }
     }
   };
   Threads::For(0, count, 1, look);
-  if (isLit)
-  {
-    this->LookAtLight(tolerance);
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -232,7 +257,8 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     {
       Pulse::Beat();
       const ScatteringReceiver& receiver = this->Receivers[k];
-      if (!IsOfRank(receiver.GetPatch(), this->SharedWith))
+      // Others have not looked.
+      if (receiver.GetPatch() < 0)
       {
         continue;
       }
@@ -254,7 +280,7 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
   Prospect prospect;
   for (vtkIdType k = 0; k < count; ++k)
   {
-    const double weight = this->Areas[this->Receivers[k].GetPatch()];
+    const double weight = this->Areas[this->GetSample(k)];
     prospect.Links += links[k] / static_cast<double>(count);
     area += weight;
     errors += weight * squares[k];
@@ -308,26 +334,39 @@ bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, con
 }
 
 //------------------------------------------------------------------------------
-// By the threshold that they had others of the same clusters would be about as many, and as good:
-// else the body is another one. Kept links are refined until they are hardly worse.
+// Where their number is limited others of the same clusters, by the threshold that they had, tell
+// whether the body is still as it was: about as many, and as good. Kept links are refined until
+// they are hardly worse.
 bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept,
   const Ranks& ranks)
 {
-  this->Begin(kept.Error);
   this->Limited = kept.IsLimited;
   this->NewThreshold = kept.Threshold * this->Reference;
-  const Prospect others = this->Measure(this->NewThreshold);
+  Prospect others{ kept.LinksPerReceiver, kept.Error };
+  if (kept.IsLimited)
+  {
+    this->Begin(kept.Error);
+    others = this->Measure(this->NewThreshold);
+  }
   this->StartFrom(kept, ranks);
   this->Threshold = std::numeric_limits<double>::infinity();
   this->Expected = this->Measure(this->Threshold);
+  const double most = std::min(this->GetMostLinks(others),
+    mostLinks > 0.0 ? KeptMargin * mostLinks : std::numeric_limits<double>::infinity());
   const double aim = GrowthAimedAt * std::min(others.Error, kept.Error);
-  const double most =
-    mostLinks > 0.0 ? KeptMargin * mostLinks : std::numeric_limits<double>::infinity();
-  if (this->Expected.Error > aim)
+  for (const double factor : KeptThresholds)
   {
-    this->Threshold =
-      this->FindThreshold(aim, std::min(most, this->GetMostLinks(others)), ThresholdSteps);
-    this->Expected = this->Measure(this->Threshold);
+    if (this->Expected.Error <= aim)
+    {
+      break;
+    }
+    const Prospect finer = this->Measure(factor * this->NewThreshold);
+    if (finer.Links > most)
+    {
+      break;
+    }
+    this->Threshold = factor * this->NewThreshold;
+    this->Expected = finer;
   }
   const bool couldBeFiner = kept.IsLimited && others.Links < kept.LinksPerReceiver / MostGrowth;
   return !couldBeFiner && this->IsAsGoodAs(others, most);
@@ -339,18 +378,7 @@ void ScatteringRefinement::StartFrom(const LinkChoice& kept, const Ranks& ranks)
   this->Kept = &kept;
   this->SharedWith = ranks;
   this->AreDivided = kept.AreDivided;
-  const auto look = [&](vtkIdType begin, vtkIdType end)
-  {
-    for (vtkIdType k = begin; k < end; ++k)
-    {
-      Pulse::Beat();
-      if (IsOfRank(this->Receivers[k].GetPatch(), ranks))
-      {
-        this->Look(this->Receivers[k].GetPatch(), this->Receivers[k]);
-      }
-    }
-  };
-  Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, look);
+  this->LookAround();
 }
 
 //------------------------------------------------------------------------------

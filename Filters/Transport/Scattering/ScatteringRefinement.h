@@ -131,9 +131,12 @@ private:
 
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
+  vtkIdType GetSampleSize() const;
+  vtkIdType GetSample(vtkIdType index) const;
   ScatteringIntegrals::Bands GetDeviation(const ScatteringReceiver& receiver,
     const ScatteringReceiver::Part& part) const;
   void Begin(double tolerance);
+  void LookAround();
   void LookAtLight(double tolerance);
   template <typename Divide>
   std::vector<double> Receive(const Divide& divide) const;
