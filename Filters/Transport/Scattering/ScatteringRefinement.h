@@ -114,6 +114,8 @@ private:
     const ScatteringReceiver::Part& part) const;
   void Begin(double tolerance);
   void LookAtLight(double tolerance);
+  ScatteringIntegrals::Bands GetValue(const ScatteringReceiver& receiver,
+    const ScatteringReceiver::Part& part) const;
   template <typename Divide>
   std::vector<double> Receive(const Divide& divide) const;
   std::vector<double> GetSizes(const std::vector<double>& received) const;
