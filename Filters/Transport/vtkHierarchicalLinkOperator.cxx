@@ -55,22 +55,21 @@ struct Gather
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     const vtkExchangeHierarchy& hierarchy = this->Work.Hierarchy;
-    const std::int64_t* offsets = hierarchy.GetOffsets().data();
     const int* columns = hierarchy.GetColumns().data();
     const float* values = hierarchy.GetValues().data() + (HasKernels ? this->Work.First : 0);
     const int kernels = HasKernels ? hierarchy.GetNumberOfKernels() : 1;
     for (vtkIdType slot = begin; slot < end; ++slot)
     {
       double sums[Chains][Lights * Count] = {};
-      std::int64_t link = offsets[slot];
-      for (; link + Chains <= offsets[slot + 1]; link += Chains)
+      auto [link, last] = hierarchy.GetRow(static_cast<int>(slot));
+      for (; link + Chains <= last; link += Chains)
       {
         for (int chain = 0; chain < Chains; ++chain)
         {
           this->Add(columns[link + chain], values + (link + chain) * kernels, kernels, sums[chain]);
         }
       }
-      for (; link < offsets[slot + 1]; ++link)
+      for (; link < last; ++link)
       {
         this->Add(columns[link], values + link * kernels, kernels, sums[0]);
       }
@@ -153,15 +152,16 @@ struct GatherCodes
   void GatherTile(const CodedRows::Tile& tile, double* heard) const
   {
     const int kernels = this->Work.Hierarchy.GetNumberOfKernels();
-    for (int slot = tile.FirstSlot; slot < tile.LastSlot; ++slot)
-    {
-      const double* sent = this->Work.GetSent(this->Coded.Slots[slot]);
-      double* target = heard + static_cast<std::int64_t>(slot - tile.FirstSlot) * All;
-      for (int light = 0; light < Lights; ++light)
+    this->Coded.VisitSlots(tile,
+      [&](int place, int slot)
       {
-        std::copy_n(sent + light * kernels, Count, target + light * Lanes);
-      }
-    }
+        const double* sent = this->Work.GetSent(slot);
+        double* target = heard + static_cast<std::int64_t>(place) * All;
+        for (int light = 0; light < Lights; ++light)
+        {
+          std::copy_n(sent + light * kernels, Count, target + light * Lanes);
+        }
+      });
     const double* book = this->Book.data();
     this->Coded.VisitPieces(tile,
       [&](int row, const std::uint8_t* bytes, int pairs)
@@ -342,11 +342,11 @@ void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 {
   this->Received.assign(this->Hierarchy->GetNumberOfSlots(), 0.0);
   const int nodes = this->Hierarchy->GetNumberOfNodes();
-  const std::vector<std::int64_t>& offsets = this->Hierarchy->GetOffsets();
   for (int slot = nodes + static_cast<int>(i); slot >= 0;
        slot = this->Hierarchy->GetParents()[slot])
   {
-    for (std::int64_t link = offsets[slot]; link < offsets[slot + 1]; ++link)
+    const auto [first, last] = this->Hierarchy->GetRow(slot);
+    for (std::int64_t link = first; link < last; ++link)
     {
       this->Received[this->Hierarchy->GetColumns()[link]] +=
         this->Hierarchy->GetValues()[link * this->Hierarchy->GetNumberOfKernels() + kernel];
@@ -372,8 +372,10 @@ void vtkHierarchicalLinkOperator::FillCodedRow(vtkIdType i, int kernel)
   {
     rows.insert(slot);
   }
+  std::vector<int> slots(CodedRows::BookSize);
   for (const CodedRows::Tile& tile : coded.Tiles)
   {
+    coded.VisitSlots(tile, [&](int place, int slot) { slots[place] = slot; });
     coded.VisitPieces(tile,
       [&](int row, const std::uint8_t* bytes, int pairs)
       {
@@ -382,7 +384,7 @@ void vtkHierarchicalLinkOperator::FillCodedRow(vtkIdType i, int kernel)
           CodedRows::VisitLinks(tile, bytes, pairs,
             [&](int place, int code)
             {
-              this->Received[coded.Slots[tile.FirstSlot + place]] += static_cast<double>(
+              this->Received[slots[place]] += static_cast<double>(
                 coded.Book[code * this->Hierarchy->GetNumberOfKernels() + kernel]);
             });
         }

@@ -65,8 +65,14 @@ public:
   /// An upper bound of the profile between a patch and a slot.
   double GetBound(vtkIdType receiver, int slot) const;
 
-  /// For a node.
-  Estimate Look(vtkIdType receiver, int node) const;
+  /// For a node. Where it need be known `onlyIfSmooth`, what is not is no more than said so.
+  Estimate Look(vtkIdType receiver, int node, bool onlyIfSmooth) const;
+  /// Whether the value of an estimate is as good as that of a link has to be.
+  bool IsFactor(const Estimate& estimate) const
+  {
+    return estimate.IsSmooth &&
+      (estimate.Error <= this->Factors.Relative * estimate.Value + this->Factors.PerArea).all();
+  }
 
   /// The integral of the profile over a slot, averaged over the receiver.
   Bands Integrate(vtkIdType receiver, int slot) const;
@@ -89,7 +95,7 @@ private:
 
   void FillPlaces();
   void GatherPieces();
-  bool IsNarrow(double distance2, double size2, const Bands& value, const Bands& change) const;
+  bool IsNarrow(double size2, const Bands& value, const Bands& change) const;
   void AddIntegral(vtkIdType receiver, int slot, Bands& sum) const;
   const Place& GetReceiver(vtkIdType patch) const
   {

@@ -85,7 +85,7 @@ LinkKey ScatteringLinks::GetKey() const
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
       this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
-      this->Choice.CompressionTolerance },
+      this->Choice.CompressionTolerance, this->Choice.IsKept ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -128,7 +128,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
       this->Choice.DropsThroughAir;
     built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
   }
-  if (!built)
+  if (!built || !links.GetExchange())
   {
     return built;
   }
@@ -202,17 +202,30 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
   ScatteringRefinement refinement(clusters, task.Areas, this->Choice.Light, reference,
     factors.PerArea);
+  const double most = isAuto ? 0.0 : this->Choice.Number;
+  if (links.Choice)
+  {
+    const bool holds = isUniform
+      ? refinement.KeepUniform(this->Choice.Number, *links.Choice, task.AllRanks)
+      : refinement.KeepAdaptive(most, *links.Choice, task.AllRanks);
+    return holds ? this->FillRows(task, clusters, refinement) : Outcome::Done();
+  }
   if (isUniform)
   {
     refinement.ChooseUniform(this->Choice.Number, links.Tolerance);
   }
   else
   {
-    refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
+    refinement.ChooseAdaptive(links.Tolerance, most);
   }
   if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
+  }
+  if (this->Choice.IsKept)
+  {
+    links.Choice = std::make_shared<LinkChoice>(refinement.GetChoice());
+    links.Choice->Arrangement = task.Scene.GetArrangement();
   }
   return this->FillRows(task, clusters, refinement);
 }
@@ -260,16 +273,20 @@ Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& cluste
   AirGaps gaps;
   vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
   Outcome chosen = task.AllRanks.Agree(gaps.Build(task.Scene));
+  // Those that are kept have been chosen.
   const bool isLit = !this->Choice.Light.empty();
-  chosen = chosen && !isLit
-    ? LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner)
-    : chosen;
+  if (chosen && !refinement.IsKept() && !isLit)
+  {
+    chosen = LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner);
+  }
   const auto fill = [&](RefinementOnDevice* device)
   {
     return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
       device, task.Result.Hierarchy, summary));
   };
-  std::string where = isLit ? "CPU: for the light that is given" : "CPU";
+  std::string where = "CPU";
+  where += refinement.IsKept() ? ": links of an earlier position are kept" : "";
+  where += isLit ? ": for the light that is given" : "";
   if (chosen && refiner)
   {
     RefinementOnDevice device(refiner, clusters);
@@ -293,6 +310,7 @@ void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refineme
   task.Result.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", refinement.GetProspect().Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
+  task.Result.ReusedShare = summary.Links > 0.0 ? summary.Reused / summary.Links : 0.0;
   const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
   task.Result.Remarks.emplace_back("LinkMethodUsed", isUniform ? "Uniform" : "Adaptive");
   task.Result.Remarks.emplace_back("LinksLimitedBy",

@@ -51,8 +51,12 @@ protected:
   /// What looks into the body, which texels do not enclose; nullptr where nothing does.
   virtual const char* FindUseOfBody() const;
   virtual std::unique_ptr<LinkBuilder> MakeBuilder() const = 0;
+  /// A failure where the input is texels, and something looks into the body.
+  Outcome CheckTexels() const;
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
+  /// In the order of the scene.
+  Outcome ReadIrradiance();
   /// Adds what leaves to LeavingFlux.
   virtual void SumLeaving();
   /// Exitance, and what is to be told of how it came about.
@@ -85,8 +89,6 @@ protected:
   std::string DeviceExplanation;
 
 private:
-  Outcome CheckTexels() const;
-  Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEnteringShare() const;
   void WriteThickness(const SceneOutput& output);
