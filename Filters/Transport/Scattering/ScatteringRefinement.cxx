@@ -168,6 +168,30 @@ void ScatteringRefinement::LookAtLight(double tolerance)
 }
 
 //------------------------------------------------------------------------------
+// What is wide, and is not divided because its light is even, is the sum of parts that are not: the
+// pieces of a cluster may agree with its centre by chance.
+Values ScatteringRefinement::GetValue(const ScatteringReceiver& receiver,
+  const ScatteringReceiver::Part& part) const
+{
+  Values value = Values::Zero();
+  receiver.VisitPart(
+    part,
+    [&](const ScatteringReceiver::Part& below)
+    {
+      return !below.IsExact &&
+        (receiver.GetDeviation(below).square() > this->WidestDeviation2 * below.Value.square())
+          .any();
+    },
+    [&](const ScatteringReceiver::Part& below)
+    {
+      value += below.IsExact || below.IsFactor
+        ? below.Value
+        : this->Clusters.Integrate(receiver.GetPatch(), below.Slot);
+    });
+  return value;
+}
+
+//------------------------------------------------------------------------------
 // Receivers x components of the light.
 template <typename Divide>
 std::vector<double> ScatteringRefinement::Receive(const Divide& divide) const
@@ -182,7 +206,12 @@ std::vector<double> ScatteringRefinement::Receive(const Divide& divide) const
       const ScatteringReceiver& receiver = this->Receivers[k];
       receiver.Visit([&](const ScatteringReceiver::Part& part) { return divide(receiver, part); },
         [&](const ScatteringReceiver::Part& part)
-        { this->Light.Add(receiver, part, &received[k * components]); });
+        {
+          if (!part.IsLeftOut)
+          {
+            this->Light.Add(part.Slot, this->GetValue(receiver, part), &received[k * components]);
+          }
+        });
     }
   };
   Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, receive);
@@ -493,28 +522,6 @@ struct ScatteringRefinement::Filler
     }
   }
 
-  // What is wide, and is not divided because its light is even, is summed up from parts that are
-  // not: the pieces of a cluster may agree with its centre by chance.
-  Values GetValue(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part) const
-  {
-    const double widest2 = this->Outer.WidestDeviation2;
-    Values value = Values::Zero();
-    receiver.VisitPart(
-      part,
-      [&](const ScatteringReceiver::Part& below)
-      {
-        return !below.IsExact &&
-          (receiver.GetDeviation(below).square() > widest2 * below.Value.square()).any();
-      },
-      [&](const ScatteringReceiver::Part& below)
-      {
-        value += below.IsExact || below.IsFactor
-          ? below.Value
-          : this->Outer.Clusters.Integrate(receiver.GetPatch(), below.Slot);
-      });
-    return value;
-  }
-
   void AddRow(const ScatteringReceiver& receiver, Block& block) const
   {
     const std::size_t before = block.Columns.size();
@@ -528,7 +535,7 @@ struct ScatteringRefinement::Filler
           return;
         }
         const ScatteringClusters& clusters = this->Outer.Clusters;
-        const Values value = this->GetValue(receiver, part);
+        const Values value = this->Outer.GetValue(receiver, part);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
         block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);

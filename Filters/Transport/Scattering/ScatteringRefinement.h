@@ -138,6 +138,8 @@ private:
   void Begin(double tolerance);
   void LookAround();
   void LookAtLight(double tolerance);
+  ScatteringIntegrals::Bands GetValue(const ScatteringReceiver& receiver,
+    const ScatteringReceiver::Part& part) const;
   template <typename Divide>
   std::vector<double> Receive(const Divide& divide) const;
   std::vector<double> GetSizes(const std::vector<double>& received) const;
