@@ -66,21 +66,22 @@
  * "LinkSeconds", "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components for each light;
  * irradiance times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port
  * 1 is a vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds",
- * "ErrorBound". "LinksReused" is 1 where links of an earlier run were taken. "LinksThroughAir"
- * (models that are profiles, 3 components for each light; not of texels): of the light that links
- * carry, those that are dropped included, the share that goes through the air between parts of the
- * body, see DropLinksThroughAir; estimated from some 64 links of each patch, with one standard
- * error "LinksThroughAirError", exact where they are dropped and for one convex body (0).
- * "ProfileTotal" (those models, 3 components): what a flat surface gives back of the light that
- * enters; a body may give back more or less, and a warning tells where it is more than enters.
- * "ProfileError" (MODEL_TABULATED, 3 components): standard error of that, relative; more where less
- * than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts in LeavingFlux each time it
- * leaves. Monte Carlo without links has in their place "PhotonsTraced", "RelativeError" (of each
- * band, as TargetError), "LeavingShare" (of what enters, what goes away for good after scattering)
- * with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for surfaces that cross
- * themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds",
- * and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3
- * components: the part of the surface that is thinner than two diffusion lengths).
+ * "ErrorBound". "LinksReused" is 1 where links of an earlier run were taken, and of a body that has
+ * moved the share of links from the clusters that were chosen before, see ReuseLinks.
+ * "LinksThroughAir" (models that are profiles, 3 components for each light; not of texels): of the
+ * light that links carry, those that are dropped included, the share that goes through the air
+ * between parts of the body, see DropLinksThroughAir; estimated from some 64 links of each patch,
+ * with one standard error "LinksThroughAirError", exact where they are dropped and for one convex
+ * body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives back of the
+ * light that enters; a body may give back more or less, and a warning tells where it is more than
+ * enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that, relative; more
+ * where less than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts in LeavingFlux
+ * each time it leaves. Monte Carlo without links has in their place "PhotonsTraced",
+ * "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters, what goes away
+ * for good after scattering) with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for
+ * surfaces that cross themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton"
+ * and "WalkSeconds", and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness
+ * "ThinShare" (3 components: the part of the surface that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
  * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing, not
@@ -301,6 +302,27 @@ public:
 
   ///@{
   /**
+   * Keep the choice of links from clusters for a body that moves: when points have other
+   * coordinates, but polygons the same point ids in the same blocks (or texels of an image other
+   * positions, normals and areas), only the factors of links are evaluated anew, for the clusters
+   * that were chosen for an earlier position. Links are refined where that is not enough, and
+   * chosen afresh, clusters and all, where their error, as told, would exceed 1.2 times what it was
+   * when they were chosen, or what new ones of these clusters would tell, or their number 1.2 times
+   * that, or NumberOfLinks. So results within a movement differ from those of a new filter,
+   * within 1.2 times the error of links; they depend on the positions for which links were chosen
+   * last, and on none between: a body that comes back there has its links back. Rigid movements
+   * keep all links. Field data "LinksReused" is the share of links that were kept; links are chosen
+   * afresh as well after any property of links is changed. Switched off each result is that of a
+   * new filter, to the bit. Links between all pairs have nothing to be kept: all of them are
+   * evaluated anew. Default on.
+   */
+  vtkSetMacro(ReuseLinks, bool);
+  vtkGetMacro(ReuseLinks, bool);
+  vtkBooleanMacro(ReuseLinks, bool);
+  ///@}
+
+  ///@{
+  /**
    * Keep links from clusters in one byte (Uniform) or two, by a code book of 256 values that is
    * trained on them, as Carr, Hall and Hart did: an eighth of the memory, and of what a product
    * reads. Auto then takes Adaptive; links between all pairs cannot be. Field data
@@ -450,6 +472,7 @@ private:
   bool ComputeThickness = false;
   bool DropLinksThroughAir = false;
   int NumberOfLinks = 64;
+  bool ReuseLinks = true;
   bool CompressLinks = false;
   double CompressionTolerance = 0.0;
   double LinkTolerance = 0.0;

@@ -28,7 +28,7 @@ public:
   using Texels = std::vector<float>;
 
   ///@{ Of each slot: center and area; what the center's single precision leaves, and moment;
-  ///radius,
+  /// radius,
   /// first and last patch, limit; children, and pieces; of the patches below, least and largest
   /// moment and largest distance from the center; of the pieces, mean moment, largest moment and
   /// largest distance.

@@ -65,12 +65,27 @@ const char* ProfileRun::FindUseOfBody() const
 }
 
 //------------------------------------------------------------------------------
-// In an order for clusters, where there may be any.
+// In an order for clusters, where there may be any: that of links which may be kept.
 Outcome ProfileRun::Gather()
 {
   return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
     ? this->ScatteringRun::Gather()
-    : this->GatherInOrder(PatchScene::Order::Surface);
+    : this->GatherInOrder(PatchScene::Order::Surface,
+        this->Cache.FindArrangement(*this->MakeBuilder(), this->AllRanks));
+}
+
+//------------------------------------------------------------------------------
+// Where patches have moved too far for what was kept, all is arranged and chosen afresh.
+Outcome ProfileRun::Link()
+{
+  Outcome linked = this->ScatteringRun::Link();
+  if (linked && !this->Cache.Get().GetExchange())
+  {
+    linked = this->Gather();
+    linked = linked ? this->ReadIrradiance() : linked;
+    linked = linked ? this->ScatteringRun::Link() : linked;
+  }
+  return linked;
 }
 
 //------------------------------------------------------------------------------
@@ -88,7 +103,7 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
       this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir(),
       this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance(),
-      static_cast<LinkDevice>(this->Owner->GetDevice()) });
+      this->Owner->GetReuseLinks(), static_cast<LinkDevice>(this->Owner->GetDevice()) });
 }
 
 //------------------------------------------------------------------------------

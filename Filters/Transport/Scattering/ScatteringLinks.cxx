@@ -85,7 +85,7 @@ LinkKey ScatteringLinks::GetKey() const
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
       this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
-      this->Choice.CompressionTolerance },
+      this->Choice.CompressionTolerance, this->Choice.IsKept ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
@@ -127,7 +127,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
       this->Choice.DropsThroughAir;
     built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
   }
-  if (!built)
+  if (!built || !links.GetExchange())
   {
     return built;
   }
@@ -200,17 +200,30 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
     ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
   ScatteringRefinement refinement(clusters, task.Areas, reference, factors.PerArea);
+  const double most = isAuto ? 0.0 : this->Choice.Number;
+  if (links.Choice)
+  {
+    const bool holds = isUniform
+      ? refinement.KeepUniform(this->Choice.Number, *links.Choice, task.AllRanks)
+      : refinement.KeepAdaptive(most, *links.Choice, task.AllRanks);
+    return holds ? this->FillRows(task, clusters, refinement) : Outcome::Done();
+  }
   if (isUniform)
   {
     refinement.ChooseUniform(this->Choice.Number);
   }
   else
   {
-    refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
+    refinement.ChooseAdaptive(links.Tolerance, most);
   }
   if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
+  }
+  if (this->Choice.IsKept)
+  {
+    links.Choice = std::make_shared<LinkChoice>(refinement.GetChoice());
+    links.Choice->Arrangement = task.Scene.GetArrangement();
   }
   return this->FillRows(task, clusters, refinement);
 }
@@ -258,14 +271,17 @@ Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& cluste
   AirGaps gaps;
   vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
   Outcome chosen = task.AllRanks.Agree(gaps.Build(task.Scene));
-  chosen =
-    chosen ? LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner) : chosen;
+  // Those that are kept have been chosen.
+  if (chosen && !refinement.IsKept())
+  {
+    chosen = LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner);
+  }
   const auto fill = [&](RefinementOnDevice* device)
   {
     return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
       device, task.Result.Hierarchy, summary));
   };
-  std::string where = "CPU";
+  std::string where = refinement.IsKept() ? "CPU: links of an earlier position are kept" : "CPU";
   if (chosen && refiner)
   {
     RefinementOnDevice device(refiner, clusters);
@@ -289,6 +305,7 @@ void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refineme
   task.Result.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", refinement.GetProspect().Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
+  task.Result.ReusedShare = summary.Links > 0.0 ? summary.Reused / summary.Links : 0.0;
   const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
   task.Result.Remarks.emplace_back("LinkMethodUsed", isUniform ? "Uniform" : "Adaptive");
   task.Result.Remarks.emplace_back("LinksLimitedBy",

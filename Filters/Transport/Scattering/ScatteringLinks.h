@@ -27,6 +27,7 @@ struct ScatteringLinkChoice
   bool DropsThroughAir = false; ///< of all pairs
   bool AreCompressed = false;   ///< those from clusters
   double CompressionTolerance = 0.0;
+  bool IsKept = false;                 ///< when patches move
   LinkDevice Device = LinkDevice::CPU; ///< where those from clusters are chosen
 };
 

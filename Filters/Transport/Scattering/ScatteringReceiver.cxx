@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringReceiver.h"
 
+#include <algorithm>
+
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
@@ -10,6 +12,14 @@ void ScatteringReceiver::Look(vtkIdType patch)
   this->Patch = patch;
   this->Parts.clear();
   this->Add(0);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::Look(vtkIdType patch, const int* begin, const int* end)
+{
+  this->Patch = patch;
+  this->Parts.clear();
+  this->AddKept(0, begin, end);
 }
 
 //------------------------------------------------------------------------------
@@ -54,6 +64,15 @@ void ScatteringReceiver::Add(int slot)
     this->Parts.push_back(part);
     return;
   }
+  this->AddLinked(slot);
+}
+
+//------------------------------------------------------------------------------
+// What is not left out.
+void ScatteringReceiver::AddLinked(int slot)
+{
+  Part part;
+  part.Slot = slot;
   if (this->Clusters->GetSlots().IsPatch(slot))
   {
     this->AddPatch(slot);
@@ -105,6 +124,37 @@ void ScatteringReceiver::AddNode(int slot, const AddChild& addChild)
   }
   part.NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
   this->Parts[index] = part;
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::AddKept(int slot, const int* begin, const int* end)
+{
+  const std::size_t index = this->Parts.size();
+  if (begin == end)
+  {
+    this->Add(slot);
+    return;
+  }
+  if (*begin == slot)
+  {
+    this->AddLinked(slot);
+    this->Parts[index].IsKept = true;
+    return;
+  }
+  Part part;
+  part.Slot = slot;
+  part.IsDivided = true;
+  this->Parts.push_back(part);
+  const LinkSlots::Node children = this->Clusters->GetSlots().GetChildren(slot);
+  for (int child = children.First; child < children.Last; ++child)
+  {
+    const int* const middle = std::find_if(begin, end,
+      [&](int kept)
+      { return !this->Clusters->HoldsPatch(child, this->Clusters->GetFirstPatch(kept)); });
+    this->AddKept(child, begin, middle);
+    begin = middle;
+  }
+  this->Parts[index].NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
 }
 
 //------------------------------------------------------------------------------

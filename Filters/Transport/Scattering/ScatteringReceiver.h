@@ -30,6 +30,8 @@ public:
     bool IsExact = false;          ///< patch by patch
     bool IsFactor = false;         ///< the value is that of a link
     bool IsLeftOut = false;        ///< certainly too little
+    bool IsDivided = false;        ///< whatever it is, which nothing here tells
+    bool IsKept = false;           ///< as it was chosen before
     int NumberBelow = 0;           ///< parts that follow it and lie below it
   };
 
@@ -41,6 +43,9 @@ public:
 
   /// Look at all clusters from a patch.
   void Look(vtkIdType patch);
+  /// Look at the clusters from which it received before it moved, and at all that were left out:
+  /// [begin, end) in the order of their patches.
+  void Look(vtkIdType patch, const int* begin, const int* end);
   /// Likewise where a device has looked.
   void Adopt(vtkIdType patch, const RefinementOnDevice::Walk& walk);
   vtkIdType GetPatch() const { return this->Patch; }
@@ -62,6 +67,8 @@ public:
 
 private:
   void Add(int slot);
+  void AddLinked(int slot);
+  void AddKept(int slot, const int* begin, const int* end);
   void AddFound(int slot, RefinementOnDevice::Walk& walk);
   void AddPart(RefinementOnDevice::Walk& walk);
   void AddPatch(int slot);
@@ -84,7 +91,7 @@ template <typename Divide, typename Take>
 void ScatteringReceiver::VisitPart(const Part& part, const Divide& divide, const Take& take) const
 {
   const LinkSlots& slots = this->Clusters->GetSlots();
-  if (slots.IsPatch(part.Slot) || part.IsLeftOut || !divide(part))
+  if (slots.IsPatch(part.Slot) || part.IsLeftOut || !(part.IsDivided || divide(part)))
   {
     take(part);
     return;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringRefinement.h"
 
+#include "Links/LinkChoice.h"
 #include "Scattering/AirGaps.h"
 #include "Scattering/RefinementOnDevice.h"
 #include "Shared/Pulse.h"
@@ -40,6 +41,22 @@ constexpr int ThresholdSteps = 12;
 constexpr double MostAirSamples = 200000.0;
 /// A sample may have that much fewer links than all receivers.
 constexpr double LinkMargin = 0.98;
+///@{ By what the error and the number of kept links may exceed those of others, at most, and what
+/// they are refined to.
+constexpr double MostGrowth = 1.2;
+constexpr double GrowthAimedAt = 1.1;
+///@}
+/// As LinkMargin, of kept links.
+constexpr double KeptMargin = 0.99;
+/// What is left of an error by rounding.
+constexpr double NoError = 1e-6;
+
+//------------------------------------------------------------------------------
+/// Whether a rank fills the row of a patch.
+bool IsOfRank(vtkIdType patch, const Ranks& ranks)
+{
+  return patch / BlockSize % ranks.GetNumber() == ranks.GetMine();
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -53,8 +70,9 @@ ScatteringRefinement::ScatteringRefinement(const ScatteringClusters& clusters,
 bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
   const ScatteringReceiver::Part& part, double threshold) const
 {
+  const double most = part.IsKept ? threshold : std::min(threshold, this->NewThreshold);
   return this->AreDivided[part.Slot] || receiver.IsOwn(part) ||
-    (receiver.GetDeviation(part) > threshold).any();
+    (receiver.GetDeviation(part) > most).any();
 }
 
 //------------------------------------------------------------------------------
@@ -76,6 +94,21 @@ void ScatteringRefinement::Begin()
 }
 
 //------------------------------------------------------------------------------
+void ScatteringRefinement::Look(vtkIdType patch, ScatteringReceiver& receiver) const
+{
+  if (this->Kept)
+  {
+    const int* const columns = this->Kept->Columns.data();
+    receiver.Look(patch, columns + this->Kept->Offsets[patch],
+      columns + this->Kept->Offsets[patch + 1]);
+  }
+  else
+  {
+    receiver.Look(patch);
+  }
+}
+
+//------------------------------------------------------------------------------
 ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) const
 {
   const auto count = static_cast<vtkIdType>(this->Receivers.size());
@@ -87,6 +120,10 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     {
       Pulse::Beat();
       const ScatteringReceiver& receiver = this->Receivers[k];
+      if (!IsOfRank(receiver.GetPatch(), this->SharedWith))
+      {
+        continue;
+      }
       receiver.Visit([&](const ScatteringReceiver::Part& part)
         { return this->Divides(receiver, part, threshold); },
         [&](const ScatteringReceiver::Part& part)
@@ -97,6 +134,9 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     }
   };
   Threads::For(0, count, 1, measure);
+  // One rank has each of them: no order changes the sums.
+  this->SharedWith.Sum(links);
+  this->SharedWith.Sum(squares.data()->data(), 4 * squares.size());
   double area = 0.0;
   Values errors = Values::Zero();
   Prospect prospect;
@@ -136,6 +176,87 @@ void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
   this->Threshold = this->FindThreshold(tolerance, most);
   this->Expected = this->Measure(this->Threshold);
   this->Limited = this->Expected.Error > tolerance;
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks)
+{
+  this->ChooseUniform(clusters);
+  const Prospect others = this->Expected;
+  this->StartFrom(kept, ranks);
+  this->Expected = this->Measure(this->Threshold);
+  return this->IsAsGoodAs(others, std::numeric_limits<double>::infinity());
+}
+
+//------------------------------------------------------------------------------
+// By the threshold that they had others of the same clusters would be about as many, and as good:
+// else the body is another one. Kept links are refined until they are hardly worse.
+bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept,
+  const Ranks& ranks)
+{
+  this->Begin();
+  this->Limited = kept.IsLimited;
+  this->NewThreshold = kept.Threshold * this->Reference;
+  const Prospect others = this->Measure(this->NewThreshold);
+  this->StartFrom(kept, ranks);
+  this->Threshold = std::numeric_limits<double>::infinity();
+  this->Expected = this->Measure(this->Threshold);
+  const double aim = GrowthAimedAt * std::min(others.Error, kept.Error);
+  const double most =
+    mostLinks > 0.0 ? KeptMargin * mostLinks : std::numeric_limits<double>::infinity();
+  if (this->Expected.Error > aim)
+  {
+    this->Threshold = this->FindThreshold(aim, std::min(most, this->GetMostLinks(others)));
+    this->Expected = this->Measure(this->Threshold);
+  }
+  const bool couldBeFiner = kept.IsLimited && others.Links < kept.LinksPerReceiver / MostGrowth;
+  return !couldBeFiner && this->IsAsGoodAs(others, most);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::StartFrom(const LinkChoice& kept, const Ranks& ranks)
+{
+  this->Kept = &kept;
+  this->SharedWith = ranks;
+  this->AreDivided = kept.AreDivided;
+  const auto look = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      if (IsOfRank(this->Receivers[k].GetPatch(), ranks))
+      {
+        this->Look(this->Receivers[k].GetPatch(), this->Receivers[k]);
+      }
+    }
+  };
+  Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, look);
+}
+
+//------------------------------------------------------------------------------
+double ScatteringRefinement::GetMostLinks(const Prospect& others) const
+{
+  return MostGrowth * std::min(others.Links, this->Kept->LinksPerReceiver);
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringRefinement::IsAsGoodAs(const Prospect& others, double mostLinks) const
+{
+  const double error = MostGrowth * std::min(others.Error, this->Kept->Error);
+  return this->Expected.Error <= std::max(error, NoError) &&
+    this->Expected.Links <= std::min(mostLinks, this->GetMostLinks(others));
+}
+
+//------------------------------------------------------------------------------
+LinkChoice ScatteringRefinement::GetChoice() const
+{
+  LinkChoice choice;
+  choice.Error = this->Expected.Error;
+  choice.LinksPerReceiver = this->Expected.Links;
+  choice.Threshold = this->Threshold / this->Reference;
+  choice.IsLimited = this->Limited;
+  choice.AreDivided = this->AreDivided;
+  return choice;
 }
 
 //------------------------------------------------------------------------------
@@ -241,6 +362,7 @@ struct ScatteringRefinement::Filler
           ? part.Value
           : clusters.Integrate(receiver.GetPatch(), part.Slot);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
+        block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);
         for (int band = 0; band < Bands; ++band)
         {
@@ -267,7 +389,7 @@ struct ScatteringRefinement::Filler
         }
         else
         {
-          receiver.Look(patch);
+          this->Outer.Look(patch, receiver);
         }
         this->AddRow(receiver, this->Blocks[k]);
       }
@@ -310,15 +432,17 @@ Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const Air
   {
     return goesOn;
   }
-  double counts[2] = {};
+  double counts[3] = {};
   for (const Block& block : blocks)
   {
     counts[0] += static_cast<double>(block.Columns.size());
     counts[1] += block.LeftOut;
+    counts[2] += block.Reused;
   }
-  ranks.Sum(counts, 2);
+  ranks.Sum(counts, 3);
   summary.Links = counts[0];
   summary.LeftOut = counts[1];
+  summary.Reused = counts[2];
   summary.ThroughAir = gaps.StartSums(this->Areas, profiles, this->GetAirSample());
   this->SumUpAir(blocks, totals, summary.ThroughAir);
   return this->Store(blocks, ranks.GetMine(), ranks.GetNumber(), exchange);

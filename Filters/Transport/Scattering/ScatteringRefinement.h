@@ -16,6 +16,10 @@
  * the squared error of a sample of receivers, and divide only those that hold the receiver: its own
  * branch of the tree. *Adaptive* links begin at the root.
  *
+ * Of patches that have moved since, the choice may be kept (LinkChoice): each receiver looks at the
+ * clusters that it had, and at what was left out, and these are divided by a threshold of their
+ * own.
+ *
  * The error that links have together is that of light which differs from its mean over each cluster
  * by Deviation of the mean, independently of the profile: the root of the sum of squares.
  */
@@ -27,8 +31,10 @@
 #include "Scattering/ScatteringReceiver.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "Support/Ranks.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 class vtkExchangeHierarchy;
@@ -36,8 +42,8 @@ class vtkExchangeHierarchy;
 namespace LightTransport
 {
 class AirGaps;
-class Ranks;
 class RefinementOnDevice;
+struct LinkChoice;
 
 class ScatteringRefinement
 {
@@ -51,6 +57,16 @@ public:
   void ChooseUniform(int clusters);
   void ChooseAdaptive(double tolerance, double mostLinks);
   ///@}
+
+  ///@{ Or keep a choice, which must outlive this. False where it does not do any more, see
+  ///ReuseLinks
+  /// of vtkSubsurfaceScattering. Collective.
+  bool KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks);
+  bool KeepAdaptive(double mostLinks, const LinkChoice& kept, const Ranks& ranks);
+  ///@}
+  bool IsKept() const { return this->Kept != nullptr; }
+  /// What is to be kept when patches move, but for their rows.
+  LinkChoice GetChoice() const;
 
   /// What the choice comes to, of a sample of receivers.
   struct Prospect
@@ -69,6 +85,7 @@ public:
   {
     double Links = 0.0;
     double LeftOut = 0.0;
+    double Reused = 0.0; ///< from clusters of the choice that is kept
     /// Of links that were looked at, each between the receiver and a patch of the cluster.
     LinksThroughAir ThroughAir;
   };
@@ -95,6 +112,7 @@ private:
     std::vector<int> Columns;
     std::vector<float> Values;
     double LeftOut = 0.0;
+    double Reused = 0.0;
     std::vector<AirLink> ThroughAir;
   };
   struct Filler;
@@ -102,6 +120,10 @@ private:
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
   void Begin();
+  void StartFrom(const LinkChoice& kept, const Ranks& ranks);
+  double GetMostLinks(const Prospect& others) const;
+  bool IsAsGoodAs(const Prospect& others, double mostLinks) const;
+  void Look(vtkIdType patch, ScatteringReceiver& receiver) const;
   Prospect Measure(double threshold) const;
   double FindThreshold(double tolerance, double mostLinks) const;
   double GetClusterError(int slot) const;
@@ -119,6 +141,10 @@ private:
   /// Nodes that are divided for all receivers.
   std::vector<bool> AreDivided;
   double Threshold = 0.0;
+  const LinkChoice* Kept = nullptr;
+  double NewThreshold = std::numeric_limits<double>::infinity(); ///< of what is not kept
+  /// With whom the sample is shared; of several ranks each looks at its own receivers.
+  Ranks SharedWith;
   Prospect Expected;
   bool Limited = false;
 };

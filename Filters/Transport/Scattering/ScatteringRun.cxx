@@ -147,6 +147,7 @@ Outcome ScatteringRun::ReadIrradiance()
     this->Irradiance = std::move(values);
     return Outcome::Done();
   }
+  this->Irradiance.clear();
   this->Irradiance.reserve(values.size() * Bands);
   for (const double value : values)
   {
@@ -358,7 +359,7 @@ void ScatteringRun::WriteScattered(const SceneOutput& output)
   const Links& links = this->Cache.Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
-  FieldValues::Add(fields, "LinksReused", this->Cache.WereMade() ? 0.0 : 1.0);
+  FieldValues::Add(fields, "LinksReused", this->Cache.WereMade() ? links.ReusedShare : 1.0);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
 
   this->Table->Initialize();

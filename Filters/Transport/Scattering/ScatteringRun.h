@@ -53,6 +53,8 @@ protected:
   virtual std::unique_ptr<LinkBuilder> MakeBuilder() const = 0;
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
+  /// In the order of the scene.
+  Outcome ReadIrradiance();
   /// Adds what leaves to LeavingFlux.
   virtual void SumLeaving();
   /// Exitance, and what is to be told of how it came about.
@@ -86,7 +88,6 @@ protected:
 
 private:
   Outcome CheckTexels() const;
-  Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEnteringShare() const;
   void WriteThickness(const SceneOutput& output);
