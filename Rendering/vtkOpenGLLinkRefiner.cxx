@@ -12,6 +12,7 @@
 #include "vtkObjectFactory.h"
 
 #include <optional>
+#include <utility>
 
 using namespace LightTransport;
 
@@ -20,7 +21,6 @@ vtkStandardNewMacro(vtkOpenGLLinkRefiner);
 struct vtkOpenGLLinkRefiner::DeviceParts
 {
   DeviceWindow Window;
-  Body Described;
 
   ///@{ Both or none are there.
   std::unique_ptr<FloatTextures> Engine;
@@ -29,7 +29,7 @@ struct vtkOpenGLLinkRefiner::DeviceParts
 
   bool IsAlive() const { return this->Engine && this->Engine->IsAlive(); }
   void Clear();
-  Outcome Initialize();
+  Outcome Initialize(std::shared_ptr<const Body> body);
   Outcome Refine(vtkIdType first, vtkIdType last, std::vector<Part>& parts);
 };
 
@@ -46,7 +46,7 @@ void vtkOpenGLLinkRefiner::DeviceParts::Clear()
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkOpenGLLinkRefiner::DeviceParts::Initialize()
+Outcome vtkOpenGLLinkRefiner::DeviceParts::Initialize(std::shared_ptr<const Body> body)
 {
   this->Engine = std::make_unique<FloatTextures>(this->Window.Get());
   this->Refinement = std::make_unique<LinkRefinementGL>(*this->Engine);
@@ -55,7 +55,7 @@ Outcome vtkOpenGLLinkRefiner::DeviceParts::Initialize()
     return Outcome::Failed("it cannot make floating-point textures");
   }
   const DeviceSession session(this->Window.Get());
-  Outcome made = this->Refinement->Initialize(this->Described);
+  Outcome made = this->Refinement->Initialize(std::move(body));
   return made ? DeviceErrors::Check() : made;
 }
 
@@ -118,14 +118,13 @@ vtkTypeInt64 vtkOpenGLLinkRefiner::GetNumberOfTests()
 }
 
 //------------------------------------------------------------------------------
-bool vtkOpenGLLinkRefiner::Initialize(const Body& body, std::string& reason)
+bool vtkOpenGLLinkRefiner::Initialize(std::shared_ptr<const Body> body, std::string& reason)
 {
   this->Device->Clear();
   Outcome made = this->Device->Window.Open();
   if (made)
   {
-    this->Device->Described = body;
-    made = this->Device->Initialize();
+    made = this->Device->Initialize(std::move(body));
   }
   if (!made)
   {

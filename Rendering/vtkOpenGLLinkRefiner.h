@@ -20,7 +20,7 @@
 #include "vtkDeviceLinkRefiner.h"
 #include "vtkLightTransportRenderingModule.h" // for export macro
 
-#include <memory> // for std::unique_ptr
+#include <memory> // for std::shared_ptr and std::unique_ptr
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkOpenGLLinkRefiner : public vtkDeviceLinkRefiner
 {
@@ -34,7 +34,7 @@ public:
   /// "OpenGL", and after Open() the name of the device, such as "OpenGL (llvmpipe (LLVM 15.0.6, 256
   /// bits))".
   const char* GetDeviceName() override;
-  bool Initialize(const Body& body, std::string& reason) override;
+  bool Initialize(std::shared_ptr<const Body> body, std::string& reason) override;
   bool Refine(vtkIdType first, vtkIdType last, std::vector<Part>& parts,
     std::string& reason) override;
 

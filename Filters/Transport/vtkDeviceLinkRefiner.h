@@ -23,6 +23,7 @@
 
 #include <array>   // for std::array
 #include <cstdint> // for std::uint32_t
+#include <memory>  // for std::shared_ptr
 #include <string>  // for std::string
 #include <vector>  // for std::vector
 
@@ -122,7 +123,7 @@ public:
   virtual const char* GetDeviceName() = 0;
 
   /// False where the device does not take the body; `reason` then says why, without a full stop.
-  virtual bool Initialize(const Body& body, std::string& reason) = 0;
+  virtual bool Initialize(std::shared_ptr<const Body> body, std::string& reason) = 0;
 
   /// The parts of patches [first, last), in no order; false likewise.
   virtual bool Refine(vtkIdType first, vtkIdType last, std::vector<Part>& parts,

@@ -11,10 +11,25 @@
 #include "vtkOpenGLShaderCache.h"
 #include "vtkShaderProgram.h"
 
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace LightTransport
 {
+namespace
+{
+//------------------------------------------------------------------------------
+/// OpenGL takes places in a buffer as pointers.
+const void* AsPointer(std::uintptr_t offset)
+{
+  const void* pointer = nullptr;
+  static_assert(sizeof(pointer) == sizeof(offset));
+  std::memcpy(&pointer, &offset, sizeof(pointer));
+  return pointer;
+}
+} // namespace
+
 //------------------------------------------------------------------------------
 FeedbackPass::FeedbackPass(vtkOpenGLRenderWindow* window, std::string vertexShader,
   std::string geometryShader, std::vector<std::string> attributes,
@@ -123,7 +138,7 @@ void FeedbackPass::SetAttributes(const FeedbackBuffer& source)
       glEnableVertexAttribArray(static_cast<GLuint>(location));
       glVertexAttribPointer(static_cast<GLuint>(location), FeedbackBuffer::FloatsPerVector,
         GL_FLOAT, GL_FALSE, static_cast<GLsizei>(source.GetBytesPerRecord()),
-        reinterpret_cast<const void*>(offset));
+        AsPointer(offset));
     }
   }
   glBindBuffer(GL_ARRAY_BUFFER, 0);

@@ -12,6 +12,7 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace LightTransport
 {
@@ -61,11 +62,11 @@ void LinkRefinementGL::Release()
 }
 
 //------------------------------------------------------------------------------
-Outcome LinkRefinementGL::Initialize(const Body& body)
+Outcome LinkRefinementGL::Initialize(std::shared_ptr<const Body> body)
 {
-  this->Described = &body;
+  this->Described = std::move(body);
   this->NumberOfTests = 0;
-  const RefinementTables tables(body);
+  const RefinementTables tables(*this->Described);
   Outcome made = this->CheckLimits(tables);
   made = made ? this->MakeTables(tables) : made;
   if (made)

@@ -45,8 +45,8 @@ public:
   /// Before the context goes.
   void Release();
 
-  /// The body must outlive this. Messages of failures have no full stop.
-  Outcome Initialize(const Body& body);
+  /// Messages of failures have no full stop.
+  Outcome Initialize(std::shared_ptr<const Body> body);
   /// What patches [first, last) find.
   Outcome Refine(vtkIdType first, vtkIdType last, const Pause& pause, std::vector<Part>& parts);
 
@@ -68,7 +68,7 @@ private:
   Outcome Read(vtkIdType taken, vtkIdType first, vtkIdType last, std::vector<Part>& parts) const;
 
   FloatTextures& Engine;
-  const Body* Described = nullptr;
+  std::shared_ptr<const Body> Described;
   Group Slots;
   Group Pieces;
   Group Profile;

@@ -8,10 +8,20 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <tuple>
 
 namespace LightTransport
 {
+namespace
+{
+///@{ Found at a time, about (100 MB), and receivers that this may be.
+constexpr double PartsAtATime = 2e6;
+constexpr double SmallestBatch = 64.0;
+constexpr double LargestBatch = 65536.0;
+///@}
+} // namespace
+
 //------------------------------------------------------------------------------
 Outcome RefinementOnDevice::Fail(const std::string& reason)
 {
@@ -23,12 +33,12 @@ Outcome RefinementOnDevice::Fail(const std::string& reason)
 //------------------------------------------------------------------------------
 Outcome RefinementOnDevice::Initialize(double leaveOut, const std::vector<double>& limits)
 {
-  vtkDeviceLinkRefiner::Body body;
-  this->Clusters.Describe(body);
-  body.LeaveOut = leaveOut;
+  auto body = std::make_shared<vtkDeviceLinkRefiner::Body>();
+  this->Clusters.Describe(*body);
+  body->LeaveOut = leaveOut;
   for (std::size_t slot = 0; slot < limits.size(); ++slot)
   {
-    body.Slots[slot].Limit = limits[slot];
+    body->Slots[slot].Limit = limits[slot];
   }
   std::string reason;
   return this->Device->Initialize(body, reason) ? Outcome::Done() : this->Fail(reason);
@@ -43,6 +53,9 @@ Outcome RefinementOnDevice::Refine(vtkIdType first, vtkIdType last)
   {
     return this->Fail(reason);
   }
+  const double receivers = static_cast<double>(last - first);
+  const double batch = PartsAtATime * receivers / static_cast<double>(parts.size() + 1);
+  this->BatchSize = static_cast<vtkIdType>(std::min(std::max(batch, SmallestBatch), LargestBatch));
   this->First = first;
   this->SortByReceivers(parts, last);
   std::atomic<bool> areWhole{ true };

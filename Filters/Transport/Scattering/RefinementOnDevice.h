@@ -30,9 +30,6 @@ public:
     const Part* End;
   };
 
-  /// Receivers at a time: all that a device finds for them is kept.
-  static constexpr vtkIdType BatchSize = 16384;
-
   /// Both must outlive this; the device is open.
   RefinementOnDevice(vtkDeviceLinkRefiner* device, const ScatteringClusters& clusters)
     : Device(device), Clusters(clusters)
@@ -43,6 +40,9 @@ public:
   /// (vtkDeviceLinkRefiner::Slot). A failure says why this device cannot.
   Outcome Initialize(double leaveOut, const std::vector<double>& limits);
 
+  /// How many receivers to look from at a time: all that a device finds for them is kept, and that
+  /// may be much for each.
+  vtkIdType GetBatchSize() const { return this->BatchSize; }
   /// Look from patches [first, last).
   Outcome Refine(vtkIdType first, vtkIdType last);
   /// Of one of them.
@@ -51,12 +51,15 @@ public:
   bool HasFailed() const { return this->Failed; }
 
 private:
+  static constexpr vtkIdType FirstBatch = 2048;
+
   Outcome Fail(const std::string& reason);
   void SortByReceivers(const std::vector<Part>& parts, vtkIdType last);
   bool SortWalk(Part* begin, Part* end) const;
 
   vtkDeviceLinkRefiner* Device;
   const ScatteringClusters& Clusters;
+  vtkIdType BatchSize = FirstBatch;
   vtkIdType First = 0;
   std::vector<std::size_t> Offsets; ///< of each receiver from First on
   std::vector<Part> Parts;
