@@ -58,7 +58,6 @@ def make_texels(surface, size):
     atlas.Update()
     texels = lt.vtkSurfaceToAtlas()
     texels.SetInputData(0, light(atlas.GetOutput(0)))
-    texels.SetInputData(1, atlas.GetOutput(2))
     texels.Update()
     return texels.GetOutput()
 
