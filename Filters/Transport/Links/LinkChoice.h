@@ -25,7 +25,7 @@ struct LinkChoice
   double LinksPerReceiver = 0.0;
   bool IsLimited = false; ///< by the number of links
   ///@}
-  double Threshold = 0.0; ///< relative (ScatteringRefinement)
+  double Threshold = 0.0;       ///< relative (ScatteringRefinement)
   std::vector<bool> AreDivided; ///< slots that are divided for all receivers
   ///@{ Receiver k has the slots columns[offsets[k]] to columns[offsets[k + 1]], in the order of the
   /// patches that they hold; none where it belongs to another rank. Empty until TakeRows.
