@@ -323,6 +323,21 @@ public:
 
   ///@{
   /**
+   * Choose clusters by the light that is there, too: they are divided where both the profile and
+   * the irradiance differ within them, and are large where it is even. Fewer links, or a smaller
+   * error, for this light: half of either, about; of several lights the worst one counts in each
+   * cluster. LinkTolerance and field data "LinkError" are then what links miss of this light,
+   * relative to what leaves, both root mean square over the surface, of the worst component. Links
+   * are made again for each new light, and none are kept (ReuseLinks): for a series give all lights
+   * together, or leave this off. Links between all pairs do not look at it. Default off.
+   */
+  vtkSetMacro(RefineByIrradiance, bool);
+  vtkGetMacro(RefineByIrradiance, bool);
+  vtkBooleanMacro(RefineByIrradiance, bool);
+  ///@}
+
+  ///@{
+  /**
    * Keep links from clusters in one byte (Uniform) or two, by a code book of 256 values that is
    * trained on them, as Carr, Hall and Hart did: an eighth of the memory, and of what a product
    * reads. Auto then takes Adaptive; links between all pairs cannot be. Field data
@@ -413,8 +428,8 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by .6 of it. Default 0:
-   * 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
+   * surface, of light that differs from its mean over each cluster by .6 of it (see
+   * RefineByIrradiance). Default 0: 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);
   vtkGetMacro(LinkTolerance, double);
@@ -474,6 +489,7 @@ private:
   bool DropLinksThroughAir = false;
   int NumberOfLinks = 64;
   bool ReuseLinks = true;
+  bool RefineByIrradiance = false;
   bool CompressLinks = false;
   double CompressionTolerance = 0.0;
   double LinkTolerance = 0.0;

@@ -98,12 +98,15 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.NumberOfPhotons = this->Owner->GetNumberOfPhotons();
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
+  const bool refines = this->Owner->GetRefineByIrradiance() &&
+    this->Owner->GetLinkMethod() != vtkSubsurfaceScattering::LINK_METHOD_DENSE;
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
     this->Owner->GetMillimetersPerUnit(),
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
       this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir(),
       this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance(),
-      this->Owner->GetReuseLinks(), static_cast<LinkDevice>(this->Owner->GetDevice()) });
+      this->Owner->GetReuseLinks() && !refines, static_cast<LinkDevice>(this->Owner->GetDevice()),
+      refines ? this->Irradiance : std::vector<double>() });
 }
 
 //------------------------------------------------------------------------------

@@ -51,6 +51,8 @@ public:
 
   const LinkSlots& GetSlots() const { return this->Slots; }
   double GetArea(int slot) const { return this->Places[slot].Area; }
+  const Eigen::Vector3d& GetCenter(int slot) const { return this->Places[slot].Center; }
+  double GetMoment(int slot) const { return this->Places[slot].Moment; }
   bool HoldsPatch(int slot, vtkIdType patch) const;
   ///@{ Patches [first, last) of a slot.
   vtkIdType GetFirstPatch(int slot) const { return this->Places[slot].First; }
@@ -59,6 +61,10 @@ public:
 
   /// A patch of a slot, by a number from 0 to 1: as likely as its area is large.
   vtkIdType Pick(int slot, double number) const;
+
+  /// The profile between the centres of a patch and a slot, which is what it is over all of a patch
+  /// below a smooth node.
+  Bands GetValue(vtkIdType receiver, int slot) const;
 
   /// An upper bound of the profile between a patch and a slot.
   double GetBound(vtkIdType receiver, int slot) const;

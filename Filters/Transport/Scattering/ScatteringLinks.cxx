@@ -92,6 +92,7 @@ LinkKey ScatteringLinks::GetKey() const
     key.Parameters.insert(key.Parameters.end(),
       { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
+  key.Parameters.insert(key.Parameters.end(), this->Choice.Light.begin(), this->Choice.Light.end());
   return key;
 }
 
@@ -199,7 +200,8 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   const ScatteringClusters::Tolerances factors{ ShareOfValues * links.Tolerance,
     ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
-  ScatteringRefinement refinement(clusters, task.Areas, reference, factors.PerArea);
+  ScatteringRefinement refinement(clusters, task.Areas, this->Choice.Light, reference,
+    factors.PerArea);
   const double most = isAuto ? 0.0 : this->Choice.Number;
   if (links.Choice)
   {
@@ -210,7 +212,7 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   }
   if (isUniform)
   {
-    refinement.ChooseUniform(this->Choice.Number);
+    refinement.ChooseUniform(this->Choice.Number, links.Tolerance);
   }
   else
   {
@@ -264,7 +266,7 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
 }
 
 //------------------------------------------------------------------------------
-// Auto comes back to the CPU where the device cannot.
+// Auto comes back to the CPU where the device cannot. It knows no light.
 Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& clusters,
   const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const
 {
@@ -272,7 +274,8 @@ Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& cluste
   vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
   Outcome chosen = task.AllRanks.Agree(gaps.Build(task.Scene));
   // Those that are kept have been chosen.
-  if (chosen && !refinement.IsKept())
+  const bool isLit = !this->Choice.Light.empty();
+  if (chosen && !refinement.IsKept() && !isLit)
   {
     chosen = LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner);
   }
@@ -281,7 +284,9 @@ Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& cluste
     return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
       device, task.Result.Hierarchy, summary));
   };
-  std::string where = refinement.IsKept() ? "CPU: links of an earlier position are kept" : "CPU";
+  std::string where = "CPU";
+  where += refinement.IsKept() ? ": links of an earlier position are kept" : "";
+  where += isLit ? ": for the light that is given" : "";
   if (chosen && refiner)
   {
     RefinementOnDevice device(refiner, clusters);

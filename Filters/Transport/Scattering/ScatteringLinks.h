@@ -29,6 +29,7 @@ struct ScatteringLinkChoice
   double CompressionTolerance = 0.0;
   bool IsKept = false;                 ///< when patches move
   LinkDevice Device = LinkDevice::CPU; ///< where those from clusters are chosen
+  std::vector<double> Light; ///< that they are chosen for, patches x components; empty for any
 };
 
 class ScatteringLinks : public LinkBuilder

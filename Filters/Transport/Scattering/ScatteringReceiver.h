@@ -64,6 +64,9 @@ public:
   {
     this->VisitPart(this->Parts[0], divide, take);
   }
+  /// The same below a part.
+  template <typename Divide, typename Take>
+  void VisitPart(const Part& part, const Divide& divide, const Take& take) const;
 
 private:
   void Add(int slot);
@@ -77,9 +80,6 @@ private:
   void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
   Part MakeSmooth(int slot) const;
   bool IsNegligible(int slot) const;
-  template <typename Divide, typename Take>
-  void VisitPart(const Part& part, const Divide& divide, const Take& take) const;
-
   const ScatteringClusters* Clusters;
   double LeaveOut;
   vtkIdType Patch = -1;

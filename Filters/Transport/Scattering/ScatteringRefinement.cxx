@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -26,6 +27,8 @@ using Values = ScatteringIntegrals::Bands;
 
 /// Receivers of a sample, by which rows are foreseen.
 constexpr vtkIdType SampleSize = 256;
+/// Where the light is given, which may be sharp.
+constexpr vtkIdType LitSampleSize = 512;
 /// Receivers that a thread takes at a time, and calls of the monitor.
 constexpr vtkIdType BlockSize = 64;
 constexpr vtkIdType NumberOfBatches = 100;
@@ -39,6 +42,15 @@ constexpr int ThresholdSteps = 12;
 ///@}
 /// Links of a body that are looked at for air, about.
 constexpr double MostAirSamples = 200000.0;
+///@{ Links that others are compared with, where the light is given: their error by its deviation,
+/// as a part of the tolerance, how many a receiver has at most, and steps to find them.
+constexpr double FineShare = 0.03;
+constexpr double MostFineLinks = 4096.0;
+constexpr int FineSteps = 6;
+///@}
+/// Squared deviation of the profile from its mean over a cluster, as parts of it, that its pieces
+/// tell the mean of, over the tolerance of links.
+constexpr double WidestPerTolerance = 25.0;
 /// A sample may have that much fewer links than all receivers.
 constexpr double LinkMargin = 0.98;
 ///@{ By what the error and the number of kept links may exceed those of others, at most, and what
@@ -61,8 +73,10 @@ bool IsOfRank(vtkIdType patch, const Ranks& ranks)
 
 //------------------------------------------------------------------------------
 ScatteringRefinement::ScatteringRefinement(const ScatteringClusters& clusters,
-  const std::vector<double>& areas, double reference, double leaveOut)
-  : Clusters(clusters), Areas(areas), Reference(reference), LeaveOut(leaveOut)
+  const std::vector<double>& areas, const std::vector<double>& light, double reference,
+  double leaveOut)
+  : Clusters(clusters), Areas(areas), Light(clusters, light), Reference(reference),
+    LeaveOut(leaveOut)
 {
 }
 
@@ -71,16 +85,27 @@ bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
   const ScatteringReceiver::Part& part, double threshold) const
 {
   const double most = part.IsKept ? threshold : std::min(threshold, this->NewThreshold);
-  return this->AreDivided[part.Slot] || receiver.IsOwn(part) ||
-    (receiver.GetDeviation(part) > most).any();
+  return this->AreDivided[part.Slot] ||
+    (receiver.IsOwn(part) && (this->DividesOwn || !part.IsExact)) ||
+    (this->GetDeviation(receiver, part) > most).any();
 }
 
 //------------------------------------------------------------------------------
-void ScatteringRefinement::Begin()
+// Of the profile, times how much more than assumed that of the light is, where it is given.
+Values ScatteringRefinement::GetDeviation(const ScatteringReceiver& receiver,
+  const ScatteringReceiver::Part& part) const
+{
+  return this->Light.HasSizes() ? this->Light.GetDeviation(receiver, part)
+                                : receiver.GetDeviation(part);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::Begin(double tolerance)
 {
   this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
-  const vtkIdType count = std::min(patches, SampleSize);
+  const bool isLit = this->Light.GetNumberOfComponents() > 0;
+  const vtkIdType count = std::min(patches, isLit ? LitSampleSize : SampleSize);
   this->Receivers.assign(count, ScatteringReceiver(this->Clusters, this->LeaveOut));
   const auto look = [&](vtkIdType begin, vtkIdType end)
   {
@@ -91,6 +116,93 @@ void ScatteringRefinement::Begin()
     }
   };
   Threads::For(0, count, 1, look);
+  if (isLit)
+  {
+    this->LookAtLight(tolerance);
+  }
+}
+
+//------------------------------------------------------------------------------
+// What leaves is known well enough by what is smooth to say how large an error is, then by links
+// much finer than those that are wanted.
+void ScatteringRefinement::LookAtLight(double tolerance)
+{
+  this->WidestDeviation2 = WidestPerTolerance * tolerance;
+  std::vector<double> sizes =
+    this->GetSizes(this->Receive([](const ScatteringReceiver&, const ScatteringReceiver::Part& part)
+      { return part.NumberBelow > 0; }));
+  for (double& size : sizes)
+  {
+    size *= Deviation / this->Reference;
+  }
+  this->Light.SetSizes(sizes);
+  const double threshold = this->FindThreshold(FineShare * tolerance, MostFineLinks, FineSteps);
+  this->Received =
+    this->Receive([&](const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part)
+      { return this->Divides(receiver, part, threshold); });
+}
+
+//------------------------------------------------------------------------------
+// Receivers x components of the light.
+template <typename Divide>
+std::vector<double> ScatteringRefinement::Receive(const Divide& divide) const
+{
+  const std::size_t components = this->Light.GetNumberOfComponents();
+  std::vector<double> received(this->Receivers.size() * components, 0.0);
+  const auto receive = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      const ScatteringReceiver& receiver = this->Receivers[k];
+      receiver.Visit([&](const ScatteringReceiver::Part& part) { return divide(receiver, part); },
+        [&](const ScatteringReceiver::Part& part)
+        { this->Light.Add(receiver, part, &received[k * components]); });
+    }
+  };
+  Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, receive);
+  return received;
+}
+
+//------------------------------------------------------------------------------
+// Root mean square of each component.
+std::vector<double> ScatteringRefinement::GetSizes(const std::vector<double>& received) const
+{
+  const std::size_t components = this->Light.GetNumberOfComponents();
+  std::vector<double> sizes(components, 0.0);
+  double area = 0.0;
+  for (std::size_t k = 0; k < this->Receivers.size(); ++k)
+  {
+    const double weight = this->Areas[this->Receivers[k].GetPatch()];
+    area += weight;
+    for (std::size_t component = 0; component < components; ++component)
+    {
+      const double value = received[k * components + component];
+      sizes[component] += weight * value * value;
+    }
+  }
+  for (double& size : sizes)
+  {
+    size = std::sqrt(size / area);
+  }
+  return sizes;
+}
+
+//------------------------------------------------------------------------------
+// Relative, of the worst component.
+double ScatteringRefinement::GetLightError(const std::vector<double>& received) const
+{
+  std::vector<double> differences(received.size());
+  std::transform(received.begin(), received.end(), this->Received.begin(), differences.begin(),
+    std::minus<double>());
+  const std::vector<double> errors = this->GetSizes(differences);
+  const std::vector<double> sizes = this->GetSizes(this->Received);
+  double worst = 0.0;
+  for (std::size_t component = 0; component < sizes.size(); ++component)
+  {
+    worst = std::max(worst, sizes[component] > 0.0 ? errors[component] / sizes[component] : 0.0);
+  }
+  return worst;
 }
 
 //------------------------------------------------------------------------------
@@ -129,7 +241,7 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
         [&](const ScatteringReceiver::Part& part)
         {
           links[k] += part.IsLeftOut ? 0.0 : 1.0;
-          squares[k] += receiver.GetDeviation(part).square();
+          squares[k] += this->GetDeviation(receiver, part).square();
         });
     }
   };
@@ -148,16 +260,22 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     errors += weight * squares[k];
   }
   prospect.Error = Deviation * std::sqrt(errors.maxCoeff() / area) / this->Reference;
+  if (!this->Received.empty())
+  {
+    prospect.Error = this->GetLightError(
+      this->Receive([&](const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part)
+        { return this->Divides(receiver, part, threshold); }));
+  }
   return prospect;
 }
 
 //------------------------------------------------------------------------------
 // The largest threshold for the tolerance, or the smallest for the number of links.
-double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks) const
+double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks, int steps) const
 {
   double high = std::log(LargestThreshold * this->Reference);
   double low = std::log(SmallestThreshold * this->Reference);
-  for (int step = 0; step < ThresholdSteps; ++step)
+  for (int step = 0; step < steps; ++step)
   {
     const double middle = 0.5 * (low + high);
     const Prospect prospect = this->Measure(std::exp(middle));
@@ -170,10 +288,11 @@ double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks) c
 //------------------------------------------------------------------------------
 void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
 {
-  this->Begin();
+  this->Begin(tolerance);
+  this->DividesOwn = !this->Light.HasSizes();
   const double most =
     mostLinks > 0.0 ? LinkMargin * mostLinks : std::numeric_limits<double>::infinity();
-  this->Threshold = this->FindThreshold(tolerance, most);
+  this->Threshold = this->FindThreshold(tolerance, most, ThresholdSteps);
   this->Expected = this->Measure(this->Threshold);
   this->Limited = this->Expected.Error > tolerance;
 }
@@ -181,7 +300,7 @@ void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
 //------------------------------------------------------------------------------
 bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks)
 {
-  this->ChooseUniform(clusters);
+  this->ChooseUniform(clusters, kept.Error);
   const Prospect others = this->Expected;
   this->StartFrom(kept, ranks);
   this->Expected = this->Measure(this->Threshold);
@@ -194,7 +313,7 @@ bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, con
 bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept,
   const Ranks& ranks)
 {
-  this->Begin();
+  this->Begin(kept.Error);
   this->Limited = kept.IsLimited;
   this->NewThreshold = kept.Threshold * this->Reference;
   const Prospect others = this->Measure(this->NewThreshold);
@@ -206,7 +325,8 @@ bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept
     mostLinks > 0.0 ? KeptMargin * mostLinks : std::numeric_limits<double>::infinity();
   if (this->Expected.Error > aim)
   {
-    this->Threshold = this->FindThreshold(aim, std::min(most, this->GetMostLinks(others)));
+    this->Threshold =
+      this->FindThreshold(aim, std::min(most, this->GetMostLinks(others)), ThresholdSteps);
     this->Expected = this->Measure(this->Threshold);
   }
   const bool couldBeFiner = kept.IsLimited && others.Links < kept.LinksPerReceiver / MostGrowth;
@@ -268,17 +388,17 @@ double ScatteringRefinement::GetClusterError(int slot) const
   {
     if (!this->Clusters.HoldsPatch(slot, receiver.GetPatch()))
     {
-      sum +=
-        this->Areas[receiver.GetPatch()] * receiver.GetDeviation(receiver.GetPart(slot)).square();
+      sum += this->Areas[receiver.GetPatch()] *
+        this->GetDeviation(receiver, receiver.GetPart(slot)).square();
     }
   }
   return sum.maxCoeff();
 }
 
 //------------------------------------------------------------------------------
-void ScatteringRefinement::ChooseUniform(int clusters)
+void ScatteringRefinement::ChooseUniform(int clusters, double tolerance)
 {
-  this->Begin();
+  this->Begin(tolerance);
   std::priority_queue<std::pair<double, int>> queue;
   // The root holds all receivers.
   queue.emplace(std::numeric_limits<double>::infinity(), 0);
@@ -301,7 +421,7 @@ void ScatteringRefinement::ChooseUniform(int clusters)
 }
 
 //------------------------------------------------------------------------------
-// As Divides has it.
+// As Divides has it, for any light.
 std::vector<double> ScatteringRefinement::GetLimits() const
 {
   std::vector<double> limits(this->AreDivided.size(), this->Threshold);
@@ -345,6 +465,28 @@ struct ScatteringRefinement::Filler
     }
   }
 
+  // What is wide, and is not divided because its light is even, is summed up from parts that are
+  // not: the pieces of a cluster may agree with its centre by chance.
+  Values GetValue(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part) const
+  {
+    const double widest2 = this->Outer.WidestDeviation2;
+    Values value = Values::Zero();
+    receiver.VisitPart(
+      part,
+      [&](const ScatteringReceiver::Part& below)
+      {
+        return !below.IsExact &&
+          (receiver.GetDeviation(below).square() > widest2 * below.Value.square()).any();
+      },
+      [&](const ScatteringReceiver::Part& below)
+      {
+        value += below.IsExact || below.IsFactor
+          ? below.Value
+          : this->Outer.Clusters.Integrate(receiver.GetPatch(), below.Slot);
+      });
+    return value;
+  }
+
   void AddRow(const ScatteringReceiver& receiver, Block& block) const
   {
     const std::size_t before = block.Columns.size();
@@ -358,9 +500,7 @@ struct ScatteringRefinement::Filler
           return;
         }
         const ScatteringClusters& clusters = this->Outer.Clusters;
-        const Values value = part.IsExact || part.IsFactor
-          ? part.Value
-          : clusters.Integrate(receiver.GetPatch(), part.Slot);
+        const Values value = this->GetValue(receiver, part);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
         block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);

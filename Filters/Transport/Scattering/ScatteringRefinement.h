@@ -22,11 +22,16 @@
  *
  * The error that links have together is that of light which differs from its mean over each cluster
  * by Deviation of the mean, independently of the profile: the root of the sum of squares.
+ *
+ * Where the light is given (ClusterLight) its own deviation decides, in place of that one, and the
+ * error is what links miss of it beside much finer ones: errors of links have the same sign where
+ * both the light and the profile fall towards one side, so that squares would add up to too little.
  */
 #ifndef ScatteringRefinement_h
 #define ScatteringRefinement_h
 
 #include "Links/LinksThroughAir.h"
+#include "Scattering/ClusterLight.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringReceiver.h"
 #include "Shared/Monitor.h"
@@ -49,17 +54,20 @@ class ScatteringRefinement
 {
 public:
   /// All must outlive this. Errors of links are relative to `reference`, what a patch receives in
-  /// even light over the profile's total. What is certainly below `leaveOut`, per mm^2, is.
+  /// even light over the profile's total; with `light` (patches x bands of each of some lights;
+  /// empty for any light) to what patches receive of that. What is certainly below `leaveOut`, per
+  /// mm^2, is.
   ScatteringRefinement(const ScatteringClusters& clusters, const std::vector<double>& areas,
-    double reference, double leaveOut);
+    const std::vector<double>& light, double reference, double leaveOut);
 
-  ///@{ Which links there are. At most `mostLinks` (0: any number) on average.
-  void ChooseUniform(int clusters);
+  ///@{ Which links there are. At most `mostLinks` (0: any number) on average. Errors about as large
+  /// as the tolerance are told.
+  void ChooseUniform(int clusters, double tolerance);
   void ChooseAdaptive(double tolerance, double mostLinks);
   ///@}
 
   ///@{ Or keep a choice, which must outlive this. False where it does not do any more, see
-  ///ReuseLinks
+  /// ReuseLinks
   /// of vtkSubsurfaceScattering. Collective.
   bool KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks);
   bool KeepAdaptive(double mostLinks, const LinkChoice& kept, const Ranks& ranks);
@@ -123,13 +131,20 @@ private:
 
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
-  void Begin();
+  ScatteringIntegrals::Bands GetDeviation(const ScatteringReceiver& receiver,
+    const ScatteringReceiver::Part& part) const;
+  void Begin(double tolerance);
+  void LookAtLight(double tolerance);
+  template <typename Divide>
+  std::vector<double> Receive(const Divide& divide) const;
+  std::vector<double> GetSizes(const std::vector<double>& received) const;
+  double GetLightError(const std::vector<double>& received) const;
   void StartFrom(const LinkChoice& kept, const Ranks& ranks);
   double GetMostLinks(const Prospect& others) const;
   bool IsAsGoodAs(const Prospect& others, double mostLinks) const;
   void Look(vtkIdType patch, ScatteringReceiver& receiver) const;
   Prospect Measure(double threshold) const;
-  double FindThreshold(double tolerance, double mostLinks) const;
+  double FindThreshold(double tolerance, double mostLinks, int steps) const;
   double GetClusterError(int slot) const;
   double GetAirSample() const;
   void SumUpAir(const std::vector<Block>& blocks, const ScatteringIntegrals::Bands& totals,
@@ -139,9 +154,17 @@ private:
 
   const ScatteringClusters& Clusters;
   const std::vector<double>& Areas;
+  ClusterLight Light;
   const double Reference;
   const double LeaveOut;
   std::vector<ScatteringReceiver> Receivers; ///< some of all, by which rows are foreseen
+  /// What receivers get by much finer links, receivers x components of the light; empty for any.
+  std::vector<double> Received;
+  /// Squared deviation of the profile, over its mean, from which on its mean over a cluster is the
+  /// sum of parts; links for any light are narrow themselves.
+  double WidestDeviation2 = std::numeric_limits<double>::infinity();
+  /// Whether clusters that hold the receiver are, whatever their deviation.
+  bool DividesOwn = true;
   /// Nodes that are divided for all receivers.
   std::vector<bool> AreDivided;
   double Threshold = 0.0;

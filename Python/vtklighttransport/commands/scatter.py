@@ -35,6 +35,8 @@ PROPERTIES = (
            "that are small near by; auto takes the cheaper one of dense and adaptive"),
     Number("--number-of-links", "NumberOfLinks", int,
            "clusters of uniform links, and links of a patch that adaptive ones have at most"),
+    Switch("--refine-by-irradiance", "RefineByIrradiance", True,
+           "choose clusters by the light that falls in, too: fewer links, or a smaller error"),
     Switch("--compress-links", "CompressLinks", True,
            "keep links from clusters in one or two bytes each"),
     Number("--compression-tolerance", "CompressionTolerance", float,

@@ -147,10 +147,10 @@ public:
       *this->Integrals,
       ScatteringClusters::Tolerances{ 0.3 * setting.Tolerance, this->LeaveOut, 0.0075 * allowed });
     this->Refinement = std::make_unique<ScatteringRefinement>(*this->Clusters, this->Patches->Areas,
-      reference, this->LeaveOut);
+      this->AnyLight, reference, this->LeaveOut);
     if (setting.IsUniform)
     {
-      this->Refinement->ChooseUniform(setting.Links);
+      this->Refinement->ChooseUniform(setting.Links, setting.Tolerance);
     }
     else
     {
@@ -193,6 +193,7 @@ private:
   std::unique_ptr<ScatteringClusters> Clusters;
   std::unique_ptr<ScatteringRefinement> Refinement;
   double LeaveOut = 0.0;
+  const std::vector<double> AnyLight;
 };
 
 //------------------------------------------------------------------------------
