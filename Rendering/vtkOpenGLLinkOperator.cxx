@@ -185,12 +185,12 @@ bool vtkOpenGLLinkOperator::Check(vtkExchange* exchange, int numberOfBands)
     return false;
   }
   const int kernels = exchange->GetNumberOfKernels();
-  if (numberOfBands < 1 || numberOfBands > MaximumNumberOfBands ||
-    (kernels != 1 && kernels != numberOfBands))
+  if (numberOfBands < 1 || numberOfBands > MaximumNumberOfBands || kernels < 1 ||
+    numberOfBands % kernels != 0)
   {
     vtkErrorMacro(<< numberOfBands << " bands with " << kernels << " kernels: OpenGL takes 1 to "
                   << int(MaximumNumberOfBands)
-                  << " bands, and one kernel or as many as bands. Set Device to CPU for more.");
+                  << " bands, a multiple of the kernels. Set Device to CPU for more.");
     return false;
   }
   if (exchange->GetNumberOfParts() > 1)

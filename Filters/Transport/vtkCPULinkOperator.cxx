@@ -57,10 +57,10 @@ bool vtkCPULinkOperator::Initialize(vtkExchange* exchange, int numberOfBands)
     return false;
   }
   const int kernels = exchange->GetNumberOfKernels();
-  if (kernels != 1 && kernels != numberOfBands)
+  if (kernels < 1 || numberOfBands % kernels != 0)
   {
-    vtkErrorMacro("The exchange matrix has " << kernels << " kernels for " << numberOfBands
-                                             << " bands: give it one kernel, or one per band.");
+    vtkErrorMacro("The exchange has " << kernels << " kernels for " << numberOfBands
+                                      << " bands: the bands must be a multiple of the kernels.");
     return false;
   }
   if (exchange->GetNumberOfParts() > 1 &&
@@ -228,7 +228,7 @@ bool vtkCPULinkOperator::GetRow(vtkIdType i, int band, double* row)
     vtkErrorMacro("A row needs all links: call Initialize with an exchange in a single part.");
     return false;
   }
-  this->FillRow(i, this->NumberOfKernels == 1 ? 0 : band, row);
+  this->FillRow(i, band % this->NumberOfKernels, row);
   return true;
 }
 

@@ -67,15 +67,10 @@ struct TileProducts
       {
         continue;
       }
-      if (this->Kernels == 1)
-      {
-        this->MultiplyKernel(tile, tile.Values, this->Bands, this->X, y);
-        continue;
-      }
       for (int kernel = 0; kernel < this->Kernels; ++kernel)
       {
         const long offset = kernel * this->Stride;
-        this->MultiplyKernel(tile, tile.Values + kernel * N * N, 1, this->X + offset, y + offset);
+        this->MultiplyKernel(tile, tile.Values + kernel * N * N, this->X + offset, y + offset);
       }
     }
   }
@@ -93,19 +88,21 @@ struct TileProducts
     }
   }
 
-  void MultiplyKernel(const vtkExchangeMatrix::Tile& tile, const float* values, int bands,
-    const double* x, double* y) const
+  // All bands of a kernel, which lie that many bands apart.
+  void MultiplyKernel(const vtkExchangeMatrix::Tile& tile, const float* values, const double* x,
+    double* y) const
   {
+    const int bands = this->Bands / this->Kernels;
+    const long stride = this->Kernels * this->Stride;
     const vtkIdType row = tile.Row * N;
     const vtkIdType column = tile.Column * N;
     if (row == column)
     {
-      TileKernels::MultiplyTileRows(values, bands, this->Stride, x + row, y + row);
+      TileKernels::MultiplyTileRows(values, bands, stride, x + row, y + row);
     }
     else
     {
-      TileKernels::MultiplyTile(values, bands, this->Stride, x + row, x + column, y + row,
-        y + column);
+      TileKernels::MultiplyTile(values, bands, stride, x + row, x + column, y + row, y + column);
     }
   }
 
@@ -156,12 +153,12 @@ struct RowOfTiles
   void Gather(const float* values, bool transposed, const double* x, double* y) const
   {
     const int kernels = this->Exchange.GetNumberOfKernels();
-    const int bands = kernels == 1 ? this->Bands : 1;
     for (int kernel = 0; kernel < kernels; ++kernel)
     {
       const auto multiply =
         transposed ? TileKernels::MultiplyTileColumns : TileKernels::MultiplyTileRows;
-      multiply(values + kernel * N * N, bands, N, x + kernel * N, y + kernel * N);
+      multiply(values + kernel * N * N, this->Bands / kernels, kernels * N, x + kernel * N,
+        y + kernel * N);
     }
   }
 
@@ -244,7 +241,7 @@ bool vtkDenseLinkOperator::Sweep(int x, int e, int left)
     const int patches = static_cast<int>(std::min(N, this->NumberOfPatches - row * N));
     for (int band = 0; band < this->NumberOfBands; ++band)
     {
-      const int kernel = this->Exchange->GetNumberOfKernels() == 1 ? 0 : band;
+      const int kernel = band % this->NumberOfKernels;
       const long offset = band * this->Stride + row * N;
       double* block = solution->data() + offset;
       for (int i = 0; i < patches; ++i)

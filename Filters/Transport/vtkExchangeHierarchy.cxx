@@ -183,14 +183,22 @@ bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vecto
 //------------------------------------------------------------------------------
 bool vtkExchangeHierarchy::SetCodedRows(CodedRows rows)
 {
-  const auto areSlots = [slots = this->GetNumberOfSlots()](const std::vector<int>& table)
-  { return std::all_of(table.begin(), table.end(), [=](int s) { return s >= 0 && s < slots; }); };
-  const bool good = areSlots(rows.Rows) && areSlots(rows.Slots) &&
+  const int slots = this->GetNumberOfSlots();
+  bool good =
     rows.Book.size() == static_cast<std::size_t>(CodedRows::BookSize) * this->NumberOfKernels;
+  for (const CodedRows::Tile& tile : rows.Tiles)
+  {
+    good = good && tile.FirstRow >= 0 && tile.LastRow <= slots;
+    rows.VisitSlots(tile, [&](int, int slot) { good = good && slot >= 0 && slot < slots; });
+  }
   if (good)
   {
     this->NumberOfLinks += static_cast<vtkIdType>(rows.NumberOfLinks - this->Coded.NumberOfLinks);
     this->Coded = std::move(rows);
+    if (this->Columns.empty())
+    {
+      std::vector<std::int64_t>().swap(this->Offsets);
+    }
     this->Symmetric = false;
     this->Modified();
   }
@@ -241,7 +249,8 @@ double vtkExchangeHierarchy::GetValue(vtkIdType i, vtkIdType j, int kernel) cons
   double sum = this->GetCodedValue(rows, others, kernel);
   for (const int slot : rows)
   {
-    for (std::int64_t link = this->Offsets[slot]; link < this->Offsets[slot + 1]; ++link)
+    const auto [first, last] = this->GetRow(slot);
+    for (std::int64_t link = first; link < last; ++link)
     {
       const bool isOther =
         std::find(others.begin(), others.end(), this->Columns[link]) != others.end();
@@ -261,9 +270,11 @@ double vtkExchangeHierarchy::GetCodedValue(const std::vector<int>& rows,
   double sum = 0.0;
   for (const CodedRows::Tile& tile : this->Coded.Tiles)
   {
+    std::vector<int> slots;
+    this->Coded.VisitSlots(tile, [&](int, int slot) { slots.push_back(slot); });
     const auto add = [&](int place, int code)
     {
-      sum += isIn(others, this->Coded.Slots[tile.FirstSlot + place])
+      sum += isIn(others, slots[place])
         ? static_cast<double>(this->Coded.Book[code * this->NumberOfKernels + kernel])
         : 0.0;
     };
@@ -291,8 +302,7 @@ double vtkExchangeHierarchy::GetNumberOfLinkBytes() const
 {
   const CodedRows& coded = this->Coded;
   return GetBytes(this->Offsets) + GetBytes(this->Columns) + GetBytes(this->Values) +
-    GetBytes(coded.Book) + GetBytes(coded.Rows) + GetBytes(coded.Slots) + GetBytes(coded.Tiles) +
-    GetBytes(coded.Pairs) + GetBytes(coded.Bytes);
+    GetBytes(coded.Book) + GetBytes(coded.Slots) + GetBytes(coded.Tiles) + GetBytes(coded.Bytes);
 }
 
 //------------------------------------------------------------------------------

@@ -35,6 +35,7 @@
 #include "vtkExchange.h"
 
 #include <cstdint> // for std::int64_t
+#include <utility> // for std::pair
 
 class vtkMultiProcessController;
 
@@ -65,6 +66,10 @@ public:
    * BookSize of them; the first of these slots, Common of them, are linked with every row of the
    * tile. Each row of each tile is a piece: the codes of the common slots, then the place in the
    * tile's slots, and the code, of every other link. Rows with more slots have several tiles.
+   *
+   * Numbers are written seven bits to a byte, lowest first, the eighth says that more follow: how
+   * many links a piece has beside the common ones, before it, and slots, which ascend in the common
+   * part and in the rest, as steps from the one before.
    */
   struct CodedRows
   {
@@ -74,28 +79,66 @@ public:
 
     struct Tile
     {
-      int FirstRow; ///< in Rows
+      int FirstRow; ///< slots [first, last) that receive
       int LastRow;
-      int FirstSlot; ///< in Slots
-      int LastSlot;
+      int NumberOfSlots; ///< that send
       int Common;
-      std::int64_t FirstPiece; ///< in Pairs
-      std::int64_t FirstByte;  ///< in Bytes
+      std::int64_t FirstSlot; ///< in Slots
+      std::int64_t FirstByte; ///< in Bytes
     };
 
-    std::vector<float>
-      Book;                ///< values of entry e: Book[e * kernels + kernel]; of entry 0 they are 0
-    std::vector<int> Rows; ///< slots that receive
-    std::vector<int> Slots;  ///< slots that send
+    /// Values of entry e: Book[e * kernels + kernel]; of entry 0 they are 0.
+    std::vector<float> Book;
     std::vector<Tile> Tiles; ///< those of the same rows one after the other
-    std::vector<int> Pairs;  ///< of each piece: links beside the common ones
+    std::vector<std::uint8_t> Slots;
     std::vector<std::uint8_t> Bytes;
     std::int64_t NumberOfLinks = 0;
+
+    static void WriteNumber(std::uint32_t number, std::vector<std::uint8_t>& bytes)
+    {
+      for (; number > 127; number >>= 7)
+      {
+        bytes.push_back(static_cast<std::uint8_t>(number | 128));
+      }
+      bytes.push_back(static_cast<std::uint8_t>(number));
+    }
+    static std::uint32_t ReadNumber(const std::uint8_t*& bytes)
+    {
+      std::uint32_t number = *bytes & 127;
+      for (int shift = 7; (*bytes++ & 128) != 0; shift += 7)
+      {
+        number |= static_cast<std::uint32_t>(*bytes & 127) << shift;
+      }
+      return number;
+    }
 
     /// Whether a tile has the rows of the one before.
     bool Continues(std::size_t tile) const
     {
       return tile > 0 && this->Tiles[tile].FirstRow == this->Tiles[tile - 1].FirstRow;
+    }
+
+    /// The end of Slots becomes a tile's slots; `common` as above.
+    void WriteSlots(const int* begin, const int* end, int common)
+    {
+      for (const int* slot = begin; slot != end; ++slot)
+      {
+        const bool isFirst = slot == begin || slot == begin + common;
+        WriteNumber(static_cast<std::uint32_t>(isFirst ? *slot : *slot - slot[-1]), this->Slots);
+      }
+    }
+
+    /// visitor(place in the tile's slots, slot) for each of them.
+    template <typename Visitor>
+    void VisitSlots(const Tile& tile, Visitor&& visitor) const
+    {
+      const std::uint8_t* bytes = this->Slots.data() + tile.FirstSlot;
+      int slot = 0;
+      for (int place = 0; place < tile.NumberOfSlots; ++place)
+      {
+        slot = (place == tile.Common ? 0 : slot) + static_cast<int>(ReadNumber(bytes));
+        visitor(place, slot);
+      }
     }
 
     /// visitor(row's slot, its bytes, pairs) for each piece of a tile.
@@ -105,8 +148,8 @@ public:
       const std::uint8_t* bytes = this->Bytes.data() + tile.FirstByte;
       for (int row = tile.FirstRow; row < tile.LastRow; ++row)
       {
-        const int pairs = this->Pairs[tile.FirstPiece + row - tile.FirstRow];
-        visitor(this->Rows[row], bytes, pairs);
+        const int pairs = static_cast<int>(ReadNumber(bytes));
+        visitor(row, bytes, pairs);
         bytes += tile.Common + 2 * static_cast<std::int64_t>(pairs);
       }
     }
@@ -181,11 +224,17 @@ public:
   /// Whether each link is there in both directions.
   bool IsSymmetric() const { return this->Symmetric; }
   ///@{ Row r of the table: slots columns[k] and values[k * kernels + kernel] for offsets[r] <= k <
-  /// offsets[r + 1].
+  /// offsets[r + 1]. No offsets where all rows are coded.
   const std::vector<std::int64_t>& GetOffsets() const { return this->Offsets; }
   const std::vector<int>& GetColumns() const { return this->Columns; }
   const std::vector<float>& GetValues() const { return this->Values; }
   ///@}
+  /// Of a row: the first of its links, and that after the last.
+  std::pair<std::int64_t, std::int64_t> GetRow(int slot) const
+  {
+    return this->Offsets.empty() ? std::pair<std::int64_t, std::int64_t>()
+                                 : std::make_pair(this->Offsets[slot], this->Offsets[slot + 1]);
+  }
   /// Without tiles unless SetCodedRows has been called.
   const CodedRows& GetCodedRows() const { return this->Coded; }
 

@@ -16,107 +16,124 @@ vtkStandardNewMacro(vtkHierarchicalLinkOperator);
 
 namespace
 {
-// Bands that one pass over the links serves.
+// Kernels, or bands that share one, and lights with kernels that one pass over the links serves.
 constexpr int MaximumBands = 4;
+constexpr int MaximumLights = 4;
 // Rows that a thread takes at a time: rows differ in length.
 constexpr vtkIdType RowsPerTask = 1024;
 constexpr vtkIdType TilesPerTask = 16;
 
+// What a pass over the links sums up: bands First to First + Count of each of some lights, which
+// lie Kernels bands apart. Where there is one kernel all bands are those of one light.
+struct Pass
+{
+  const vtkExchangeHierarchy& Hierarchy;
+  int Bands; ///< of a slot
+  int First;
+  const double* Sent; ///< from the first band on
+  double* Received;
+
+  bool HasKernels() const { return this->Hierarchy.GetNumberOfKernels() > 1; }
+  const double* GetSent(int slot) const
+  {
+    return this->Sent + static_cast<std::int64_t>(slot) * this->Bands;
+  }
+  double* GetReceived(vtkIdType slot) const { return this->Received + slot * this->Bands; }
+};
+
 //------------------------------------------------------------------------------
-// Y_I = sum of K X_J for bands [0, Count) of `Bands`. Bands share one value of each link, or have
+// Y_I = sum of K X_J for Count bands of some lights. Bands share one value of each link, or have
 // kernels of their own.
-template <int Count, bool HasKernels>
+template <int Count, int Lights, bool HasKernels>
 struct Gather
 {
   // Sums that do not wait for each other: an addition takes some four cycles.
   static constexpr int Chains = Count > 2 ? 2 : 8 / Count;
 
-  const vtkExchangeHierarchy& Hierarchy;
-  int Bands;
-  const double* Sent;
-  double* Received;
-  int FirstKernel; ///< where bands have their own
+  const Pass& Work;
 
   void operator()(vtkIdType begin, vtkIdType end) const
   {
-    const std::int64_t* offsets = this->Hierarchy.GetOffsets().data();
-    const int* columns = this->Hierarchy.GetColumns().data();
-    const float* values = this->Hierarchy.GetValues().data() + this->FirstKernel;
-    const int kernels = HasKernels ? this->Hierarchy.GetNumberOfKernels() : 1;
+    const vtkExchangeHierarchy& hierarchy = this->Work.Hierarchy;
+    const int* columns = hierarchy.GetColumns().data();
+    const float* values = hierarchy.GetValues().data() + (HasKernels ? this->Work.First : 0);
+    const int kernels = HasKernels ? hierarchy.GetNumberOfKernels() : 1;
     for (vtkIdType slot = begin; slot < end; ++slot)
     {
-      double sums[Chains][Count] = {};
-      std::int64_t link = offsets[slot];
-      for (; link + Chains <= offsets[slot + 1]; link += Chains)
+      double sums[Chains][Lights * Count] = {};
+      auto [link, last] = hierarchy.GetRow(static_cast<int>(slot));
+      for (; link + Chains <= last; link += Chains)
       {
         for (int chain = 0; chain < Chains; ++chain)
         {
-          this->Add(columns[link + chain], values + (link + chain) * kernels, sums[chain]);
+          this->Add(columns[link + chain], values + (link + chain) * kernels, kernels, sums[chain]);
         }
       }
-      for (; link < offsets[slot + 1]; ++link)
+      for (; link < last; ++link)
       {
-        this->Add(columns[link], values + link * kernels, sums[0]);
+        this->Add(columns[link], values + link * kernels, kernels, sums[0]);
       }
-      for (int band = 0; band < Count; ++band)
+      double* received = this->Work.GetReceived(slot);
+      for (int band = 0; band < Lights * Count; ++band)
       {
         double sum = 0.0;
         for (int chain = 0; chain < Chains; ++chain)
         {
           sum += sums[chain][band];
         }
-        this->Received[slot * this->Bands + band] = sum;
+        received[band / Count * kernels + band % Count] = sum;
       }
     }
   }
 
-  void Add(int column, const float* values, double* sums) const
+  void Add(int column, const float* values, int kernels, double* sums) const
   {
-    const double* sent = this->Sent + static_cast<std::int64_t>(column) * this->Bands;
-    for (int band = 0; band < Count; ++band)
+    const double* sent = this->Work.GetSent(column);
+    for (int light = 0; light < Lights; ++light)
     {
-      sums[band] += static_cast<double>(values[HasKernels ? band : 0]) * sent[band];
+      for (int band = 0; band < Count; ++band)
+      {
+        sums[light * Count + band] +=
+          static_cast<double>(values[HasKernels ? band : 0]) * sent[light * kernels + band];
+      }
     }
   }
 };
 
 //------------------------------------------------------------------------------
-// Y_I += sum over the coded links of I, for bands [0, Count) of `Bands`. What a tile's rows hear is
+// Y_I += sum over the coded links of I, for Count bands of some lights. What a tile's rows hear is
 // copied into one place first, so that nothing else than it, the book and the bytes are read.
-template <int Count>
+template <int Count, int Lights>
 struct GatherCodes
 {
   using CodedRows = vtkExchangeHierarchy::CodedRows;
   // Three bands take as long as four, which are whole vectors.
   static constexpr int Lanes = Count + (Count == 3 ? 1 : 0);
-  static constexpr int TileValues = Lanes * CodedRows::BookSize;
+  static constexpr int All = Lights * Lanes;
 
+  const Pass& Work;
   const CodedRows& Coded;
-  int Bands;
-  const double* Sent;
-  double* Received;
-  std::vector<double> Book; ///< as MakeBook makes it
+  std::vector<double> Book; ///< Lanes values of each code
 
-  static std::vector<double> MakeBook(const vtkExchangeHierarchy& hierarchy, int firstKernel)
+  explicit GatherCodes(const Pass& pass)
+    : Work(pass), Coded(pass.Hierarchy.GetCodedRows()), Book(Lanes * CodedRows::BookSize, 0.0)
   {
-    const std::vector<float>& values = hierarchy.GetCodedRows().Book;
-    const int kernels = hierarchy.GetNumberOfKernels();
-    std::vector<double> book(TileValues, 0.0);
+    const int kernels = pass.Hierarchy.GetNumberOfKernels();
     for (int code = 0; code < CodedRows::BookSize; ++code)
     {
       for (int band = 0; band < Count; ++band)
       {
-        const int kernel = kernels > 1 ? firstKernel + band : 0;
-        book[code * Lanes + band] = static_cast<double>(values[code * kernels + kernel]);
+        const int kernel = (pass.First + band) % kernels;
+        this->Book[code * Lanes + band] =
+          static_cast<double>(this->Coded.Book[code * kernels + kernel]);
       }
     }
-    return book;
   }
 
   // Tiles of the same rows stay on one thread: they add to the same sums.
   void operator()(vtkIdType begin, vtkIdType end) const
   {
-    std::vector<double> heard(TileValues, 0.0);
+    std::vector<double> heard(All * CodedRows::BookSize, 0.0);
     const auto skip = [&](vtkIdType tile)
     {
       while (tile < static_cast<vtkIdType>(this->Coded.Tiles.size()) && this->Coded.Continues(tile))
@@ -134,54 +151,78 @@ struct GatherCodes
 
   void GatherTile(const CodedRows::Tile& tile, double* heard) const
   {
-    for (int slot = tile.FirstSlot; slot < tile.LastSlot; ++slot)
-    {
-      const double* sent =
-        this->Sent + static_cast<std::int64_t>(this->Coded.Slots[slot]) * this->Bands;
-      std::copy(sent, sent + Count,
-        heard + static_cast<std::int64_t>(slot - tile.FirstSlot) * Lanes);
-    }
+    const int kernels = this->Work.Hierarchy.GetNumberOfKernels();
+    this->Coded.VisitSlots(tile,
+      [&](int place, int slot)
+      {
+        const double* sent = this->Work.GetSent(slot);
+        double* target = heard + static_cast<std::int64_t>(place) * All;
+        for (int light = 0; light < Lights; ++light)
+        {
+          std::copy_n(sent + light * kernels, Count, target + light * Lanes);
+        }
+      });
     const double* book = this->Book.data();
     this->Coded.VisitPieces(tile,
       [&](int row, const std::uint8_t* bytes, int pairs)
       {
-        double sums[Lanes] = {};
+        double sums[All] = {};
         CodedRows::VisitLinks(tile, bytes, pairs,
           [&](int place, int code)
           {
-            for (int lane = 0; lane < Lanes; ++lane)
+            for (int lane = 0; lane < All; ++lane)
             {
-              sums[lane] += book[code * Lanes + lane] * heard[place * Lanes + lane];
+              sums[lane] += book[code * Lanes + lane % Lanes] * heard[place * All + lane];
             }
           });
-        double* received = this->Received + static_cast<std::int64_t>(row) * this->Bands;
-        std::transform(sums, sums + Count, received, received, std::plus<double>());
+        double* received = this->Work.GetReceived(row);
+        for (int light = 0; light < Lights; ++light)
+        {
+          const double* sum = sums + light * Lanes;
+          double* target = received + light * kernels;
+          std::transform(sum, sum + Count, target, target, std::plus<double>());
+        }
       });
   }
 };
 
 //------------------------------------------------------------------------------
-template <int Count>
-void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, const double* sent,
-  double* received)
+template <int Count, int Lights>
+void GatherLights(const Pass& pass)
 {
-  double* target = received + first;
-  if (hierarchy.GetNumberOfKernels() > 1)
+  if (pass.HasKernels())
   {
-    Gather<Count, true> gather{ hierarchy, bands, sent + first, target, first };
-    Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+    Gather<Count, Lights, true> gather{ pass };
+    Threads::For(0, pass.Hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
   }
   else
   {
-    Gather<Count, false> gather{ hierarchy, bands, sent + first, target, 0 };
-    Threads::For(0, hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
+    Gather<Count, 1, false> gather{ pass };
+    Threads::For(0, pass.Hierarchy.GetNumberOfSlots(), RowsPerTask, gather);
   }
-  const auto tiles = static_cast<vtkIdType>(hierarchy.GetCodedRows().Tiles.size());
+  const auto tiles = static_cast<vtkIdType>(pass.Hierarchy.GetCodedRows().Tiles.size());
   if (tiles > 0)
   {
-    GatherCodes<Count> gather{ hierarchy.GetCodedRows(), bands, sent + first, target,
-      GatherCodes<Count>::MakeBook(hierarchy, first) };
+    GatherCodes<Count, Lights> gather(pass);
     Threads::For(0, tiles, TilesPerTask, gather);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <int Count>
+void GatherBands(Pass pass, int lights)
+{
+  const int kernels = pass.Hierarchy.GetNumberOfKernels();
+  for (int done = 0; done < lights;)
+  {
+    const int left = lights - done;
+    const int now = left >= MaximumLights ? MaximumLights : left >= 2 ? 2 : 1;
+    now == 1     ? GatherLights<Count, 1>(pass)
+      : now == 2 ? GatherLights<Count, 2>(pass)
+                 : GatherLights<Count, MaximumLights>(pass);
+    pass.Sent += now * kernels;
+    pass.Received += now * kernels;
+    done += now;
   }
 }
 
@@ -189,21 +230,24 @@ void GatherBands(const vtkExchangeHierarchy& hierarchy, int bands, int first, co
 void GatherAll(const vtkExchangeHierarchy& hierarchy, int bands, const double* sent,
   double* received)
 {
-  for (int first = 0; first < bands; first += MaximumBands)
+  const int kernels = hierarchy.GetNumberOfKernels();
+  const int each = kernels > 1 ? kernels : bands;
+  for (int first = 0; first < each; first += MaximumBands)
   {
-    switch (std::min(bands - first, MaximumBands))
+    const Pass pass{ hierarchy, bands, first, sent + first, received + first };
+    switch (std::min(each - first, MaximumBands))
     {
       case 1:
-        GatherBands<1>(hierarchy, bands, first, sent, received);
+        GatherBands<1>(pass, bands / each);
         break;
       case 2:
-        GatherBands<2>(hierarchy, bands, first, sent, received);
+        GatherBands<2>(pass, bands / each);
         break;
       case 3:
-        GatherBands<3>(hierarchy, bands, first, sent, received);
+        GatherBands<3>(pass, bands / each);
         break;
       default:
-        GatherBands<MaximumBands>(hierarchy, bands, first, sent, received);
+        GatherBands<MaximumBands>(pass, bands / each);
     }
   }
 }
@@ -298,11 +342,11 @@ void vtkHierarchicalLinkOperator::FillRow(vtkIdType i, int kernel, double* row)
 {
   this->Received.assign(this->Hierarchy->GetNumberOfSlots(), 0.0);
   const int nodes = this->Hierarchy->GetNumberOfNodes();
-  const std::vector<std::int64_t>& offsets = this->Hierarchy->GetOffsets();
   for (int slot = nodes + static_cast<int>(i); slot >= 0;
        slot = this->Hierarchy->GetParents()[slot])
   {
-    for (std::int64_t link = offsets[slot]; link < offsets[slot + 1]; ++link)
+    const auto [first, last] = this->Hierarchy->GetRow(slot);
+    for (std::int64_t link = first; link < last; ++link)
     {
       this->Received[this->Hierarchy->GetColumns()[link]] +=
         this->Hierarchy->GetValues()[link * this->Hierarchy->GetNumberOfKernels() + kernel];
@@ -328,8 +372,10 @@ void vtkHierarchicalLinkOperator::FillCodedRow(vtkIdType i, int kernel)
   {
     rows.insert(slot);
   }
+  std::vector<int> slots(CodedRows::BookSize);
   for (const CodedRows::Tile& tile : coded.Tiles)
   {
+    coded.VisitSlots(tile, [&](int place, int slot) { slots[place] = slot; });
     coded.VisitPieces(tile,
       [&](int row, const std::uint8_t* bytes, int pairs)
       {
@@ -338,7 +384,7 @@ void vtkHierarchicalLinkOperator::FillCodedRow(vtkIdType i, int kernel)
           CodedRows::VisitLinks(tile, bytes, pairs,
             [&](int place, int code)
             {
-              this->Received[coded.Slots[tile.FirstSlot + place]] += static_cast<double>(
+              this->Received[slots[place]] += static_cast<double>(
                 coded.Book[code * this->Hierarchy->GetNumberOfKernels() + kernel]);
             });
         }

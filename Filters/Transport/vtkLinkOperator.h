@@ -36,8 +36,8 @@ public:
   /**
    * Take the exchange (uploading it where the operator has memory of its own) and set the number of
    * bands of all vectors. An operator that does not apply this form of exchange says so and returns
-   * false. With more than one kernel there must be as many bands as
-   * kernels, and band b uses kernel b.
+   * false. The number of bands must be a multiple of the number of kernels: band b uses kernel
+   * b % kernels, so several vectors that share the links may lie side by side.
    */
   virtual bool Initialize(vtkExchange* exchange, int numberOfBands) = 0;
 

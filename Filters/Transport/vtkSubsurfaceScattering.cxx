@@ -159,6 +159,8 @@ void vtkSubsurfaceScattering::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BurleyFit: " << this->BurleyFit << "\n";
   os << indent << "ComputeThickness: " << this->ComputeThickness << "\n";
   os << indent << "NumberOfLinks: " << this->NumberOfLinks << "\n";
+  os << indent << "ReuseLinks: " << this->ReuseLinks << "\n";
+  os << indent << "RefineByIrradiance: " << this->RefineByIrradiance << "\n";
   os << indent << "CompressLinks: " << this->CompressLinks << "\n";
   os << indent << "CompressionTolerance: " << this->CompressionTolerance << "\n";
   os << indent << "DropLinksThroughAir: " << this->DropLinksThroughAir << "\n";

@@ -41,49 +41,56 @@
  * coefficients hold. Each band has photons of its own then. RefractiveIndex and Anisotropy do not
  * vary.
  *
- * Input arrays (cells, float or double, 1 component = the same in all bands or 3 = red, green,
- * blue; choose others with SetInputArrayToProcess(0, ...)):
+ * Input arrays (cells, float or double, 1 component = the same in all bands, 3 = red, green, blue,
+ * or 3 for each of several lights, one light after another; choose others with
+ * SetInputArrayToProcess(0, ...)):
  * - "Irradiance" when Incidence is Diffuse, incident flux per unit area;
  * - "TransmittedIrradiance" when Incidence is Transmitted, flux per unit area that has entered the
  *   surface already; vtkDirectIrradiance writes it. Array 1, where one is chosen, comes before
  * array 0 then, so that both choices can be kept.
  *
+ * Several lights share the links, and passes over them: they cost less than as many runs, and each
+ * comes out as if it were alone. MODEL_MONTE_CARLO needs links for them (LINK_METHOD_DENSE).
+ *
  * Output arrays (cells and points, double):
- * - "ScatteredIrradiance" (3 components): radiant exitance that leaves the surface by scattering,
- * in all directions, per unit area, without a factor 1/pi; in the unit of the input array. What
- * was scattered once or more: light that runs through the body unscattered is not in it;
+ * - "ScatteredIrradiance" (3 components for each light, in their order): radiant exitance that
+ * leaves the surface by scattering, in all directions, per unit area, without a factor 1/pi; in the
+ * unit of the input array. What was scattered once or more: light that runs through the body
+ * unscattered is not in it;
  * - "ScatteredIrradianceError" (MODEL_MONTE_CARLO): one standard error of it; of a patch that no
  * photon has reached that of one photon;
  * - with ComputeThickness "Thickness" (mm) and "DiffusionThickness" (3 components).
  *
  * Output field data: "NumberOfLinks", "LinksPerReceiver", "LinksLeftOut", "LinkMethodUsed",
  * "LinkErrorBound" (Dense) or "LinkError" and "LinksLimitedBy" (others), "LinkBytes",
- * "LinkSeconds", "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components each; irradiance
- * times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port 1 is a
- * vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds", "ErrorBound".
- * "LinksReused" is 1 where links of an earlier run were taken. "LinksThroughAir" (models that are
- * profiles, 3 components; not of texels): of the light that links carry, those that are dropped
- * included, the share that goes through the air between parts of the body, see DropLinksThroughAir;
- * estimated from some 64 links of each patch, with one standard error "LinksThroughAirError", exact
- * where they are dropped and for one convex body (0). "ProfileTotal" (those models, 3 components):
- * what a flat surface gives back of the light that enters; a body may give back more or less, and a
- * warning tells where it is more than enters. "ProfileError" (MODEL_TABULATED, 3 components):
- * standard error of that, relative; more where less than 1e-4 is absorbed. Light that Monte Carlo
- * lets enter again counts in LeavingFlux each time it leaves. Monte Carlo without links has in
- * their place "PhotonsTraced", "RelativeError" (of each band, as TargetError), "LeavingShare" (of
- * what enters, what goes away for good after scattering) with "LeavingShareError",
- * "UnscatteredShare", "LostShare" (0 but for surfaces that cross themselves and very large bodies),
- * "ScatteringsPerPhoton", "EntriesPerPhoton" and "WalkSeconds", and in the table "Photons",
- * "WalkSeconds", "Error". With ComputeThickness "ThinShare" (3 components: the part of the surface
- * that is thinner than two diffusion lengths).
+ * "LinkSeconds", "ApplySeconds", "EnteringFlux" and "LeavingFlux" (3 components for each light;
+ * irradiance times the square of the input's length unit), "DeviceUsed", "DeviceExplanation". Port
+ * 1 is a vtkTable with one row: "Links", "LinksLeftOut", "LinkSeconds", "ApplySeconds",
+ * "ErrorBound". "LinksReused" is 1 where links of an earlier run were taken, and of a body that has
+ * moved the share of links from the clusters that were chosen before, see ReuseLinks.
+ * "LinksThroughAir" (models that are profiles, 3 components for each light; not of texels): of the
+ * light that links carry, those that are dropped included, the share that goes through the air
+ * between parts of the body, see DropLinksThroughAir; estimated from some 64 links of each patch,
+ * with one standard error "LinksThroughAirError", exact where they are dropped and for one convex
+ * body (0). "ProfileTotal" (those models, 3 components): what a flat surface gives back of the
+ * light that enters; a body may give back more or less, and a warning tells where it is more than
+ * enters. "ProfileError" (MODEL_TABULATED, 3 components): standard error of that, relative; more
+ * where less than 1e-4 is absorbed. Light that Monte Carlo lets enter again counts in LeavingFlux
+ * each time it leaves. Monte Carlo without links has in their place "PhotonsTraced",
+ * "RelativeError" (of each band, as TargetError), "LeavingShare" (of what enters, what goes away
+ * for good after scattering) with "LeavingShareError", "UnscatteredShare", "LostShare" (0 but for
+ * surfaces that cross themselves and very large bodies), "ScatteringsPerPhoton", "EntriesPerPhoton"
+ * and "WalkSeconds", and in the table "Photons", "WalkSeconds", "Error". With ComputeThickness
+ * "ThinShare" (3 components: the part of the surface that is thinner than two diffusion lengths).
  *
  * Errors: coefficients that are negative or not finite, a band without scattering and absorption, a
- * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing or not
- * finite, links that do not fit into memory. Monte Carlo: a surface that is open, inside out, has
- * no inside or crosses itself; irradiance below 0 without links; Anisotropy out of its range; a
- * medium without any of its arrays, that is flat, or has values below 0 or not finite. A medium
- * with another Model. Texels: an image that has not all their arrays, values that are not finite or
- * areas below 0, images beside surfaces, what looks into the body.
+ * refractive index below 1, MillimetersPerUnit not above 0, irradiance that is missing, not
+ * finite or of any other number of components, links that do not fit into memory. Monte Carlo: a
+ * surface that is open, inside out, has no inside or crosses itself; irradiance below 0, or of
+ * several lights, without links; Anisotropy out of its range; a medium without any of its arrays,
+ * that is flat, or has values below 0 or not finite. A medium with another Model. Texels: an image
+ * that has not all their arrays, values that are not finite or areas below 0, images beside
+ * surfaces, what looks into the body.
  *
  * H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model for Subsurface Light
  * Transport", SIGGRAPH 2001; H. W. Jensen, J. Buhler, "A Rapid Hierarchical Rendering Technique for
@@ -297,6 +304,42 @@ public:
 
   ///@{
   /**
+   * Keep the choice of links from clusters for a body that moves: when points have other
+   * coordinates, but polygons the same point ids in the same blocks (or texels of an image other
+   * positions, normals and areas), only the factors of links are evaluated anew, for the clusters
+   * that were chosen for an earlier position. Links are refined where that is not enough, and
+   * chosen afresh, clusters and all, where their error, as told, would exceed 1.2 times what it was
+   * when they were chosen, or what new ones of these clusters would tell, or their number 1.2 times
+   * that, or NumberOfLinks. So results within a movement differ from those of a new filter,
+   * within 1.2 times the error of links; they depend on the positions for which links were chosen
+   * last, and on none between: a body that comes back there has its links back. Rigid movements
+   * keep all links. Field data "LinksReused" is the share of links that were kept; links are chosen
+   * afresh as well after any property of links is changed. Switched off each result is that of a
+   * new filter, to the bit. Links between all pairs have nothing to be kept: all of them are
+   * evaluated anew. Default on.
+   */
+  vtkSetMacro(ReuseLinks, bool);
+  vtkGetMacro(ReuseLinks, bool);
+  vtkBooleanMacro(ReuseLinks, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Choose clusters by the light that is there, too: they are divided where both the profile and
+   * the irradiance differ within them, and are large where it is even. Fewer links, or a smaller
+   * error, for this light: half of either, about; of several lights the worst one counts in each
+   * cluster. LinkTolerance and field data "LinkError" are then what links miss of this light,
+   * relative to what leaves, both root mean square over the surface, of the worst component. Links
+   * are made again for each new light, and none are kept (ReuseLinks): for a series give all lights
+   * together, or leave this off. Links between all pairs do not look at it. Default off.
+   */
+  vtkSetMacro(RefineByIrradiance, bool);
+  vtkGetMacro(RefineByIrradiance, bool);
+  vtkBooleanMacro(RefineByIrradiance, bool);
+  ///@}
+
+  ///@{
+  /**
    * Keep links from clusters in one byte (Uniform) or two, by a code book of 256 values that is
    * trained on them, as Carr, Hall and Hart did: an eighth of the memory, and of what a product
    * reads. Auto then takes Adaptive; links between all pairs cannot be. Field data
@@ -387,8 +430,8 @@ public:
   /**
    * Error that links may have together, relative to all that a unit of entering light gives back
    * (the profile's total): for Dense of each patch; for Adaptive the root mean square over the
-   * surface, of light that differs from its mean over each cluster by .6 of it. Default 0:
-   * 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
+   * surface, of light that differs from its mean over each cluster by .6 of it (see
+   * RefineByIrradiance). Default 0: 1e-4 for Dense, 1e-2 for Adaptive. Range 0, or 1e-8, to 0.1.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 0.1);
   vtkGetMacro(LinkTolerance, double);
@@ -406,7 +449,8 @@ public:
   ///@}
 
   ///@{
-  /// Where the links are applied. Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
+  /// Where the links are applied, and those from clusters chosen (field data "LinksChosenOn").
+  /// Default DEVICE_AUTO: OpenGL on a real GPU, else the CPU.
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENGL);
   vtkGetMacro(Device, int);
   void SetDeviceToAuto() { this->SetDevice(DEVICE_AUTO); }
@@ -455,6 +499,8 @@ private:
   bool ComputeThickness = false;
   bool DropLinksThroughAir = false;
   int NumberOfLinks = 64;
+  bool ReuseLinks = true;
+  bool RefineByIrradiance = false;
   bool CompressLinks = false;
   double CompressionTolerance = 0.0;
   double LinkTolerance = 0.0;

@@ -11,7 +11,22 @@ from xml.etree import ElementTree
 
 import numpy
 
-from TestingTools import FolderTestCase, read_picture, write_surface
+from TestingTools import FolderTestCase, make_box, make_surface, read_picture, write_surface
+from vtklighttransport.arrays import get_area_vectors, set_cell_array
+
+# 20 mean free paths a side.
+MEDIUM = ("--mm-per-unit", "20", "--refractive-index", "1", "--scattering", "0.9", "0.95", "0.98",
+          "--absorption", "0.1", "0.05", "0.02")
+
+
+def make_cube(count):
+    """Lit from one side, more in red than in blue."""
+    cube = make_surface(make_box((0, 0, 0), (1, 1, 1), outside=True, count=count))
+    vectors = get_area_vectors(cube)
+    normals = vectors / numpy.linalg.norm(vectors, axis=1)[:, None]
+    light = numpy.maximum(normals @ (0.6, 0.64, 0.48), 0.0)
+    set_cell_array(cube, "Irradiance", light[:, None] * (1.0, 0.8, 0.5))
+    return cube
 
 
 class ReportTestCase(FolderTestCase):

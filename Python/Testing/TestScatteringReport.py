@@ -10,29 +10,16 @@ import unittest
 
 import numpy
 
-from vtklighttransport.arrays import get_area_vectors, set_cell_array
+from vtklighttransport.arrays import set_cell_array
 from vtklighttransport.report.scattering import Difference
 
-from ReportTools import ReportTestCase
+from ReportTools import MEDIUM, ReportTestCase, make_cube
 from TestingTools import make_box, make_surface
 
 NUMBERS = ("tolerance", "patches", "seconds_all", "seconds_cpu", "error_stated")
 ERRORS = ("error_l2", "error_l2_low", "error_l2_high", "error_worst_band", "error_reference",
           "ratio_total", "ratio_total_error")
 MODELS = ["Dipole", "BetterDipole", "PhotonBeamDiffusion", "ChristensenBurley", "Tabulated"]
-# 20 mean free paths a side.
-MEDIUM = ("--mm-per-unit", "20", "--refractive-index", "1", "--scattering", "0.9", "0.95", "0.98",
-          "--absorption", "0.1", "0.05", "0.02")
-
-
-def make_cube(count):
-    """Lit from one side, more in red than in blue."""
-    cube = make_surface(make_box((0, 0, 0), (1, 1, 1), outside=True, count=count))
-    vectors = get_area_vectors(cube)
-    normals = vectors / numpy.linalg.norm(vectors, axis=1)[:, None]
-    light = numpy.maximum(normals @ (0.6, 0.64, 0.48), 0.0)
-    set_cell_array(cube, "Irradiance", light[:, None] * (1.0, 0.8, 0.5))
-    return cube
 
 
 class TestScatteringReport(ReportTestCase):
@@ -152,6 +139,8 @@ class TestScatteringReport(ReportTestCase):
              "--dense-tolerances: goes without --scatter"),
             ((cube, "--target-errors", "0.1,2"), "report", 2, "--target-errors: 2 is out of"),
             ((cube, "--link-tolerances", "0.5"), "report", 2, "--link-tolerances: 0.5 is out of"),
+            ((cube, "--numbers-of-links", "16"), "report", 2,
+             "--numbers-of-links: goes with --scatter-links"),
             ((cube, "--models", "dipole,magic"), "report", 2, "'magic' is none of ")))
 
 

@@ -49,7 +49,7 @@ CodedLayout::CodedLayout(const vtkExchangeHierarchy& hierarchy, const HierarchyL
 //------------------------------------------------------------------------------
 int CodedLayout::GetNumberOfEntryLines() const
 {
-  return FloatTextures::DivideUp(static_cast<vtkIdType>(this->Coded.Slots.size()), this->Width);
+  return FloatTextures::DivideUp(static_cast<vtkIdType>(this->Entries.size()), this->Width);
 }
 
 //------------------------------------------------------------------------------
@@ -64,6 +64,9 @@ void CodedLayout::FindPieces()
   this->Pieces.resize(static_cast<std::size_t>(this->Hierarchy.GetNumberOfSlots()));
   for (std::size_t tile = 0; tile < this->Coded.Tiles.size(); ++tile)
   {
+    this->FirstEntries.push_back(static_cast<std::uint32_t>(this->Entries.size()));
+    this->Coded.VisitSlots(this->Coded.Tiles[tile],
+      [this](int, int slot) { this->Entries.push_back(slot); });
     this->Coded.VisitPieces(this->Coded.Tiles[tile],
       [&](int row, const std::uint8_t* bytes, int pairs)
       {
@@ -165,7 +168,7 @@ CodedLayout::Words CodedLayout::MakeTiles() const
   {
     const CodedRows::Tile& source = this->Coded.Tiles[tile];
     const bool hasNext = tile + 1 < this->Coded.Tiles.size() && this->Coded.Continues(tile + 1);
-    words[2 * tile] = static_cast<std::uint32_t>(source.FirstSlot);
+    words[2 * tile] = this->FirstEntries[tile];
     words[2 * tile + 1] =
       static_cast<std::uint32_t>(source.Common / BytesPerTexel) | (hasNext ? HasNext : 0u);
   }
@@ -176,7 +179,7 @@ CodedLayout::Words CodedLayout::MakeTiles() const
 CodedLayout::Words CodedLayout::MakeEntries() const
 {
   Words words(static_cast<std::size_t>(this->Width) * this->GetNumberOfEntryLines(), 0);
-  std::transform(this->Coded.Slots.begin(), this->Coded.Slots.end(), words.begin(),
+  std::transform(this->Entries.begin(), this->Entries.end(), words.begin(),
     [this](int slot) { return static_cast<std::uint32_t>(this->Slots.GetSlotTexel(slot)); });
   return words;
 }
@@ -230,9 +233,8 @@ std::vector<float> CodedLayout::MakeBook(int groups) const
   {
     const int code = value / 4 % CodedRows::BookSize;
     const int band = value / (4 * CodedRows::BookSize) * 4 + value % 4;
-    const int kernel = kernels == 1 ? 0 : band;
     texels[static_cast<std::size_t>(value)] =
-      kernel < kernels ? this->Coded.Book[static_cast<std::size_t>(code) * kernels + kernel] : 0.0f;
+      this->Coded.Book[static_cast<std::size_t>(code) * kernels + band % kernels];
   }
   return texels;
 }

@@ -60,7 +60,8 @@ public:
   Words MakeBytes(int line) const;
   ///@}
 
-  /// For each code and each group of four bands, the values: a line of texels for each group.
+  /// For each code and each group of four bands, the values of the bands' kernels: a line of texels
+  /// for each group.
   std::vector<float> MakeBook(int groups) const;
 
 private:
@@ -86,9 +87,11 @@ private:
   const int Width;
   const int MaximumHeight;
   bool Fit = true;
-  std::vector<std::vector<Piece>> Pieces; ///< of each slot
-  std::vector<std::vector<int>> Lines;    ///< slots of each line of them
-  std::vector<int> FirstTexels;           ///< of each slot, in its texture
+  std::vector<int> Entries;                ///< the slots of all tiles
+  std::vector<std::uint32_t> FirstEntries; ///< of each tile
+  std::vector<std::vector<Piece>> Pieces;  ///< of each slot
+  std::vector<std::vector<int>> Lines;     ///< slots of each line of them
+  std::vector<int> FirstTexels;            ///< of each slot, in its texture
   std::vector<Part> Parts;
 };
 } // namespace LightTransport

@@ -56,7 +56,8 @@ DenseProductGL::DenseProductGL(FloatTextures& engine, const Layout& layout)
 Outcome DenseProductGL::Initialize(vtkExchangeMatrix* exchange, const Pause& pause)
 {
   this->SharedKernel = exchange->GetNumberOfKernels() == 1;
-  this->MatrixGroups = this->SharedKernel ? 1 : this->Vectors.Groups;
+  this->Kernels = exchange->GetNumberOfKernels();
+  this->MatrixGroups = FloatTextures::DivideUp(this->Kernels, 4);
   this->ColumnsPerTexel = this->SharedKernel ? 4 : 1;
   this->ChooseSizes();
   double texels = 0.0;
@@ -197,7 +198,8 @@ std::string DenseProductGL::GetDefines(int outputs) const
 {
   return this->Vectors.GetDefines(outputs) + "#define MATRIX_GROUPS " +
     std::to_string(this->MatrixGroups) + "\n#define ROWS " + std::to_string(this->RowsPerFragment) +
-    "\n#define SHARED_KERNEL " + (this->SharedKernel ? "1\n" : "0\n");
+    "\n#define KERNELS " + std::to_string(this->Kernels) + "\n#define SHARED_KERNEL " +
+    (this->SharedKernel ? "1\n" : "0\n");
 }
 
 //------------------------------------------------------------------------------

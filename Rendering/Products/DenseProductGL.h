@@ -44,6 +44,7 @@ private:
   Outcome DrawSumOfParts(const Group& target, const Group* previous);
 
   bool SharedKernel = true;
+  int Kernels = 1;
   int MatrixGroups = 1;
   int ColumnsPerTexel = 4;
   int Splits = 0;

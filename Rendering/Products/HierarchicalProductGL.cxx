@@ -38,6 +38,7 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
   this->PieceLines = tables.GetNumberOfPieceLines();
   this->LinksPerTexel = tables.GetLinksPerTexel();
   this->TexelsPerLink = tables.GetTexelsPerLink();
+  this->Kernels = hierarchy->GetNumberOfKernels();
   this->CodedLine = this->PieceLines + tables.GetNumberOfNodeLines();
   if (!codes.GetParts().empty())
   {
@@ -187,7 +188,8 @@ Outcome HierarchicalProductGL::GatherLinks()
   vtkShaderProgram* program = nullptr;
   Outcome used = this->Use(program, "GatherLinks", vtkLightTransportProductsHierarchyGatherLinksFS,
     "#define LINKS_PER_TEXEL " + std::to_string(this->LinksPerTexel) +
-      "\n#define TEXELS_PER_LINK " + std::to_string(this->TexelsPerLink) + "\n");
+      "\n#define TEXELS_PER_LINK " + std::to_string(this->TexelsPerLink) + "\n#define KERNELS " +
+      std::to_string(this->Kernels) + "\n");
   for (std::size_t tile = 0; used && tile < this->Tiles.size(); ++tile)
   {
     this->Engine.SetTextures(program, "links", this->Links[tile]);

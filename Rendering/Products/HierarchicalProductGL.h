@@ -50,6 +50,7 @@ private:
   int PieceLines = 0;
   int LinksPerTexel = 0;
   int TexelsPerLink = 0;
+  int Kernels = 0;
   int CodedLine = 0;                    ///< where sums of coded rows begin
   std::unique_ptr<CodedGatherGL> Codes; ///< where there are coded rows
   std::vector<Tile> Tiles;

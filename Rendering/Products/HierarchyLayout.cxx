@@ -71,7 +71,6 @@ HierarchyLayout::Range HierarchyLayout::PlaceRange(int first, int last)
 //------------------------------------------------------------------------------
 void HierarchyLayout::CutRows()
 {
-  const std::vector<std::int64_t>& offsets = this->Hierarchy.GetOffsets();
   const auto slots = static_cast<std::size_t>(this->Hierarchy.GetNumberOfSlots());
   const int most = std::max(
     std::min(MostLinksPerPiece / this->LinksPerTexel, this->MaximumHeight / this->TexelsPerLink),
@@ -79,8 +78,8 @@ void HierarchyLayout::CutRows()
   std::vector<int> lengths(slots);
   for (std::size_t slot = 0; slot < slots; ++slot)
   {
-    const int bunches =
-      FloatTextures::DivideUp(offsets[slot + 1] - offsets[slot], this->LinksPerTexel);
+    const auto [first, last] = this->Hierarchy.GetRow(static_cast<int>(slot));
+    const int bunches = FloatTextures::DivideUp(last - first, this->LinksPerTexel);
     const int pieces = std::max(FloatTextures::DivideUp(bunches, most), 1);
     lengths[slot] = this->LinksPerTexel * FloatTextures::DivideUp(bunches, pieces);
   }
@@ -93,8 +92,8 @@ void HierarchyLayout::CutRows()
   for (const std::size_t slot : order)
   {
     const std::size_t before = this->Pieces.size();
-    const std::int64_t end = offsets[slot + 1];
-    for (std::int64_t link = offsets[slot]; link < end; link += lengths[slot])
+    const auto [first, end] = this->Hierarchy.GetRow(static_cast<int>(slot));
+    for (std::int64_t link = first; link < end; link += lengths[slot])
     {
       this->Pieces.push_back(
         { link, static_cast<int>(std::min<std::int64_t>(end - link, lengths[slot])) });

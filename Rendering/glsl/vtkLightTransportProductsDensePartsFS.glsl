@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One range of columns of the product of a matrix tile with a vector. Fragment (x, y) computes ROWS rows, which share what is fetched
 // of the vector, from row (y / splits) * WIDTH + x * ROWS on, over the (y % splits)-th range of columns.
-// MATRIX_GROUPS: 1 where all bands share one kernel (SHARED_KERNEL), else GROUPS.
+// MATRIX_GROUPS: 1 where all bands share one kernel (SHARED_KERNEL), else textures with four of the KERNELS kernels each, of which
+// band b uses number b % KERNELS.
 uniform sampler2D matrix[MATRIX_GROUPS];
 uniform sampler2D vector[GROUPS];
 uniform int splits;
@@ -75,14 +76,22 @@ void main()
         } \
       }
 #else
-      // A texel holds one column of four bands.
+      // A texel holds one column of four kernels.
       ivec2 at = GetPlace(firstColumn + texel);
+      vec4 links[ROWS * MATRIX_GROUPS];
+#define FETCH(g) \
+      for (int r = 0; r < ROWS && g < MATRIX_GROUPS; ++r) \
+      { \
+        links[r * MATRIX_GROUPS + min(g, MATRIX_GROUPS - 1)] = LINKS(min(g, MATRIX_GROUPS - 1), r); \
+      }
+      FOR_ALL_GROUPS(FETCH)
+#define VALUE(r, b) links[r * MATRIX_GROUPS + (b) % KERNELS / 4][(b) % KERNELS % 4]
 #define ADD(g) \
       { \
         vec4 x = texelFetch(vector[g], at, 0); \
         for (int r = 0; r < ROWS; ++r) \
         { \
-          part[r * GROUPS + g] += LINKS(g, r) * x; \
+          part[r * GROUPS + g] += vec4(VALUE(r, 4 * g), VALUE(r, 4 * g + 1), VALUE(r, 4 * g + 2), VALUE(r, 4 * g + 3)) * x; \
         } \
       }
 #endif

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sum over a piece of a row of links. Fragment (x, y) takes column x of the lines that the y-th line of pieces has in the texture
 // of links. A texel holds two links: texel of the slot, value, twice. Or, with a kernel for each band, a link takes several texels below
-// each other: texel of the slot, then the values.
+// each other: texel of the slot, then the values of the KERNELS kernels, of which band b uses number b % KERNELS.
 uniform sampler2D links[1];
 uniform sampler2D lines[1];
 uniform sampler2D sent[GROUPS];
@@ -34,13 +34,15 @@ void main()
       ivec2 second = GetPlace(int(pair.z));
 #define ADD(g) part[g] += pair.y * texelFetch(sent[g], first, 0) + pair.w * texelFetch(sent[g], second, 0);
 #else
-      vec4 texel = texelFetch(links[0], ivec2(place.x, line), 0);
-      ivec2 slot = GetPlace(int(texel.x));
-      vec4 next;
+      vec4 texels[TEXELS_PER_LINK];
+      for (int texel = 0; texel < TEXELS_PER_LINK; ++texel)
+      {
+        texels[texel] = texelFetch(links[0], ivec2(place.x, line + texel), 0);
+      }
+      ivec2 slot = GetPlace(int(texels[0].x));
+#define VALUE(b) texels[(1 + (b) % KERNELS) / 4][(1 + (b) % KERNELS) % 4]
 #define ADD(g) \
-      next = g + 1 < TEXELS_PER_LINK ? texelFetch(links[0], ivec2(place.x, line + g + 1), 0) : vec4(0.0); \
-      part[g] += vec4(texel.yzw, next.x) * texelFetch(sent[g], slot, 0); \
-      texel = next;
+      part[g] += vec4(VALUE(4 * g), VALUE(4 * g + 1), VALUE(4 * g + 2), VALUE(4 * g + 3)) * texelFetch(sent[g], slot, 0);
 #endif
       FOR_ALL_GROUPS(ADD)
     }

@@ -332,7 +332,7 @@ vtkSmartPointer<vtkAlgorithm> MakeSingleScattering(Choices& choices, const Room&
   auto scattering = vtkSmartPointer<vtkSingleScattering>::New();
   ChooseMedium(choices, scattering.Get());
   ChooseLighting(choices, scattering);
-  scattering->SetNumberOfSamples(choices.Among({ 16, 256, 1, -1 }));
+  scattering->SetNumberOfSamples(choices.Among({ 16, 64, 1, -1 }));
   scattering->SetMinimumContribution(ChooseTolerance(choices, { 1e-2, 1e-3, 1e9 }));
   return scattering;
 }

@@ -348,6 +348,13 @@ extern "C"
     return ResizeBlock(block, bytes);
   }
 }
+
+//------------------------------------------------------------------------------
+// Who asks so takes no for an answer.
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  return bytes > LargestBlock ? nullptr : AllocateBlock(bytes);
+}
 #endif
 
 //------------------------------------------------------------------------------

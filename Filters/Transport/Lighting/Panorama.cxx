@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Lighting/Panorama.h"
 
+#include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -65,6 +66,10 @@ Outcome Panorama::Read(vtkImageData* picture)
          << size[0] << " x " << size[1] << " x " << size[2] << " with " << components
          << " components.";
     return Outcome::Failed(text.str());
+  }
+  if (const std::string problem = InputArrays::DescribeLengths(picture); !problem.empty())
+  {
+    return Outcome::Failed("In the environment " + problem + ".");
   }
   this->Width = size[0];
   this->Height = size[1];

@@ -39,8 +39,9 @@ public:
 
   virtual LinkKey GetKey() const = 0;
 
-  /// Make the links of a scene; `links` is empty before. Collective: the outcome is the same on all
-  /// ranks.
+  /// Make the links of a scene; `links` is empty before, but for a choice that was made for its
+  /// patches elsewhere: where that does not hold any more, no links are made. Collective: the
+  /// outcome is the same on all ranks.
   virtual Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
     Links& links) const = 0;
 };

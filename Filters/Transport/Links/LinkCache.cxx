@@ -24,11 +24,18 @@ bool LinkKey::IsServedBy(const LinkKey& kept) const
 }
 
 //------------------------------------------------------------------------------
-bool LinkCache::Serves(const PatchScene& scene, const LinkKey& key, const Ranks& ranks) const
+bool LinkCache::Fits(const LinkKey& key, const Ranks& ranks) const
 {
   const vtkExchange* exchange = this->Kept.GetExchange();
-  return exchange && this->Kept.Fingerprint == scene.GetFingerprint() &&
-    exchange->GetNumberOfParts() == ranks.GetNumber() && key.IsServedBy(this->Key);
+  return exchange && exchange->GetNumberOfParts() == ranks.GetNumber() && key.IsServedBy(this->Key);
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const PatchArrangement> LinkCache::FindArrangement(const LinkBuilder& builder,
+  const Ranks& ranks) const
+{
+  return this->Kept.Choice && this->Fits(builder.GetKey(), ranks) ? this->Kept.Choice->Arrangement
+                                                                  : nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -36,15 +43,24 @@ Outcome LinkCache::Update(const PatchScene& scene, const LinkBuilder& builder, c
   const Monitor& monitor)
 {
   const LinkKey key = builder.GetKey();
-  this->Made = !this->Serves(scene, key, ranks);
+  const bool fits = this->Fits(key, ranks);
+  this->Made = !fits || this->Kept.Fingerprint != scene.GetFingerprint();
   if (!this->Made)
   {
     return Outcome::Done();
   }
-  // The old ones go first, since both may not fit into memory.
-  this->Kept = Links();
   Links links;
   links.Fingerprint = scene.GetFingerprint();
+  if (fits && this->Kept.Choice && scene.GetArrangement() == this->Kept.Choice->Arrangement)
+  {
+    links.Choice = this->Kept.Choice;
+    if (!links.Choice->HasRows())
+    {
+      links.Choice->TakeRows(*this->Kept.Hierarchy);
+    }
+  }
+  // The old ones go first, since both may not fit into memory.
+  this->Kept = Links();
   Outcome built = builder.Build(scene, ranks, monitor, links);
   if (built)
   {

@@ -9,6 +9,8 @@
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 
+#include <memory>
+
 namespace LightTransport
 {
 class PatchScene;
@@ -18,10 +20,17 @@ class LinkCache
 {
 public:
   /// Bring the links up to date for a scene: made by `builder` unless those that are kept are of
-  /// the same scene, as many ranks, and a key that serves the builder's. After a failure or an
-  /// abort none are kept. Collective.
+  /// the same scene, as many ranks, and a key that serves the builder's. Where the scene is
+  /// arranged as these were (FindArrangement) the builder may keep what they chose; none are made,
+  /// and none are kept, where that does not hold: the scene is to be arranged anew then. After a
+  /// failure or an abort none are kept. Collective.
   Outcome Update(const PatchScene& scene, const LinkBuilder& builder, const Ranks& ranks,
     const Monitor& monitor);
+
+  /// How patches have to be arranged for what `builder` may keep of their links when they have
+  /// moved; nullptr where it can keep nothing.
+  std::shared_ptr<const PatchArrangement> FindArrangement(const LinkBuilder& builder,
+    const Ranks& ranks) const;
 
   /// Keep links that come from elsewhere, until the next Update or Put.
   void Put(Links&& links);
@@ -33,7 +42,7 @@ public:
   bool WereMade() const { return this->Made; }
 
 private:
-  bool Serves(const PatchScene& scene, const LinkKey& key, const Ranks& ranks) const;
+  bool Fits(const LinkKey& key, const Ranks& ranks) const;
 
   Links Kept;
   LinkKey Key;

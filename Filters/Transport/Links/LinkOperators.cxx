@@ -6,6 +6,7 @@
 #include "Support/Ranks.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDeviceLinkOperator.h"
+#include "vtkDeviceLinkRefiner.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkExchangeMatrix.h"
 
@@ -36,15 +37,15 @@ Outcome Allocate(std::size_t numberOfPatches, double bytes, const std::string& r
 }
 
 //------------------------------------------------------------------------------
-// Why it cannot be had where the outcome is a failure.
-Outcome OpenDevice(LinkDevice device, const Ranks& ranks,
-  vtkSmartPointer<vtkDeviceLinkOperator>& found)
+// What computes on a device. Why it cannot be had where the outcome is a failure.
+template <typename OnDevice>
+Outcome OpenDevice(LinkDevice device, const Ranks& ranks, vtkSmartPointer<OnDevice>& found)
 {
   if (ranks.AreSeveral())
   {
     return Outcome::Failed("the run has several ranks, which share the links on their CPUs.");
   }
-  found = vtkSmartPointer<vtkDeviceLinkOperator>::Take(vtkDeviceLinkOperator::New());
+  found = vtkSmartPointer<OnDevice>::Take(OnDevice::New());
   if (!found)
   {
     return Outcome::Failed(
@@ -150,6 +151,22 @@ Outcome LinkOperators::Make(LinkDevice device, vtkExchange* exchange, int number
   }
   links = MakeOnCPU(exchange, numberOfBands, ranks);
   return links ? Outcome::Done() : Outcome::FailedAsReported();
+}
+
+//------------------------------------------------------------------------------
+Outcome LinkOperators::FindRefiner(LinkDevice device, const Ranks& ranks,
+  vtkSmartPointer<vtkDeviceLinkRefiner>& refiner)
+{
+  if (device == LinkDevice::CPU)
+  {
+    return Outcome::Done();
+  }
+  Outcome opened = OpenDevice(device, ranks, refiner);
+  if (!opened)
+  {
+    refiner = nullptr;
+  }
+  return opened || device == LinkDevice::Auto ? Outcome::Done() : RefuseOpenGL(opened.GetMessage());
 }
 
 //------------------------------------------------------------------------------

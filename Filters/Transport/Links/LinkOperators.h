@@ -13,6 +13,7 @@
 #include <vector>
 
 class vtkCPULinkOperator;
+class vtkDeviceLinkRefiner;
 class vtkExchange;
 class vtkExchangeMatrix;
 class vtkLinkOperator;
@@ -56,6 +57,10 @@ Outcome CheckDevice(LinkDevice device, const Ranks& ranks);
  */
 Outcome Make(LinkDevice device, vtkExchange* exchange, int numberOfBands, const Ranks& ranks,
   vtkSmartPointer<vtkLinkOperator>& links, std::string& explanation);
+
+/// What chooses links on a device, open, or nullptr for the CPU; as Make.
+Outcome FindRefiner(LinkDevice device, const Ranks& ranks,
+  vtkSmartPointer<vtkDeviceLinkRefiner>& refiner);
 
 /// The operator on the CPU, initialised; nullptr after an error, which has been reported.
 vtkSmartPointer<vtkCPULinkOperator> MakeOnCPU(vtkExchange* exchange, int numberOfBands,

@@ -5,6 +5,7 @@
 #ifndef Links_h
 #define Links_h
 
+#include "Links/LinkChoice.h"
 #include "Links/LinksThroughAir.h"
 #include "Shared/Outcome.h"
 #include "vtkExchangeHierarchy.h"
@@ -12,6 +13,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +69,12 @@ struct Links
   /// the links.
   LinksThroughAir ThroughAir;
   bool AreThroughAirDropped = false;
+  ///@}
+
+  ///@{ What may be kept when patches move; nullptr where nothing can. Of the links the part that is
+  /// from clusters that were chosen for patches elsewhere.
+  std::shared_ptr<LinkChoice> Choice;
+  double ReusedShare = 0.0;
   ///@}
 
   /// Names and values of the field data arrays that summarise how the links were made.

@@ -314,7 +314,10 @@ void RowCompression::CutRows()
 // False where the row belongs into the next tile.
 bool RowCompression::AddToTile(int row)
 {
-  const int rows = static_cast<int>(this->Coded.Rows.size()) - this->FirstRow;
+  if (this->TileRows == 0)
+  {
+    this->FirstRow = row;
+  }
   const std::size_t before = this->TileSlots.size();
   for (std::int64_t link = this->Offsets[row]; link < this->Offsets[row + 1]; ++link)
   {
@@ -326,8 +329,8 @@ bool RowCompression::AddToTile(int row)
       this->TileSlots.push_back(slot);
     }
   }
-  if (rows == MostRows ||
-    (rows >= FewestRows && this->TileSlots.size() > std::size_t(CodedRows::BookSize)))
+  if (row != this->FirstRow + this->TileRows || this->TileRows == MostRows ||
+    (this->TileRows >= FewestRows && this->TileSlots.size() > std::size_t(CodedRows::BookSize)))
   {
     for (; this->TileSlots.size() > before; this->TileSlots.pop_back())
     {
@@ -344,18 +347,17 @@ bool RowCompression::AddToTile(int row)
       ++this->Uses[slot];
     }
   }
-  this->Coded.Rows.push_back(row);
+  ++this->TileRows;
   return true;
 }
 
 //------------------------------------------------------------------------------
 void RowCompression::CloseTile()
 {
-  const int rows = static_cast<int>(this->Coded.Rows.size()) - this->FirstRow;
   std::vector<int>& slots = this->TileSlots;
   std::sort(slots.begin(), slots.end());
-  const auto rest =
-    std::stable_partition(slots.begin(), slots.end(), [&](int s) { return this->Uses[s] == rows; });
+  const auto rest = std::stable_partition(slots.begin(), slots.end(),
+    [&](int s) { return this->Uses[s] == this->TileRows; });
   const int all = static_cast<int>(rest - slots.begin());
   const int common = all - all % CodedRows::CommonStep;
   std::sort(slots.begin() + common, slots.end());
@@ -370,32 +372,30 @@ void RowCompression::CloseTile()
     this->WriteTile(std::min(std::max(common - first, 0), CodedRows::BookSize), first, last);
   }
   slots.clear();
-  this->FirstRow += rows;
+  this->TileRows = 0;
 }
 
 //------------------------------------------------------------------------------
 void RowCompression::WriteTile(int common, int firstPlace, int lastPlace)
 {
   const auto size = [](const auto& table) { return static_cast<std::int64_t>(table.size()); };
-  const int firstSlot = static_cast<int>(this->Coded.Slots.size());
-  const int lastRow = static_cast<int>(this->Coded.Rows.size());
-  this->Coded.Tiles.push_back({ this->FirstRow, lastRow, firstSlot,
-    firstSlot + lastPlace - firstPlace, common, size(this->Coded.Pairs), size(this->Coded.Bytes) });
-  this->Coded.Slots.insert(this->Coded.Slots.end(), this->TileSlots.begin() + firstPlace,
-    this->TileSlots.begin() + lastPlace);
+  const int lastRow = this->FirstRow + this->TileRows;
+  this->Coded.Tiles.push_back({ this->FirstRow, lastRow, lastPlace - firstPlace, common,
+    size(this->Coded.Slots), size(this->Coded.Bytes) });
+  this->Coded.WriteSlots(this->TileSlots.data() + firstPlace, this->TileSlots.data() + lastPlace,
+    common);
   for (int row = this->FirstRow; row < lastRow; ++row)
   {
-    this->WritePiece(this->Coded.Rows[row], common, firstPlace, lastPlace);
+    this->WritePiece(row, common, firstPlace, lastPlace);
   }
 }
 
 //------------------------------------------------------------------------------
 void RowCompression::WritePiece(int row, int common, int firstPlace, int lastPlace)
 {
-  std::vector<std::uint8_t>& bytes = this->Coded.Bytes;
-  const std::size_t first = bytes.size();
-  bytes.resize(first + common, 0);
-  int pairs = 0;
+  std::vector<std::uint8_t>& codes = this->CommonCodes;
+  codes.assign(static_cast<std::size_t>(common), 0);
+  this->PairBytes.clear();
   for (std::int64_t link = this->Offsets[row]; link < this->Offsets[row + 1]; ++link)
   {
     const int place = this->Places[this->Columns[link]];
@@ -407,18 +407,19 @@ void RowCompression::WritePiece(int row, int common, int firstPlace, int lastPla
     const auto code = static_cast<std::uint8_t>(this->Codes[link]);
     ++this->Coded.NumberOfLinks;
     // A slot may have several links with a row.
-    if (within < common && bytes[first + within] == 0)
+    if (within < common && codes[within] == 0)
     {
-      bytes[first + within] = code;
+      codes[within] = code;
     }
     else
     {
-      bytes.push_back(within);
-      bytes.push_back(code);
-      ++pairs;
+      this->PairBytes.insert(this->PairBytes.end(), { within, code });
     }
   }
-  this->Coded.Pairs.push_back(pairs);
+  std::vector<std::uint8_t>& bytes = this->Coded.Bytes;
+  CodedRows::WriteNumber(static_cast<std::uint32_t>(this->PairBytes.size() / 2), bytes);
+  bytes.insert(bytes.end(), codes.begin(), codes.end());
+  bytes.insert(bytes.end(), this->PairBytes.begin(), this->PairBytes.end());
 }
 
 //------------------------------------------------------------------------------
@@ -441,6 +442,8 @@ void RowCompression::Replace()
   }
   this->Hierarchy.SetRows(std::move(offsets), std::move(columns), std::move(values));
   this->Coded.Bytes.shrink_to_fit();
+  this->Coded.Slots.shrink_to_fit();
+  this->Coded.Tiles.shrink_to_fit();
   this->Hierarchy.SetCodedRows(std::move(this->Coded));
 }
 } // namespace LightTransport

@@ -77,13 +77,16 @@ private:
   LinkCodeBook Book;
   CodedRows Coded;
 
-  ///@{ The tile that grows, at the end of Rows.
+  ///@{ The tile that grows.
   int FirstRow = 0;
+  int TileRows = 0;
   std::vector<int> TileSlots;
-  std::vector<int> TileOf; ///< of each slot: FirstRow of the tile that has it
-  std::vector<int> RowOf;  ///< the last row that has it
-  std::vector<int> Uses;   ///< rows of the tile that have it
-  std::vector<int> Places; ///< in the tile's slots
+  std::vector<int> TileOf;               ///< of each slot: FirstRow of the tile that has it
+  std::vector<int> RowOf;                ///< the last row that has it
+  std::vector<int> Uses;                 ///< rows of the tile that have it
+  std::vector<int> Places;               ///< in the tile's slots
+  std::vector<std::uint8_t> CommonCodes; ///< of a piece
+  std::vector<std::uint8_t> PairBytes;   ///< likewise
   ///@}
 };
 } // namespace LightTransport

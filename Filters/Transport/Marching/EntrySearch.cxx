@@ -17,6 +17,8 @@ namespace
 /// Light nearer to the plane of a patch than this cosine brings nothing.
 constexpr double LeastCosine = 1e-9;
 constexpr int MostSteps = 60;
+/// Of squared radii: what is so near to a circle is looked at.
+constexpr double CircleMargin = 1e-6;
 
 //------------------------------------------------------------------------------
 double GetAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
@@ -51,13 +53,24 @@ bool EntrySearch::CanReach(const PatchTree::Node& node, const Vector& point, con
   {
     return false;
   }
-  if (incidence + spread + width >= 0.5 * vtkMath::Pi())
+  const double widest = incidence + spread + width;
+  if (widest >= 0.5 * vtkMath::Pi())
   {
     return true;
   }
   const Vector direction = this->Interface.RefractInwards(incident.normalized(), node.ConeAxis);
-  const double allowed = spread + width / this->Index + std::asin(radius / distance);
+  const double allowed =
+    this->GetTurn(widest) * spread + width / this->Index + std::asin(radius / distance);
   return GetAngle(direction, path) <= allowed;
+}
+
+//------------------------------------------------------------------------------
+// How far a refracted ray turns at most with the normal, at angles of incidence up to a right one:
+// by 1 - d theta_t / d theta_i in the plane of incidence, and less across it.
+double EntrySearch::GetTurn(double incidence) const
+{
+  const double cosine = std::cos(incidence);
+  return 1.0 - cosine / std::sqrt(this->Index * this->Index - 1.0 + cosine * cosine);
 }
 
 //------------------------------------------------------------------------------
@@ -129,25 +142,40 @@ void EntrySearch::EnterFromAfar(const Vector& normal, double depth, const Vector
 }
 
 //------------------------------------------------------------------------------
-// How far from the foot of the light, along the surface, the ray crosses it: `width` is how far
-// apart light and point are along the surface. Newton's method between bounds.
-double EntrySearch::FindCrossing(double height, double depth, double width) const
+// Of the sines along the way that crosses there, by Snell's law. It grows with the place.
+double EntrySearch::Refraction::GetExcess(double place) const
+{
+  const double rest = this->Width - place;
+  return place / std::hypot(place, this->Height) -
+    this->Index * rest / std::hypot(rest, this->Depth);
+}
+
+//------------------------------------------------------------------------------
+bool EntrySearch::Refraction::CrossesBetween(double low, double high) const
+{
+  return low <= high && (low <= 0.0 || this->GetExcess(low) <= 0.0) &&
+    (high >= this->Width || this->GetExcess(high) >= 0.0);
+}
+
+//------------------------------------------------------------------------------
+// Newton's method between bounds.
+double EntrySearch::Refraction::FindCrossing() const
 {
   double low = 0.0;
-  double high = width;
-  double place = width * height / (height + depth);
-  for (int step = 0; step < MostSteps && high - low > 1e-15 * width; ++step)
+  double high = this->Width;
+  double place = this->Width * this->Height / (this->Height + this->Depth);
+  for (int step = 0; step < MostSteps && high - low > 1e-15 * this->Width; ++step)
   {
-    const double rest = width - place;
-    const double outside = std::hypot(place, height);
-    const double inside = std::hypot(rest, depth);
+    const double rest = this->Width - place;
+    const double outside = std::hypot(place, this->Height);
+    const double inside = std::hypot(rest, this->Depth);
     const double excess = place / outside - this->Index * rest / inside;
     (excess > 0.0 ? high : low) = place;
-    const double slope = height * height / (outside * outside * outside) +
-      this->Index * depth * depth / (inside * inside * inside);
+    const double slope = this->Height * this->Height / (outside * outside * outside) +
+      this->Index * this->Depth * this->Depth / (inside * inside * inside);
     double next = place - excess / slope;
     next = next > low && next < high ? next : 0.5 * (low + high);
-    const bool isFound = std::abs(next - place) <= 1e-14 * width;
+    const bool isFound = std::abs(next - place) <= 1e-14 * this->Width;
     place = next;
     if (isFound)
     {
@@ -158,17 +186,35 @@ double EntrySearch::FindCrossing(double height, double depth, double width) cons
 }
 
 //------------------------------------------------------------------------------
+// False where the crossing is outside of the circle around the patch. `foot` of the light, in the
+// plane of the patch, and from there on along the surface.
+bool EntrySearch::MayCross(vtkIdType patch, const Vector& foot, const Vector& along,
+  const Refraction& refraction) const
+{
+  const Vector center = this->Scene.GetCentroid(patch) - foot;
+  const double radius2 = std::pow(this->Scene.GetRadius(patch), 2) * (1.0 + CircleMargin);
+  const double middle = refraction.Width > 0.0 ? center.dot(along) / refraction.Width : 0.0;
+  const double half2 = radius2 - (center.squaredNorm() - middle * middle);
+  const double half = std::sqrt(std::max(half2, 0.0));
+  return half2 >= 0.0 && refraction.CrossesBetween(middle - half, middle + half);
+}
+
+//------------------------------------------------------------------------------
 // A thin beam spreads in the plane of incidence and across it.
 bool EntrySearch::EnterFromPoint(const Vector& normal, double depth, double height,
   const Vector& point, const Vector& light, Entry& entry) const
 {
   const Vector along = point - light + (height + depth) * normal;
   const double width = along.norm();
-  const double place = this->FindCrossing(height, depth, width);
+  const Refraction refraction{ this->Index, height, depth, width };
   entry.Point = light - height * normal;
+  if (!this->MayCross(entry.Patch, entry.Point, along, refraction))
+  {
+    return false;
+  }
   if (width > 0.0)
   {
-    entry.Point += place / width * along;
+    entry.Point += refraction.FindCrossing() / width * along;
   }
   const Vector outside = light - entry.Point;
   const double away = outside.norm();

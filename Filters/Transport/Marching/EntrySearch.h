@@ -7,10 +7,10 @@
  * of two facets none.
  *
  * The tree of the patches is searched: of a node's box and the cone of its normals follows a cone
- * of refracted directions. A turn of the normal turns the refracted ray no more than that, a turn
- * of the ray outside no more than by its inverse of the refractive index. B. Walter, S. Zhao, N.
- * Holzschuch, K. Bala, "Single Scattering in Refractive Media with Triangle Mesh Boundaries",
- * SIGGRAPH 2009, search so for smooth normals.
+ * of refracted directions. A turn of the normal turns the refracted ray by 1 - d theta_t / d
+ * theta_i of that at most, a turn of the ray outside by the inverse of the refractive index. B.
+ * Walter, S. Zhao, N. Holzschuch, K. Bala, "Single Scattering in Refractive Media with Triangle
+ * Mesh Boundaries", SIGGRAPH 2009, search so for smooth normals.
  */
 #ifndef EntrySearch_h
 #define EntrySearch_h
@@ -56,14 +56,30 @@ public:
     std::vector<Entry>& entries) const;
 
 private:
+  /// From a light above a plane to a point below it: where along the plane, from the foot of the
+  /// light on.
+  struct Refraction
+  {
+    double Index;
+    double Height; ///< of the light
+    double Depth;  ///< of the point
+    double Width;  ///< between their feet
+
+    double GetExcess(double place) const;
+    bool CrossesBetween(double low, double high) const;
+    double FindCrossing() const;
+  };
+
   bool CanReach(const PatchTree::Node& node, const Vector& point, const Origin& light,
     double reach) const;
+  double GetTurn(double incidence) const;
   bool FindOnPatch(vtkIdType patch, const Vector& point, const Origin& light, Entry& entry) const;
   void EnterFromAfar(const Vector& normal, double depth, const Vector& point, const Vector& towards,
     Entry& entry) const;
   bool EnterFromPoint(const Vector& normal, double depth, double height, const Vector& point,
     const Vector& light, Entry& entry) const;
-  double FindCrossing(double height, double depth, double width) const;
+  bool MayCross(vtkIdType patch, const Vector& foot, const Vector& along,
+    const Refraction& refraction) const;
   bool Contains(vtkIdType patch, const Vector& point) const;
 
   const PatchScene& Scene;

@@ -3,6 +3,7 @@
 #include "Photons/MediumImage.h"
 
 #include "Shared/InputArrays.h"
+#include "Support/BitHash.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 #include <string>
 
@@ -171,29 +171,19 @@ Outcome MediumImage::ReadField(vtkImageData* image, const char* name, Field& fie
 //------------------------------------------------------------------------------
 void MediumImage::ComputeFingerprint()
 {
-  std::uint64_t hash = 0xCBF29CE484222325ull;
-  const auto add = [&hash](std::uint64_t bits)
-  {
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
-    hash ^= hash >> 29;
-  };
-  const auto addNumber = [&add](double number)
-  {
-    std::uint64_t bits;
-    std::memcpy(&bits, &number, sizeof(bits));
-    add(bits);
-  };
+  BitHash hash;
+  const auto addNumber = [&hash](double number) { hash.AddNumber(number); };
   for (const Field* field : { &this->Scattering, &this->Absorption })
   {
-    add(field->Values.size());
-    add(field->Components);
-    add(field->IsOnPoints);
+    hash.Add(field->Values.size());
+    hash.Add(field->Components);
+    hash.Add(field->IsOnPoints);
     std::for_each(field->Values.begin(), field->Values.end(), addNumber);
   }
-  std::for_each(std::begin(this->Voxels), std::end(this->Voxels), add);
+  hash.AddAll(this->Voxels);
   std::for_each(this->Origin.data(), this->Origin.data() + 3, addNumber);
   std::for_each(this->Axes.data(), this->Axes.data() + 9, addNumber);
-  addNumber(this->Millimeters);
-  this->Fingerprint = hash;
+  hash.AddNumber(this->Millimeters);
+  this->Fingerprint = hash.Get();
 }
 } // namespace LightTransport

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <sstream>
 
 namespace LightTransport
@@ -73,6 +74,13 @@ Outcome MonteCarloRun::Check()
 Outcome MonteCarloRun::Read()
 {
   Outcome read = this->ScatteringRun::Read();
+  if (read && this->FollowsPhotons() && this->GetNumberOfLights() > 1)
+  {
+    return Outcome::Failed("The irradiance is that of " +
+      std::to_string(this->GetNumberOfLights()) +
+      " lights, and photons are followed from one: set LinkMethod to Dense, for links of photons "
+      "that any light goes through.");
+  }
   return read ? this->ReadMedium() : read;
 }
 
@@ -182,16 +190,30 @@ Outcome MonteCarloRun::FollowPhotons()
 }
 
 //------------------------------------------------------------------------------
-// Links are counts of photons, whose variance is a product of the same links.
+// Links are counts of photons, whose variance is a product of the same links: the squares go
+// through them beside the light.
 Outcome MonteCarloRun::ApplyWithErrors()
 {
   const std::vector<double> light = this->GetEntering();
-  std::vector<double> squares(light.size());
-  std::transform(light.begin(), light.end(), squares.begin(), [](double e) { return e * e; });
-  this->Scattered = light;
-  Outcome applied = this->ApplyLinks({ &this->Scattered, &squares });
+  const auto components = static_cast<std::size_t>(this->GetNumberOfComponents());
+  std::vector<double> both;
+  both.reserve(2 * light.size());
+  for (std::size_t first = 0; first < light.size(); first += components)
+  {
+    both.insert(both.end(), &light[first], &light[first] + components);
+    std::transform(&light[first], &light[first] + components, std::back_inserter(both),
+      [](double e) { return e * e; });
+  }
+  Outcome applied = this->ApplyLinks(both, 2 * this->GetNumberOfLights());
   if (applied)
   {
+    std::vector<double> squares;
+    for (std::size_t first = 0; first < both.size(); first += 2 * components)
+    {
+      const double* values = &both[first];
+      this->Scattered.insert(this->Scattered.end(), values, values + components);
+      squares.insert(squares.end(), values + components, values + 2 * components);
+    }
     this->Errors =
       PhotonLinks::GetErrors(this->Cache.Get(), light, this->Scattered, squares, this->AllRanks);
   }
@@ -240,7 +262,8 @@ void MonteCarloRun::WriteScattered(const SceneOutput& output)
     return;
   }
   this->ScatteringRun::WriteScattered(output);
-  output.AddArray(ArrayNames::ScatteredIrradianceError, this->Errors, Bands);
+  output.AddArray(ArrayNames::ScatteredIrradianceError, this->Errors,
+    this->GetNumberOfComponents());
 }
 
 //------------------------------------------------------------------------------

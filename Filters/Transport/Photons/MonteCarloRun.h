@@ -41,7 +41,7 @@ private:
   /// Where the medium varies; else nullptr.
   std::unique_ptr<MediumImage> Image;
   PhotonScattering::Result Photons;
-  std::vector<double> Errors; ///< patches x bands, of links
+  std::vector<double> Errors; ///< patches x components, of links
 };
 } // namespace LightTransport
 

@@ -240,19 +240,20 @@ std::vector<double> PhotonLinks::GetErrors(const Links& links, const std::vector
 {
   const std::vector<double>& areas = links.Matrix->GetAreas();
   const std::size_t bands = links.PhotonSizes.size();
+  const std::size_t components = light.size() / areas.size();
   // What comes back where it has entered.
   std::vector<double> own(light.size());
   for (std::size_t k = 0; k < own.size(); ++k)
   {
-    const auto patch = static_cast<vtkIdType>(k / bands);
+    const auto patch = static_cast<vtkIdType>(k / components);
     own[k] =
       links.Matrix->GetValue(patch, patch, static_cast<int>(k % bands)) * light[k] / areas[patch];
   }
   ranks.Sum(own);
-  std::vector<double> largest(bands, 0.0);
+  std::vector<double> largest(components, 0.0);
   for (std::size_t k = 0; k < light.size(); ++k)
   {
-    largest[k % bands] = std::max(largest[k % bands], std::abs(light[k]));
+    largest[k % components] = std::max(largest[k % components], std::abs(light[k]));
   }
   std::vector<double> errors(light.size());
   for (std::size_t k = 0; k < errors.size(); ++k)
@@ -260,14 +261,14 @@ std::vector<double> PhotonLinks::GetErrors(const Links& links, const std::vector
     // Links to others are means of two counts. How many photons start on a patch is not left to
     // chance: what leaves of all that enter it, and of those that enter and leave it, has the
     // variance of a share of them.
-    const double perPhoton = links.PhotonSizes[k % bands] / areas[k / bands];
-    const double chosen = links.PhotonAreas[k % bands] / areas[k / bands];
+    const double perPhoton = links.PhotonSizes[k % bands] / areas[k / components];
+    const double chosen = links.PhotonAreas[k % bands] / areas[k / components];
     const double variance = perPhoton * 0.5 * (squares[k] + own[k] * light[k]) -
       0.25 * chosen * (scattered[k] + own[k]) * (scattered[k] + own[k]);
     // One photon is never certain; and where none has linked any light, the next one may.
     const double one = perPhoton * perPhoton * squares[k];
     errors[k] =
-      squares[k] > 0.0 ? std::sqrt(std::max(variance, one)) : perPhoton * largest[k % bands];
+      squares[k] > 0.0 ? std::sqrt(std::max(variance, one)) : perPhoton * largest[k % components];
   }
   return errors;
 }

@@ -29,8 +29,8 @@ public:
 
   /**
    * Standard errors of what the links give, `scattered`, from `squares`, what they give for the
-   * square of the light (patches x bands, as `light` is): a pair that k photons have linked is
-   * known to the root of k. Collective.
+   * square of the light (patches x components of one light or several, as `light` is): a pair that
+   * k photons have linked is known to the root of k. Collective.
    */
   static std::vector<double> GetErrors(const Links& links, const std::vector<double>& light,
     const std::vector<double>& scattered, const std::vector<double>& squares, const Ranks& ranks);

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace LightTransport
 {
@@ -138,10 +139,11 @@ Outcome TransportRun::Gather()
 }
 
 //------------------------------------------------------------------------------
-Outcome TransportRun::GatherInOrder(PatchScene::Order order)
+Outcome TransportRun::GatherInOrder(PatchScene::Order order,
+  std::shared_ptr<const PatchArrangement> kept)
 {
   return this->Scene.Build(this->Input, this->AllRanks, order, this->NumberOfSides,
-    this->TakesTexels);
+    this->TakesTexels, std::move(kept));
 }
 
 //------------------------------------------------------------------------------

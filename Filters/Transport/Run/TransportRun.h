@@ -15,6 +15,7 @@
 #include "Shared/Outcome.h"
 #include "Support/Ranks.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,9 @@ protected:
   /// Arrays and summaries into the output.
   virtual void Write() = 0;
 
-  Outcome GatherInOrder(PatchScene::Order order);
+  /// Patches that were arranged before as they were.
+  Outcome GatherInOrder(PatchScene::Order order,
+    std::shared_ptr<const PatchArrangement> kept = nullptr);
   /// Gather in the order that links between clusters need, for a ClusterTree
   /// (vtkTransportAlgorithm::ClusterTreeType): Auto takes atlases where all surfaces have one.
   Outcome GatherForClusters(int clusterTree);

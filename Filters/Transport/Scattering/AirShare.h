@@ -13,13 +13,13 @@ struct Links;
 
 struct AirShare
 {
-  /// `entering` and `leaving`: light of the patches, patches x bands.
+  /// `entering` and `leaving`: light of the patches, patches x components, those of each band of
+  /// one light or several.
   AirShare(const Links& links, const std::vector<double>& entering,
     const std::vector<double>& leaving);
 
-  ///@{ One for each band. The error is one standard error, at least
-  /// what one link of the sample
-  /// would add; 0 where all links were looked at.
+  ///@{ One for each component. The error is one standard error, at least what one link of the
+  /// sample would add; 0 where all links were looked at.
   std::vector<double> Shares;
   std::vector<double> Errors;
   ///@}

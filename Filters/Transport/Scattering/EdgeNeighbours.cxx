@@ -73,6 +73,7 @@ bool EdgeNeighbours::SetEdges(const Vector a[3], int edgeOfA, const Vector b[3],
 
 //------------------------------------------------------------------------------
 // The four lines fall below each other in the order of their slopes.
+template <typename Segment>
 void EdgeNeighbours::VisitRay(const Vector& direction, const Segment& visit) const
 {
   const double s = direction[0];
@@ -142,11 +143,11 @@ void EdgeNeighbours::SetParts(double s, double t, double bounds[4]) const
 }
 
 //------------------------------------------------------------------------------
-void EdgeNeighbours::Integrate(const ScatteringProfiles& profiles, const GaussLegendre& rule,
-  double values[]) const
+EdgeNeighbours::Bands EdgeNeighbours::Integrate(const ProfileMoments& moments,
+  const GaussLegendre& rule) const
 {
   const double quarter = 0.5 * vtkMath::Pi();
-  std::fill_n(values, profiles.size(), 0.0);
+  Bands sum = Bands::Zero();
   for (std::size_t i = 0; i < rule.Nodes.size(); ++i)
   {
     const double s = std::cos(quarter * rule.Nodes[i]);
@@ -160,34 +161,41 @@ void EdgeNeighbours::Integrate(const ScatteringProfiles& profiles, const GaussLe
       {
         const double elevation = bounds[part] + width * rule.Nodes[j];
         const double across = std::cos(elevation);
-        this->AddRay(profiles, { across * s, across * t, std::sin(elevation) },
-          quarter * rule.Weights[i] * width * rule.Weights[j] * across, values);
+        sum += quarter * rule.Weights[i] * width * rule.Weights[j] * across *
+          this->IntegrateRay(moments, { across * s, across * t, std::sin(elevation) });
       }
     }
   }
+  return sum;
 }
 
 //------------------------------------------------------------------------------
-void EdgeNeighbours::AddRay(const ScatteringProfiles& profiles, const Vector& direction,
-  double weight, double values[]) const
+EdgeNeighbours::Bands EdgeNeighbours::IntegrateRay(const ProfileMoments& moments,
+  const Vector& direction) const
 {
   const double stretch = std::sqrt(1.0 - 2.0 * direction[0] * direction[1] * this->CosineOfAngle);
-  weight /= stretch * stretch * stretch;
+  Bands sum = Bands::Zero();
+  Bands atBegin[2] = { Bands::Zero(), Bands::Zero() };
+  const auto reach = [&](double radius, Bands at[2])
+  {
+    const ProfileMoments::Means means = moments.GetMeans(radius);
+    at[0] = radius * radius * means.Of[1].cast<double>();
+    at[1] = radius * radius * radius * means.Of[2].cast<double>();
+  };
+  bool isFirst = true;
   this->VisitRay(direction,
     [&](double begin, double end, const Line& line)
     {
-      for (std::size_t band = 0; band < profiles.size(); ++band)
+      if (isFirst && begin > 0.0)
       {
-        double atBegin[3] = {};
-        double atEnd[3];
-        if (begin > 0.0)
-        {
-          profiles[band]->GetMoments(stretch * begin, atBegin);
-        }
-        profiles[band]->GetMoments(stretch * end, atEnd);
-        values[band] += weight *
-          (line.Start * (atEnd[1] - atBegin[1]) + line.Slope / stretch * (atEnd[2] - atBegin[2]));
+        reach(stretch * begin, atBegin);
       }
+      isFirst = false;
+      Bands atEnd[2];
+      reach(stretch * end, atEnd);
+      sum += line.Start * (atEnd[0] - atBegin[0]) + line.Slope / stretch * (atEnd[1] - atBegin[1]);
+      std::copy(atEnd, atEnd + 2, atBegin);
     });
+  return sum / (stretch * stretch * stretch);
 }
 } // namespace LightTransport

@@ -12,12 +12,10 @@
 #ifndef EdgeNeighbours_h
 #define EdgeNeighbours_h
 
-#include "Scattering/ScatteringProfile.h"
+#include "Scattering/ProfileMoments.h"
 #include "Shared/GaussLegendre.h"
 
 #include <Eigen/Core>
-
-#include <functional>
 
 namespace LightTransport
 {
@@ -25,6 +23,7 @@ class EdgeNeighbours
 {
 public:
   using Vector = Eigen::Vector3d;
+  using Bands = ProfileMoments::Bands;
 
   /// False where no edges of the two have a part in common, or where the triangles are almost
   /// folded onto each other.
@@ -33,9 +32,8 @@ public:
   /// What the two have in common of the line.
   double GetSharedLength() const { return this->SharedLength; }
 
-  /// The integral of profiles, with a rule for each part of the directions; values[band].
-  void Integrate(const ScatteringProfiles& profiles, const GaussLegendre& rule,
-    double values[]) const;
+  /// The integral of profiles over their totals, with a rule for each part of the directions.
+  Bands Integrate(const ProfileMoments& moments, const GaussLegendre& rule) const;
 
 private:
   /// A triangle over the line: from Begin + BeginSlope h to End + EndSlope h at the height h.
@@ -53,13 +51,13 @@ private:
     double Slope;
     double At(double radius) const { return this->Start + this->Slope * radius; }
   };
-  using Segment = std::function<void(double begin, double end, const Line& line)>;
 
   bool SetEdges(const Vector a[3], int edgeOfA, const Vector b[3], int edgeOfB);
   void SetParts(double s, double t, double bounds[4]) const;
-  void AddRay(const ScatteringProfiles& profiles, const Vector& direction, double weight,
-    double values[]) const;
-  /// All parts of the ray on which both have something in common; `direction` is (s, t, w).
+  Bands IntegrateRay(const ProfileMoments& moments, const Vector& direction) const;
+  /// All parts of the ray on which both have something in common, one after the other; `direction`
+  /// is (s, t, w).
+  template <typename Segment>
   void VisitRay(const Vector& direction, const Segment& visit) const;
 
   Shadow Shadows[2];

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <sstream>
+#include <vector>
 
 namespace LightTransport
 {
@@ -63,12 +65,27 @@ const char* ProfileRun::FindUseOfBody() const
 }
 
 //------------------------------------------------------------------------------
-// In an order for clusters, where there may be any.
+// In an order for clusters, where there may be any: that of links which may be kept.
 Outcome ProfileRun::Gather()
 {
   return this->Owner->GetLinkMethod() == vtkSubsurfaceScattering::LINK_METHOD_DENSE
     ? this->ScatteringRun::Gather()
-    : this->GatherInOrder(PatchScene::Order::Surface);
+    : this->GatherInOrder(PatchScene::Order::Surface,
+        this->Cache.FindArrangement(*this->MakeBuilder(), this->AllRanks));
+}
+
+//------------------------------------------------------------------------------
+// Where patches have moved too far for what was kept, all is arranged and chosen afresh.
+Outcome ProfileRun::Link()
+{
+  Outcome linked = this->ScatteringRun::Link();
+  if (linked && !this->Cache.Get().GetExchange())
+  {
+    linked = this->Gather();
+    linked = linked ? this->ReadIrradiance() : linked;
+    linked = linked ? this->ScatteringRun::Link() : linked;
+  }
+  return linked;
 }
 
 //------------------------------------------------------------------------------
@@ -81,11 +98,15 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.NumberOfPhotons = this->Owner->GetNumberOfPhotons();
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
+  const bool refines = this->Owner->GetRefineByIrradiance() &&
+    this->Owner->GetLinkMethod() != vtkSubsurfaceScattering::LINK_METHOD_DENSE;
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
     this->Owner->GetMillimetersPerUnit(),
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),
       this->Owner->GetLinkTolerance(), this->Owner->GetDropLinksThroughAir(),
-      this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance() });
+      this->Owner->GetCompressLinks(), this->Owner->GetCompressionTolerance(),
+      this->Owner->GetReuseLinks() && !refines, static_cast<LinkDevice>(this->Owner->GetDevice()),
+      refines ? this->Irradiance : std::vector<double>() });
 }
 
 //------------------------------------------------------------------------------
@@ -99,26 +120,25 @@ void ProfileRun::CheckEnergy(const AirShare& air) const
   {
     return;
   }
-  double gains[Bands];
-  for (int band = 0; band < Bands; ++band)
-  {
-    gains[band] =
-      this->EnteringFlux[band] > 0.0 ? this->LeavingFlux[band] / this->EnteringFlux[band] : 0.0;
-  }
-  const auto worst = std::max_element(gains, gains + Bands) - gains;
+  std::vector<double> gains;
+  std::transform(this->LeavingFlux.begin(), this->LeavingFlux.end(), this->EnteringFlux.begin(),
+    std::back_inserter(gains),
+    [](double leaving, double entering) { return entering > 0.0 ? leaving / entering : 0.0; });
+  const auto worst = std::max_element(gains.begin(), gains.end()) - gains.begin();
   if (gains[worst] > margin)
   {
+    const double total = links.ProfileTotals[worst % Bands];
     std::ostringstream text;
     text << "In component " << worst << " " << gains[worst]
          << " times the light that enters leaves again, which cannot be: a flat surface gives back "
-         << links.ProfileTotals[worst] << " by this model";
+         << total << " by this model";
     if (!links.AreThroughAirDropped && air.Shares[worst] > 0.0)
     {
       text << ", " << 100.0 * air.Shares[worst]
            << " % goes through the air between parts of the body (DropLinksThroughAir leaves that "
               "out)";
     }
-    if (gains[worst] > links.ProfileTotals[worst])
+    if (gains[worst] > total)
     {
       text << ", and straight links claim too much across hollows, sharp edges and thin walls";
     }
@@ -154,8 +174,10 @@ void ProfileRun::WriteScattered(const SceneOutput& output)
   const AirShare air(links, this->GetEntering(), this->Scattered);
   if (!this->Scene.IsOfTexels())
   {
-    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(), Bands);
-    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(), Bands);
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAir", air.Shares.data(),
+      this->GetNumberOfComponents());
+    FieldValues::Add(this->GetOutputFields(), "LinksThroughAirError", air.Errors.data(),
+      this->GetNumberOfComponents());
   }
   this->CheckThickness();
   this->CheckEnergy(air);

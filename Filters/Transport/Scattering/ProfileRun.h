@@ -18,6 +18,7 @@ public:
 protected:
   Outcome Check() override;
   Outcome Gather() override;
+  Outcome Link() override;
   void WriteScattered(const SceneOutput& output) override;
   const char* FindUseOfBody() const override;
   bool IsAnisotropic() const override { return this->IsTabulated(); }

@@ -123,6 +123,14 @@ vtkIdType ScatteringClusters::Pick(int slot, double number) const
 }
 
 //------------------------------------------------------------------------------
+ScatteringClusters::Bands ScatteringClusters::GetValue(vtkIdType receiver, int slot) const
+{
+  return this->Integrals
+    .GetValue((this->GetReceiver(receiver).Center - this->Places[slot].Center).squaredNorm())
+    .max(0.0);
+}
+
+//------------------------------------------------------------------------------
 double ScatteringClusters::GetBound(vtkIdType receiver, int slot) const
 {
   const Place& here = this->GetReceiver(receiver);
@@ -135,16 +143,15 @@ double ScatteringClusters::GetBound(vtkIdType receiver, int slot) const
 //------------------------------------------------------------------------------
 // Whether a piece is what it is at its centre, by how the profile changes over it. Where it is 0
 // there may be something nearer, and near the peak of 1/r the table is flat.
-bool ScatteringClusters::IsNarrow(double distance2, double size2, const Bands& value,
-  const Bands& change) const
+bool ScatteringClusters::IsNarrow(double size2, const Bands& value, const Bands& change) const
 {
   return (change <= WidestSpread2 * value.square()).all() &&
-    (!this->Integrals.AreSingular() || size2 <= WidestSpread2 * distance2) &&
     (value > 0.0 || size2 * this->Integrals.GetDecays().square() <= WidestSpread2).all();
 }
 
 //------------------------------------------------------------------------------
-ScatteringClusters::Estimate ScatteringClusters::Look(vtkIdType receiver, int node) const
+ScatteringClusters::Estimate ScatteringClusters::Look(vtkIdType receiver, int node,
+  bool onlyIfSmooth) const
 {
   const Place& here = this->GetReceiver(receiver);
   const Place& all = this->Places[node];
@@ -158,14 +165,26 @@ ScatteringClusters::Estimate ScatteringClusters::Look(vtkIdType receiver, int no
     const double distance2 = (here.Center - piece.Center).squaredNorm();
     // Along one direction: half of the moments.
     const double size2 = 0.5 * (here.Moment + piece.Moment);
+    if (this->Integrals.AreSingular() && size2 > WidestSpread2 * distance2)
+    {
+      estimate.IsSmooth = false;
+    }
+    if (onlyIfSmooth && !estimate.IsSmooth)
+    {
+      return estimate;
+    }
     Bands derivative;
     const Bands value = this->Integrals.GetValue(distance2, derivative).max(0.0);
     const Bands change = 4.0 * distance2 * size2 * derivative.square();
-    estimate.IsSmooth = estimate.IsSmooth && this->IsNarrow(distance2, size2, value, change);
+    estimate.IsSmooth = estimate.IsSmooth && this->IsNarrow(size2, value, change);
     estimate.Value += weight * value;
     estimate.Squares += weight * value.square();
     changes += weight * change;
     moment += weight * piece.Moment;
+  }
+  if (onlyIfSmooth && !estimate.IsSmooth)
+  {
+    return estimate;
   }
   // The mean by the centre of all and by those of the pieces are off in proportion to what they
   // leave of the moments.
@@ -196,9 +215,8 @@ void ScatteringClusters::AddIntegral(vtkIdType receiver, int slot, Bands& sum) c
     sum += this->IntegratePatch(receiver, this->Slots.GetPatch(slot));
     return;
   }
-  const Estimate estimate = this->Look(receiver, slot);
-  if (estimate.IsSmooth &&
-    (estimate.Error <= this->Factors.Relative * estimate.Value + this->Factors.PerArea).all())
+  const Estimate estimate = this->Look(receiver, slot, true);
+  if (this->IsFactor(estimate))
   {
     sum += this->Places[slot].Area * estimate.Value;
     return;
@@ -226,5 +244,37 @@ ScatteringClusters::Bands ScatteringClusters::IntegratePatch(vtkIdType receiver,
     this->Factors.PerArea, this->Factors.PerNeighbour);
   this->Patches.AddPair(this->Integrals, receiver, patch, tolerance, result);
   return result.Value / area;
+}
+
+//------------------------------------------------------------------------------
+void ScatteringClusters::Describe(vtkDeviceLinkRefiner::Body& body) const
+{
+  body.NumberOfNodes = this->Slots.GetNumberOfNodes();
+  body.Slots.resize(this->Places.size());
+  for (int index = 0; index < static_cast<int>(this->Places.size()); ++index)
+  {
+    const Place& place = this->Places[index];
+    vtkDeviceLinkRefiner::Slot& slot = body.Slots[index];
+    slot.Center = { place.Center[0], place.Center[1], place.Center[2] };
+    slot.Area = place.Area;
+    slot.Moment = place.Moment;
+    slot.Radius = place.Radius;
+    slot.FirstPatch = static_cast<int>(place.First);
+    slot.LastPatch = static_cast<int>(place.Last);
+    if (!this->Slots.IsPatch(index))
+    {
+      const LinkSlots::Node children = this->Slots.GetChildren(index);
+      slot.FirstChild = children.First;
+      slot.LastChild = children.Last;
+      slot.FirstPiece = this->PieceOffsets[index];
+      slot.LastPiece = this->PieceOffsets[index + 1];
+    }
+  }
+  body.Pieces = this->Pieces;
+  body.RelativeTolerance = this->Factors.Relative;
+  body.TolerancePerArea = this->Factors.PerArea;
+  body.WidestSpread2 = WidestSpread2;
+  body.ErrorOfCorrection = ErrorOfCorrection;
+  this->Integrals.Describe(body.Profile);
 }
 } // namespace LightTransport

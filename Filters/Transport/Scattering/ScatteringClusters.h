@@ -10,6 +10,7 @@
 #include "Links/LinkSlots.h"
 #include "Scattering/ScatteringIntegrals.h"
 #include "Scattering/ScatteringPatches.h"
+#include "vtkDeviceLinkRefiner.h"
 #include "vtkType.h"
 
 #include <Eigen/Core>
@@ -50,21 +51,39 @@ public:
 
   const LinkSlots& GetSlots() const { return this->Slots; }
   double GetArea(int slot) const { return this->Places[slot].Area; }
+  const Eigen::Vector3d& GetCenter(int slot) const { return this->Places[slot].Center; }
+  double GetMoment(int slot) const { return this->Places[slot].Moment; }
   bool HoldsPatch(int slot, vtkIdType patch) const;
+  ///@{ Patches [first, last) of a slot.
   vtkIdType GetFirstPatch(int slot) const { return this->Places[slot].First; }
+  vtkIdType GetLastPatch(int slot) const { return this->Places[slot].Last; }
+  ///@}
 
   /// A patch of a slot, by a number from 0 to 1: as likely as its area is large.
   vtkIdType Pick(int slot, double number) const;
 
+  /// The profile between the centres of a patch and a slot, which is what it is over all of a patch
+  /// below a smooth node.
+  Bands GetValue(vtkIdType receiver, int slot) const;
+
   /// An upper bound of the profile between a patch and a slot.
   double GetBound(vtkIdType receiver, int slot) const;
 
-  /// For a node.
-  Estimate Look(vtkIdType receiver, int node) const;
+  /// For a node. Where it need be known `onlyIfSmooth`, what is not is no more than said so.
+  Estimate Look(vtkIdType receiver, int node, bool onlyIfSmooth) const;
+  /// Whether the value of an estimate is as good as that of a link has to be.
+  bool IsFactor(const Estimate& estimate) const
+  {
+    return estimate.IsSmooth &&
+      (estimate.Error <= this->Factors.Relative * estimate.Value + this->Factors.PerArea).all();
+  }
 
   /// The integral of the profile over a slot, averaged over the receiver.
   Bands Integrate(vtkIdType receiver, int slot) const;
   Bands IntegratePatch(vtkIdType receiver, vtkIdType patch) const;
+
+  /// All that Look knows, for a device.
+  void Describe(vtkDeviceLinkRefiner::Body& body) const;
 
 private:
   /// Of a slot.
@@ -80,7 +99,7 @@ private:
 
   void FillPlaces();
   void GatherPieces();
-  bool IsNarrow(double distance2, double size2, const Bands& value, const Bands& change) const;
+  bool IsNarrow(double size2, const Bands& value, const Bands& change) const;
   void AddIntegral(vtkIdType receiver, int slot, Bands& sum) const;
   const Place& GetReceiver(vtkIdType patch) const
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringIntegrals.h"
 
+#include "Scattering/CoplanarTriangles.h"
 #include "Scattering/EdgeNeighbours.h"
 #include "Scattering/ParallelTriangles.h"
 #include "Shared/GaussLegendre.h"
@@ -43,10 +44,10 @@ constexpr double WidestPart = 1.5;
 constexpr int PointsOfPart = 12;
 ///@}
 
-/// Above the longest distance, for rounding.
-constexpr double Margin = 1.01;
-/// What is smaller counts as nothing: denormal numbers would be slow.
-constexpr double SmallestValue = 1e-30;
+/// Of the relative tolerance: what leaves a plane by less of its size is in it.
+constexpr double Flatness = 0.1;
+/// Of the rule between two values of a potential.
+constexpr int PointsOfPotential = 2;
 
 /// Of the smaller of a singular profile's scale and the longest distance: closer than this all is
 /// one. What that changes of an integral is less than this, of all that is given back.
@@ -131,36 +132,56 @@ ScatteringIntegrals::ScatteringIntegrals(const ScatteringProfiles& profiles, dou
 //------------------------------------------------------------------------------
 void ScatteringIntegrals::Tabulate(double maximumDistance)
 {
-  const auto pieceOf = [](double value) { return BitsOf(static_cast<float>(value)) >> PlaceBits; };
-  this->FirstPiece = pieceOf(this->SquaredCore);
-  // The table starts at the beginning of a piece, so that no piece reaches below distance zero.
-  this->SquaredCore = FloatOf(this->FirstPiece << PlaceBits);
-  const std::uint32_t lastPiece =
-    pieceOf(Margin * (maximumDistance * maximumDistance + this->SquaredCore)) + 1;
-  this->Table.resize(lastPiece - this->FirstPiece + 1);
-  for (std::size_t i = 0; i < this->Table.size(); ++i)
+  this->Table = RadialTable(this->SquaredCore, maximumDistance,
+    [this](int band, double squared) { return this->EvaluateExactly(band, squared); });
+  this->SquaredCore = this->Table.GetSquaredCore();
+  Bands potentials = Bands::Zero();
+  Bands reached = Bands::Zero();
+  this->Potentials = RadialTable(this->SquaredCore, maximumDistance,
+    [&](int band, double squared)
+    {
+      const double radius = std::sqrt(squared);
+      potentials[band] += this->IntegratePotential(band, reached[band], radius);
+      reached[band] = radius;
+      return potentials[band];
+    });
+  this->Moments = ProfileMoments(this->Profiles, maximumDistance);
+}
+
+//------------------------------------------------------------------------------
+// What flows through a circle, over its circumference, is the slope.
+double ScatteringIntegrals::IntegratePotential(int band, double begin, double end) const
+{
+  static const GaussLegendre rule(PointsOfPotential);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rule.Nodes.size() && end > begin; ++k)
   {
-    const std::uint32_t bits = static_cast<std::uint32_t>(i + this->FirstPiece) << PlaceBits;
-    const double begin = FloatOf(bits);
-    const double length = FloatOf(bits + (1u << PlaceBits)) - begin;
-    for (Lane& coefficients : this->Table[i].Coefficients)
+    const double radius = begin + (end - begin) * rule.Nodes[k];
+    double moments[3];
+    this->Profiles[band]->GetMoments(radius, moments);
+    sum += (end - begin) * rule.Weights[k] * moments[0] / radius;
+  }
+  return this->InverseTotals[band] * sum;
+}
+
+//------------------------------------------------------------------------------
+void ScatteringIntegrals::Describe(vtkDeviceLinkRefiner::ProfileTable& table) const
+{
+  const std::vector<RadialTable::Piece>& pieces = this->Table.GetPieces();
+  table.SquaredCore = this->Table.GetSquaredCore();
+  table.PieceBits = RadialTable::PieceBits;
+  table.FirstPiece = this->Table.GetFirstPiece();
+  table.IsSingular = this->Singular;
+  table.Pieces.resize(pieces.size());
+  for (int band = 0; band < NumberOfBands; ++band)
+  {
+    table.Decays[band] = this->Decays[band];
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece)
     {
-      coefficients.setZero();
-    }
-    for (int band = 0; band < NumberOfBands; ++band)
-    {
-      double values[3];
       for (int k = 0; k < 3; ++k)
       {
-        const double squared = begin + 0.5 * k * length - this->SquaredCore;
-        const double value = this->EvaluateExactly(band, squared);
-        values[k] = value > SmallestValue ? value : 0.0;
+        table.Pieces[piece][k][band] = pieces[piece].Coefficients[k][band];
       }
-      this->Table[i].Coefficients[0][band] = static_cast<float>(values[0]);
-      this->Table[i].Coefficients[1][band] =
-        static_cast<float>(4.0 * values[1] - 3.0 * values[0] - values[2]);
-      this->Table[i].Coefficients[2][band] =
-        static_cast<float>(2.0 * (values[0] + values[2] - 2.0 * values[1]));
     }
   }
 }
@@ -364,21 +385,17 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
   {
     return false;
   }
+  if (this->AddCoplanarPair(a, b, tolerance, sum))
+  {
+    return true;
+  }
   EdgeNeighbours neighbours;
   ParallelTriangles sheets;
   std::function<Bands(const GaussLegendre&)> integrate;
   if (neighbours.Set(a.Corners, b.Corners) && neighbours.GetSharedLength() >= wide)
   {
     integrate = [&](const GaussLegendre& rule)
-    {
-      Bands value = Bands::Zero();
-      neighbours.Integrate(this->Profiles, rule, value.data());
-      for (int band = 0; band < NumberOfBands; ++band)
-      {
-        value[band] *= this->InverseTotals[band];
-      }
-      return value;
-    };
+    { return neighbours.Integrate(this->Moments, rule); };
   }
   else if (std::min(a.Radius, b.Radius) >= wide && sheets.Set(a.Corners, b.Corners, scale, core) &&
     (!this->Singular || std::min(a.Radius, b.Radius) >= WidePair * sheets.GetScale()))
@@ -395,6 +412,25 @@ bool ScatteringIntegrals::AddWidePair(const Triangle& a, const Triangle& b, doub
     return false;
   }
   RefineRule(integrate, this->RelativeTolerance, tolerance, sum);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Of the widest ones little is left of the potentials.
+bool ScatteringIntegrals::AddCoplanarPair(const Triangle& a, const Triangle& b, double tolerance,
+  Sum& sum) const
+{
+  CoplanarTriangles plane;
+  if (!this->Singular || std::max(a.Radius, b.Radius) > WidePair * this->Scale ||
+    !plane.Set(a.Corners, b.Corners, Flatness * this->RelativeTolerance))
+  {
+    return false;
+  }
+  const CoplanarTriangles::Sum whole = plane.Integrate([this](double squaredDistance)
+    { return Bands(this->Potentials.Evaluate(squaredDistance).cast<double>()); },
+    this->RelativeTolerance, tolerance);
+  sum.Value += whole.Value;
+  sum.SquaredError += whole.SquaredError.maxCoeff();
   return true;
 }
 
@@ -449,13 +485,9 @@ void ScatteringIntegrals::AddSelf(const Triangle& triangle, Result& result) cons
         const double stretch = std::cosh(first + width * (part + rule.Nodes[k]));
         const double reach = height * stretch;
         const double weight = 2.0 * triangle.Area * width * rule.Weights[k] / stretch;
-        for (int band = 0; band < NumberOfBands; ++band)
-        {
-          double moments[3];
-          this->Profiles[band]->GetMoments(reach, moments);
-          result.Value[band] += weight * this->InverseTotals[band] *
-            (moments[0] - 2.0 * moments[1] / reach + moments[2] / (reach * reach));
-        }
+        const ProfileMoments::Means means = this->Moments.GetMeans(reach);
+        result.Value += weight * reach *
+          (means.Of[0] - 2.0f * means.Of[1] + means.Of[2]).max(0.0f).cast<double>();
       }
     }
   }

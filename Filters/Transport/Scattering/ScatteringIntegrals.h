@@ -11,22 +11,24 @@
  * - two triangles: products of symmetric rules with 1, 3 and 6 points, compared with each other;
  * where the largest is not enough the larger triangle is cut in four;
  * - two with a long edge in common (EdgeNeighbours), and two wide ones in parallel planes
- * (ParallelTriangles): exact along the radius.
+ * (ParallelTriangles): exact along the radius;
+ * - two in one plane, near a peak of 1/r (CoplanarTriangles): along their edges.
  *
  * All values are divided by the profiles' totals, so that one tolerance serves all bands.
  */
 #ifndef ScatteringIntegrals_h
 #define ScatteringIntegrals_h
 
+#include "Scattering/ProfileMoments.h"
+#include "Scattering/RadialTable.h"
 #include "Scattering/ScatteringProfile.h"
 #include "Shared/GaussLegendre.h"
+#include "vtkDeviceLinkRefiner.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -36,7 +38,7 @@ namespace LightTransport
 class ScatteringIntegrals
 {
 public:
-  static constexpr int NumberOfBands = 3;
+  static constexpr int NumberOfBands = RadialTable::NumberOfBands;
   using Vector = Eigen::Vector3d;
   /// One value per band; the fourth is padding and stays 0.
   using Bands = Eigen::Array4d;
@@ -86,15 +88,16 @@ public:
   /// And their derivative by the squared distance.
   Bands GetValue(double squaredDistance, Bands& derivative) const
   {
-    const Place place = this->Find(squaredDistance);
-    const Lane* const c = place.Of->Coefficients;
-    derivative = ((c[1] + 2.0f * place.At * c[2]) / place.Length).cast<double>();
-    return Evaluate(place).cast<double>();
+    const RadialTable::Place place = this->Table.Find(squaredDistance);
+    derivative = this->Table.GetDerivative(place).cast<double>();
+    return this->Table.Evaluate(place).cast<double>();
   }
   /// Whether any of them goes like 1/r at the centre.
   bool AreSingular() const { return this->Singular; }
   /// By how much their logarithms change per mm, at most, far out.
   const Bands& GetDecays() const { return this->Decays; }
+  /// The table behind GetValue, for a device.
+  void Describe(vtkDeviceLinkRefiner::ProfileTable& table) const;
 
   /// Add the integral over both triangles; an error of `tolerance` is allowed as well.
   void AddPair(const Triangle& a, const Triangle& b, double tolerance, Result& result) const;
@@ -103,20 +106,7 @@ public:
   void AddSelf(const Triangle& triangle, Result& result) const;
 
 private:
-  using Lane = Eigen::Array4f;
-
-  ///@{ The table has 2^6 pieces per octave of squared distance: the top bits of a float are the
-  /// piece, the rest is the place in it.
-  static constexpr int MantissaBits = 23;
-  static constexpr int PieceBits = 6;
-  static constexpr int PlaceBits = MantissaBits - PieceBits;
-  ///@}
-
-  /// A piece of the tabulated profiles: a parabola in its local coordinate, all bands at a time.
-  struct Piece
-  {
-    Lane Coefficients[3];
-  };
+  using Lane = RadialTable::Lane;
 
   /// What the error of a part of an integral may be: Absolute + Relative v + sqrt(Shared v), v its
   /// value.
@@ -133,40 +123,7 @@ private:
     double SquaredError = 0.0;
   };
 
-  static std::uint32_t BitsOf(float value)
-  {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    return bits;
-  }
-  static float FloatOf(std::uint32_t bits)
-  {
-    float value;
-    std::memcpy(&value, &bits, sizeof(value));
-    return value;
-  }
-  /// Where in the table a squared distance is.
-  struct Place
-  {
-    const Piece* Of;
-    float At;     ///< 0 to 1
-    float Length; ///< of the piece
-  };
-  Place Find(double squaredDistance) const
-  {
-    const std::uint32_t bits = BitsOf(static_cast<float>(squaredDistance + this->SquaredCore));
-    constexpr std::uint32_t mask = (1u << PlaceBits) - 1u;
-    constexpr std::uint32_t exponent = ~((1u << MantissaBits) - 1u);
-    return { &this->Table[(bits >> PlaceBits) - this->FirstPiece],
-      static_cast<float>(bits & mask) * (1.0f / (1u << PlaceBits)),
-      FloatOf(bits & exponent) * (1.0f / (1u << PieceBits)) };
-  }
-  static Lane Evaluate(const Place& place)
-  {
-    const Lane* const c = place.Of->Coefficients;
-    return c[0] + place.At * (c[1] + place.At * c[2]);
-  }
-  Lane Evaluate(double squaredDistance) const { return Evaluate(this->Find(squaredDistance)); }
+  Lane Evaluate(double squaredDistance) const { return this->Table.Evaluate(squaredDistance); }
   Bands GetSlopes(double squaredDistance) const
   {
     Bands slopes = this->SlopesOfSource / (squaredDistance + this->SquaredScales).sqrt();
@@ -180,21 +137,23 @@ private:
     const float* weightsB, int countB) const;
   bool TryRules(const Triangle& a, const Triangle& b, const Goal& goal, bool last, Sum& sum) const;
   void AddParts(const Triangle& a, const Triangle& b, const Goal& goal, int depth, Sum& sum) const;
-  /// For what cannot be cut at a bounded price; false for all else.
   /// Whether two corners are the same.
   static bool HaveEdge(const Triangle& a, const Triangle& b);
+  /// For what cannot be cut at a bounded price; false for all else.
   bool AddWidePair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
+  bool AddCoplanarPair(const Triangle& a, const Triangle& b, double tolerance, Sum& sum) const;
   static void RefineRule(const std::function<Bands(const GaussLegendre&)>& integrate,
     double relativeTolerance, double tolerance, Sum& sum);
   void Tabulate(double maximumDistance);
   double EvaluateExactly(int band, double squaredDistance) const;
+  double IntegratePotential(int band, double begin, double end) const;
 
   const ScatteringProfiles& Profiles;
   double InverseTotals[NumberOfBands];
   double RelativeTolerance;
   /// Smallest scale of all profiles.
   double Scale = 0.0;
-  /// Within its root the table does not change: the scale, or little of it for singular profiles.
+  /// Within its root the tables do not change: the scale, or little of it for singular profiles.
   double SquaredCore = 0.0;
   bool Singular = false;
   ///@{ Per band; the padding is flat.
@@ -203,8 +162,9 @@ private:
   Bands SlopesOfSource = Bands::Zero();
   Bands SlopesOfCentre = Bands::Zero();
   ///@}
-  std::vector<Piece> Table;
-  std::uint32_t FirstPiece = 0;
+  RadialTable Table;
+  RadialTable Potentials; ///< whose Laplacians in the plane the profiles are
+  ProfileMoments Moments;
 };
 } // namespace LightTransport
 

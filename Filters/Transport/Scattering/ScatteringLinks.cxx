@@ -5,6 +5,7 @@
 #include "Links/LinkOperators.h"
 #include "Links/Links.h"
 #include "Scattering/AirGaps.h"
+#include "Scattering/RefinementOnDevice.h"
 #include "Scattering/ScatteringAssembly.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringIntegrals.h"
@@ -84,13 +85,14 @@ LinkKey ScatteringLinks::GetKey() const
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
       static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
       this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
-      this->Choice.CompressionTolerance },
+      this->Choice.CompressionTolerance, this->Choice.IsKept ? 1.0 : 0.0 },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
     key.Parameters.insert(key.Parameters.end(),
       { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
+  key.Parameters.insert(key.Parameters.end(), this->Choice.Light.begin(), this->Choice.Light.end());
   return key;
 }
 
@@ -126,7 +128,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
       this->Choice.DropsThroughAir;
     built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
   }
-  if (!built)
+  if (!built || !links.GetExchange())
   {
     return built;
   }
@@ -198,18 +200,32 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   const ScatteringClusters::Tolerances factors{ ShareOfValues * links.Tolerance,
     ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
-  ScatteringRefinement refinement(clusters, task.Areas, reference, factors.PerArea);
+  ScatteringRefinement refinement(clusters, task.Areas, this->Choice.Light, reference,
+    factors.PerArea);
+  const double most = isAuto ? 0.0 : this->Choice.Number;
+  if (links.Choice)
+  {
+    const bool holds = isUniform
+      ? refinement.KeepUniform(this->Choice.Number, *links.Choice, task.AllRanks)
+      : refinement.KeepAdaptive(most, *links.Choice, task.AllRanks);
+    return holds ? this->FillRows(task, clusters, refinement) : Outcome::Done();
+  }
   if (isUniform)
   {
-    refinement.ChooseUniform(this->Choice.Number);
+    refinement.ChooseUniform(this->Choice.Number, links.Tolerance);
   }
   else
   {
-    refinement.ChooseAdaptive(links.Tolerance, isAuto ? 0.0 : this->Choice.Number);
+    refinement.ChooseAdaptive(links.Tolerance, most);
   }
   if (isAuto && !this->Choice.AreCompressed && this->IsDense(task, refinement))
   {
     return this->LinkPatches(task);
+  }
+  if (this->Choice.IsKept)
+  {
+    links.Choice = std::make_shared<LinkChoice>(refinement.GetChoice());
+    links.Choice->Arrangement = task.Scene.GetArrangement();
   }
   return this->FillRows(task, clusters, refinement);
 }
@@ -232,11 +248,7 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
   links.Hierarchy->SetTree(task.Areas, clusters.GetSlots().GetNodes(), task.AllRanks.GetMine(),
     task.AllRanks.GetNumber(), kernels);
   ScatteringRefinement::Summary summary;
-  AirGaps gaps;
-  built = task.AllRanks.Agree(gaps.Build(task.Scene));
-  built = built ? task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks,
-                    task.Watch, links.Hierarchy, summary))
-                : built;
+  built = this->ChooseRows(task, clusters, refinement, summary);
   if (!built)
   {
     return built;
@@ -254,15 +266,55 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
 }
 
 //------------------------------------------------------------------------------
+// Auto comes back to the CPU where the device cannot. It knows no light.
+Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& clusters,
+  const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const
+{
+  AirGaps gaps;
+  vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
+  Outcome chosen = task.AllRanks.Agree(gaps.Build(task.Scene));
+  // Those that are kept have been chosen.
+  const bool isLit = !this->Choice.Light.empty();
+  if (chosen && !refinement.IsKept() && !isLit)
+  {
+    chosen = LinkOperators::FindRefiner(this->Choice.Device, task.AllRanks, refiner);
+  }
+  const auto fill = [&](RefinementOnDevice* device)
+  {
+    return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
+      device, task.Result.Hierarchy, summary));
+  };
+  std::string where = "CPU";
+  where += refinement.IsKept() ? ": links of an earlier position are kept" : "";
+  where += isLit ? ": for the light that is given" : "";
+  if (chosen && refiner)
+  {
+    RefinementOnDevice device(refiner, clusters);
+    chosen = fill(&device);
+    if (!device.HasFailed() || this->Choice.Device == LinkDevice::OpenGL)
+    {
+      task.Result.Remarks.emplace_back("LinksChosenOn", refiner->GetDeviceName());
+      return chosen;
+    }
+    where = "CPU: " + chosen.GetMessage();
+    chosen = Outcome::Done();
+  }
+  task.Result.Remarks.emplace_back("LinksChosenOn", where);
+  return chosen ? fill(nullptr) : chosen;
+}
+
+//------------------------------------------------------------------------------
 void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refinement,
   const ScatteringRefinement::Summary& summary) const
 {
   task.Result.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", refinement.GetProspect().Error },
     { "LinksPerReceiver", summary.Links / static_cast<double>(task.Areas.size()) } };
+  task.Result.ReusedShare = summary.Links > 0.0 ? summary.Reused / summary.Links : 0.0;
   const bool isUniform = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_UNIFORM;
-  task.Result.Remarks = { { "LinkMethodUsed", isUniform ? "Uniform" : "Adaptive" },
-    { "LinksLimitedBy", refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance" } };
+  task.Result.Remarks.emplace_back("LinkMethodUsed", isUniform ? "Uniform" : "Adaptive");
+  task.Result.Remarks.emplace_back("LinksLimitedBy",
+    refinement.IsLimited() ? "NumberOfLinks" : "LinkTolerance");
 }
 
 //------------------------------------------------------------------------------

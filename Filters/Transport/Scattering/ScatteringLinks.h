@@ -7,6 +7,7 @@
 #define ScatteringLinks_h
 
 #include "Links/LinkBuilder.h"
+#include "Links/LinkOperators.h"
 #include "Scattering/ScatteringMedium.h"
 #include "Scattering/ScatteringModels.h"
 #include "Scattering/ScatteringRefinement.h"
@@ -26,6 +27,9 @@ struct ScatteringLinkChoice
   bool DropsThroughAir = false; ///< of all pairs
   bool AreCompressed = false;   ///< those from clusters
   double CompressionTolerance = 0.0;
+  bool IsKept = false;                 ///< when patches move
+  LinkDevice Device = LinkDevice::CPU; ///< where those from clusters are chosen
+  std::vector<double> Light; ///< that they are chosen for, patches x components; empty for any
 };
 
 class ScatteringLinks : public LinkBuilder
@@ -48,6 +52,8 @@ private:
   Outcome LinkClusters(Task& task) const;
   Outcome FillRows(Task& task, const ScatteringClusters& clusters,
     const ScatteringRefinement& refinement) const;
+  Outcome ChooseRows(Task& task, const ScatteringClusters& clusters,
+    const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const;
   void Summarize(Task& task, const ScatteringRefinement& refinement,
     const ScatteringRefinement::Summary& summary) const;
   double GetTolerance(bool isDense) const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringReceiver.h"
 
+#include <algorithm>
+
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
@@ -10,6 +12,14 @@ void ScatteringReceiver::Look(vtkIdType patch)
   this->Patch = patch;
   this->Parts.clear();
   this->Add(0);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::Look(vtkIdType patch, const int* begin, const int* end)
+{
+  this->Patch = patch;
+  this->Parts.clear();
+  this->AddKept(0, begin, end);
 }
 
 //------------------------------------------------------------------------------
@@ -25,6 +35,7 @@ void ScatteringReceiver::SetSmooth(const ScatteringClusters::Estimate& estimate,
   const double area = this->Clusters->GetArea(part.Slot);
   part.Value = area * estimate.Value;
   part.Squares = area * estimate.Squares;
+  part.IsFactor = this->Clusters->IsFactor(estimate);
 }
 
 //------------------------------------------------------------------------------
@@ -36,7 +47,7 @@ ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
   part.IsLeftOut = this->IsNegligible(slot);
   if (!part.IsLeftOut && !this->Clusters->GetSlots().IsPatch(slot))
   {
-    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
+    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot, false);
     this->SetSmooth(estimate, part);
   }
   return part;
@@ -45,45 +56,160 @@ ScatteringReceiver::Part ScatteringReceiver::MakeSmooth(int slot) const
 //------------------------------------------------------------------------------
 void ScatteringReceiver::Add(int slot)
 {
-  const std::size_t index = this->Parts.size();
   Part part;
   part.Slot = slot;
   part.IsLeftOut = this->IsNegligible(slot);
-  this->Parts.push_back(part);
   if (part.IsLeftOut)
   {
+    this->Parts.push_back(part);
     return;
   }
+  this->AddLinked(slot);
+}
+
+//------------------------------------------------------------------------------
+// What is not left out.
+void ScatteringReceiver::AddLinked(int slot)
+{
+  Part part;
+  part.Slot = slot;
   if (this->Clusters->GetSlots().IsPatch(slot))
   {
-    part.Value =
-      this->Clusters->IntegratePatch(this->Patch, this->Clusters->GetSlots().GetPatch(slot));
-    part.Squares = part.Value.square() / this->Clusters->GetArea(slot);
-    part.IsExact = true;
-    this->Parts[index] = part;
+    this->AddPatch(slot);
     return;
   }
   if (!this->IsOwn(part))
   {
-    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot);
+    const ScatteringClusters::Estimate estimate = this->Clusters->Look(this->Patch, slot, true);
     if (estimate.IsSmooth)
     {
-      this->SetSmooth(estimate, this->Parts[index]);
+      this->SetSmooth(estimate, part);
+      this->Parts.push_back(part);
       return;
     }
   }
+  this->AddNode(slot, [this](int child) { this->Add(child); });
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::AddPatch(int slot)
+{
+  Part part;
+  part.Slot = slot;
+  part.Value =
+    this->Clusters->IntegratePatch(this->Patch, this->Clusters->GetSlots().GetPatch(slot));
+  part.Squares = part.Value.square() / this->Clusters->GetArea(slot);
   part.IsExact = true;
+  this->Parts.push_back(part);
+}
+
+//------------------------------------------------------------------------------
+// The sum of what addChild(slot) adds for each child.
+template <typename AddChild>
+void ScatteringReceiver::AddNode(int slot, const AddChild& addChild)
+{
+  const std::size_t index = this->Parts.size();
+  Part part;
+  part.Slot = slot;
+  part.IsExact = true;
+  this->Parts.push_back(part);
   const LinkSlots::Node children = this->Clusters->GetSlots().GetChildren(slot);
   for (int child = children.First; child < children.Last; ++child)
   {
     const std::size_t below = this->Parts.size();
-    this->Add(child);
+    addChild(child);
     part.Value += this->Parts[below].Value;
     part.Squares += this->Parts[below].Squares;
     part.IsExact = part.IsExact && this->Parts[below].IsExact;
   }
   part.NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
   this->Parts[index] = part;
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::AddKept(int slot, const int* begin, const int* end)
+{
+  const std::size_t index = this->Parts.size();
+  if (begin == end)
+  {
+    this->Add(slot);
+    return;
+  }
+  if (*begin == slot)
+  {
+    this->AddLinked(slot);
+    this->Parts[index].IsKept = true;
+    return;
+  }
+  Part part;
+  part.Slot = slot;
+  part.IsDivided = true;
+  this->Parts.push_back(part);
+  const LinkSlots::Node children = this->Clusters->GetSlots().GetChildren(slot);
+  for (int child = children.First; child < children.Last; ++child)
+  {
+    const int* const middle = std::find_if(begin, end,
+      [&](int kept)
+      { return !this->Clusters->HoldsPatch(child, this->Clusters->GetFirstPatch(kept)); });
+    this->AddKept(child, begin, middle);
+    begin = middle;
+  }
+  this->Parts[index].NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::Adopt(vtkIdType patch, const RefinementOnDevice::Walk& walk)
+{
+  this->Patch = patch;
+  this->Parts.clear();
+  RefinementOnDevice::Walk left = walk;
+  this->AddFound(0, left);
+}
+
+//------------------------------------------------------------------------------
+// Nodes above what the device has found are near.
+void ScatteringReceiver::AddFound(int slot, RefinementOnDevice::Walk& walk)
+{
+  if (walk.Begin->Slot != slot)
+  {
+    this->AddNode(slot, [&](int child) { this->AddFound(child, walk); });
+    return;
+  }
+  const std::size_t index = this->Parts.size();
+  const bool isDivided = walk.Begin->What == vtkDeviceLinkRefiner::Kind::Divided;
+  this->AddPart(walk);
+  if (isDivided)
+  {
+    while (walk.Begin != walk.End &&
+      this->Clusters->HoldsPatch(slot, this->Clusters->GetFirstPatch(walk.Begin->Slot)))
+    {
+      this->AddPart(walk);
+    }
+    this->Parts[index].NumberBelow = static_cast<int>(this->Parts.size() - index - 1);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ScatteringReceiver::AddPart(RefinementOnDevice::Walk& walk)
+{
+  const RefinementOnDevice::Part& found = *walk.Begin;
+  ++walk.Begin;
+  if (found.What == vtkDeviceLinkRefiner::Kind::Patch)
+  {
+    this->AddPatch(found.Slot);
+    return;
+  }
+  Part part;
+  part.Slot = found.Slot;
+  part.IsLeftOut = found.What == vtkDeviceLinkRefiner::Kind::LeftOut;
+  part.IsFactor = found.IsFactor;
+  for (int band = 0; band < vtkDeviceLinkRefiner::NumberOfBands; ++band)
+  {
+    part.Value[band] = found.Value[band];
+    part.Squares[band] = found.Deviation2[band];
+  }
+  part.Squares = (part.Squares + part.Value.square()) / this->Clusters->GetArea(part.Slot);
+  this->Parts.push_back(part);
 }
 
 //------------------------------------------------------------------------------

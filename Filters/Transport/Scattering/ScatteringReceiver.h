@@ -8,6 +8,7 @@
 #ifndef ScatteringReceiver_h
 #define ScatteringReceiver_h
 
+#include "Scattering/RefinementOnDevice.h"
 #include "Scattering/ScatteringClusters.h"
 #include "vtkType.h"
 
@@ -27,7 +28,10 @@ public:
     Bands Value = Bands::Zero();   ///< integral of the profile over it
     Bands Squares = Bands::Zero(); ///< of its square
     bool IsExact = false;          ///< patch by patch
+    bool IsFactor = false;         ///< the value is that of a link
     bool IsLeftOut = false;        ///< certainly too little
+    bool IsDivided = false;        ///< whatever it is, which nothing here tells
+    bool IsKept = false;           ///< as it was chosen before
     int NumberBelow = 0;           ///< parts that follow it and lie below it
   };
 
@@ -39,6 +43,11 @@ public:
 
   /// Look at all clusters from a patch.
   void Look(vtkIdType patch);
+  /// Look at the clusters from which it received before it moved, and at all that were left out:
+  /// [begin, end) in the order of their patches.
+  void Look(vtkIdType patch, const int* begin, const int* end);
+  /// Likewise where a device has looked.
+  void Adopt(vtkIdType patch, const RefinementOnDevice::Walk& walk);
   vtkIdType GetPatch() const { return this->Patch; }
 
   /// What a link from a part misses at most of light that differs by 1 from its mean there, root
@@ -55,15 +64,22 @@ public:
   {
     this->VisitPart(this->Parts[0], divide, take);
   }
-
-private:
-  void Add(int slot);
-  void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
-  Part MakeSmooth(int slot) const;
-  bool IsNegligible(int slot) const;
+  /// The same below a part.
   template <typename Divide, typename Take>
   void VisitPart(const Part& part, const Divide& divide, const Take& take) const;
 
+private:
+  void Add(int slot);
+  void AddLinked(int slot);
+  void AddKept(int slot, const int* begin, const int* end);
+  void AddFound(int slot, RefinementOnDevice::Walk& walk);
+  void AddPart(RefinementOnDevice::Walk& walk);
+  void AddPatch(int slot);
+  template <typename AddChild>
+  void AddNode(int slot, const AddChild& addChild);
+  void SetSmooth(const ScatteringClusters::Estimate& estimate, Part& part) const;
+  Part MakeSmooth(int slot) const;
+  bool IsNegligible(int slot) const;
   const ScatteringClusters* Clusters;
   double LeaveOut;
   vtkIdType Patch = -1;
@@ -75,7 +91,7 @@ template <typename Divide, typename Take>
 void ScatteringReceiver::VisitPart(const Part& part, const Divide& divide, const Take& take) const
 {
   const LinkSlots& slots = this->Clusters->GetSlots();
-  if (slots.IsPatch(part.Slot) || part.IsLeftOut || !divide(part))
+  if (slots.IsPatch(part.Slot) || part.IsLeftOut || !(part.IsDivided || divide(part)))
   {
     take(part);
     return;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scattering/ScatteringRefinement.h"
 
+#include "Links/LinkChoice.h"
 #include "Scattering/AirGaps.h"
+#include "Scattering/RefinementOnDevice.h"
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -24,6 +27,8 @@ using Values = ScatteringIntegrals::Bands;
 
 /// Receivers of a sample, by which rows are foreseen.
 constexpr vtkIdType SampleSize = 256;
+/// Where the light is given, which may be sharp.
+constexpr vtkIdType LitSampleSize = 512;
 /// Receivers that a thread takes at a time, and calls of the monitor.
 constexpr vtkIdType BlockSize = 64;
 constexpr vtkIdType NumberOfBatches = 100;
@@ -37,14 +42,41 @@ constexpr int ThresholdSteps = 12;
 ///@}
 /// Links of a body that are looked at for air, about.
 constexpr double MostAirSamples = 200000.0;
+///@{ Links that others are compared with, where the light is given: their error by its deviation,
+/// as a part of the tolerance, how many a receiver has at most, and steps to find them.
+constexpr double FineShare = 0.03;
+constexpr double MostFineLinks = 4096.0;
+constexpr int FineSteps = 6;
+///@}
+/// Squared deviation of the profile from its mean over a cluster, as parts of it, that its pieces
+/// tell the mean of, over the tolerance of links.
+constexpr double WidestPerTolerance = 25.0;
 /// A sample may have that much fewer links than all receivers.
 constexpr double LinkMargin = 0.98;
+///@{ By what the error and the number of kept links may exceed those of others, at most, and what
+/// they are refined to.
+constexpr double MostGrowth = 1.2;
+constexpr double GrowthAimedAt = 1.1;
+///@}
+/// As LinkMargin, of kept links.
+constexpr double KeptMargin = 0.99;
+/// What is left of an error by rounding.
+constexpr double NoError = 1e-6;
+
+//------------------------------------------------------------------------------
+/// Whether a rank fills the row of a patch.
+bool IsOfRank(vtkIdType patch, const Ranks& ranks)
+{
+  return patch / BlockSize % ranks.GetNumber() == ranks.GetMine();
+}
 } // namespace
 
 //------------------------------------------------------------------------------
 ScatteringRefinement::ScatteringRefinement(const ScatteringClusters& clusters,
-  const std::vector<double>& areas, double reference, double leaveOut)
-  : Clusters(clusters), Areas(areas), Reference(reference), LeaveOut(leaveOut)
+  const std::vector<double>& areas, const std::vector<double>& light, double reference,
+  double leaveOut)
+  : Clusters(clusters), Areas(areas), Light(clusters, light), Reference(reference),
+    LeaveOut(leaveOut)
 {
 }
 
@@ -52,16 +84,28 @@ ScatteringRefinement::ScatteringRefinement(const ScatteringClusters& clusters,
 bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
   const ScatteringReceiver::Part& part, double threshold) const
 {
-  return this->AreDivided[part.Slot] || receiver.IsOwn(part) ||
-    (receiver.GetDeviation(part) > threshold).any();
+  const double most = part.IsKept ? threshold : std::min(threshold, this->NewThreshold);
+  return this->AreDivided[part.Slot] ||
+    (receiver.IsOwn(part) && (this->DividesOwn || !part.IsExact)) ||
+    (this->GetDeviation(receiver, part) > most).any();
 }
 
 //------------------------------------------------------------------------------
-void ScatteringRefinement::Begin()
+// Of the profile, times how much more than assumed that of the light is, where it is given.
+Values ScatteringRefinement::GetDeviation(const ScatteringReceiver& receiver,
+  const ScatteringReceiver::Part& part) const
+{
+  return this->Light.HasSizes() ? this->Light.GetDeviation(receiver, part)
+                                : receiver.GetDeviation(part);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::Begin(double tolerance)
 {
   this->AreDivided.assign(this->Clusters.GetSlots().GetNumberOfSlots(), false);
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
-  const vtkIdType count = std::min(patches, SampleSize);
+  const bool isLit = this->Light.GetNumberOfComponents() > 0;
+  const vtkIdType count = std::min(patches, isLit ? LitSampleSize : SampleSize);
   this->Receivers.assign(count, ScatteringReceiver(this->Clusters, this->LeaveOut));
   const auto look = [&](vtkIdType begin, vtkIdType end)
   {
@@ -72,6 +116,108 @@ void ScatteringRefinement::Begin()
     }
   };
   Threads::For(0, count, 1, look);
+  if (isLit)
+  {
+    this->LookAtLight(tolerance);
+  }
+}
+
+//------------------------------------------------------------------------------
+// What leaves is known well enough by what is smooth to say how large an error is, then by links
+// much finer than those that are wanted.
+void ScatteringRefinement::LookAtLight(double tolerance)
+{
+  this->WidestDeviation2 = WidestPerTolerance * tolerance;
+  std::vector<double> sizes =
+    this->GetSizes(this->Receive([](const ScatteringReceiver&, const ScatteringReceiver::Part& part)
+      { return part.NumberBelow > 0; }));
+  for (double& size : sizes)
+  {
+    size *= Deviation / this->Reference;
+  }
+  this->Light.SetSizes(sizes);
+  const double threshold = this->FindThreshold(FineShare * tolerance, MostFineLinks, FineSteps);
+  this->Received =
+    this->Receive([&](const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part)
+      { return this->Divides(receiver, part, threshold); });
+}
+
+//------------------------------------------------------------------------------
+// Receivers x components of the light.
+template <typename Divide>
+std::vector<double> ScatteringRefinement::Receive(const Divide& divide) const
+{
+  const std::size_t components = this->Light.GetNumberOfComponents();
+  std::vector<double> received(this->Receivers.size() * components, 0.0);
+  const auto receive = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      const ScatteringReceiver& receiver = this->Receivers[k];
+      receiver.Visit([&](const ScatteringReceiver::Part& part) { return divide(receiver, part); },
+        [&](const ScatteringReceiver::Part& part)
+        { this->Light.Add(receiver, part, &received[k * components]); });
+    }
+  };
+  Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, receive);
+  return received;
+}
+
+//------------------------------------------------------------------------------
+// Root mean square of each component.
+std::vector<double> ScatteringRefinement::GetSizes(const std::vector<double>& received) const
+{
+  const std::size_t components = this->Light.GetNumberOfComponents();
+  std::vector<double> sizes(components, 0.0);
+  double area = 0.0;
+  for (std::size_t k = 0; k < this->Receivers.size(); ++k)
+  {
+    const double weight = this->Areas[this->Receivers[k].GetPatch()];
+    area += weight;
+    for (std::size_t component = 0; component < components; ++component)
+    {
+      const double value = received[k * components + component];
+      sizes[component] += weight * value * value;
+    }
+  }
+  for (double& size : sizes)
+  {
+    size = std::sqrt(size / area);
+  }
+  return sizes;
+}
+
+//------------------------------------------------------------------------------
+// Relative, of the worst component.
+double ScatteringRefinement::GetLightError(const std::vector<double>& received) const
+{
+  std::vector<double> differences(received.size());
+  std::transform(received.begin(), received.end(), this->Received.begin(), differences.begin(),
+    std::minus<double>());
+  const std::vector<double> errors = this->GetSizes(differences);
+  const std::vector<double> sizes = this->GetSizes(this->Received);
+  double worst = 0.0;
+  for (std::size_t component = 0; component < sizes.size(); ++component)
+  {
+    worst = std::max(worst, sizes[component] > 0.0 ? errors[component] / sizes[component] : 0.0);
+  }
+  return worst;
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::Look(vtkIdType patch, ScatteringReceiver& receiver) const
+{
+  if (this->Kept)
+  {
+    const int* const columns = this->Kept->Columns.data();
+    receiver.Look(patch, columns + this->Kept->Offsets[patch],
+      columns + this->Kept->Offsets[patch + 1]);
+  }
+  else
+  {
+    receiver.Look(patch);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -86,16 +232,23 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     {
       Pulse::Beat();
       const ScatteringReceiver& receiver = this->Receivers[k];
+      if (!IsOfRank(receiver.GetPatch(), this->SharedWith))
+      {
+        continue;
+      }
       receiver.Visit([&](const ScatteringReceiver::Part& part)
         { return this->Divides(receiver, part, threshold); },
         [&](const ScatteringReceiver::Part& part)
         {
           links[k] += part.IsLeftOut ? 0.0 : 1.0;
-          squares[k] += receiver.GetDeviation(part).square();
+          squares[k] += this->GetDeviation(receiver, part).square();
         });
     }
   };
   Threads::For(0, count, 1, measure);
+  // One rank has each of them: no order changes the sums.
+  this->SharedWith.Sum(links);
+  this->SharedWith.Sum(squares.data()->data(), 4 * squares.size());
   double area = 0.0;
   Values errors = Values::Zero();
   Prospect prospect;
@@ -107,16 +260,22 @@ ScatteringRefinement::Prospect ScatteringRefinement::Measure(double threshold) c
     errors += weight * squares[k];
   }
   prospect.Error = Deviation * std::sqrt(errors.maxCoeff() / area) / this->Reference;
+  if (!this->Received.empty())
+  {
+    prospect.Error = this->GetLightError(
+      this->Receive([&](const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part)
+        { return this->Divides(receiver, part, threshold); }));
+  }
   return prospect;
 }
 
 //------------------------------------------------------------------------------
 // The largest threshold for the tolerance, or the smallest for the number of links.
-double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks) const
+double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks, int steps) const
 {
   double high = std::log(LargestThreshold * this->Reference);
   double low = std::log(SmallestThreshold * this->Reference);
-  for (int step = 0; step < ThresholdSteps; ++step)
+  for (int step = 0; step < steps; ++step)
   {
     const double middle = 0.5 * (low + high);
     const Prospect prospect = this->Measure(std::exp(middle));
@@ -129,12 +288,95 @@ double ScatteringRefinement::FindThreshold(double tolerance, double mostLinks) c
 //------------------------------------------------------------------------------
 void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
 {
-  this->Begin();
+  this->Begin(tolerance);
+  this->DividesOwn = !this->Light.HasSizes();
   const double most =
     mostLinks > 0.0 ? LinkMargin * mostLinks : std::numeric_limits<double>::infinity();
-  this->Threshold = this->FindThreshold(tolerance, most);
+  this->Threshold = this->FindThreshold(tolerance, most, ThresholdSteps);
   this->Expected = this->Measure(this->Threshold);
   this->Limited = this->Expected.Error > tolerance;
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks)
+{
+  this->ChooseUniform(clusters, kept.Error);
+  const Prospect others = this->Expected;
+  this->StartFrom(kept, ranks);
+  this->Expected = this->Measure(this->Threshold);
+  return this->IsAsGoodAs(others, std::numeric_limits<double>::infinity());
+}
+
+//------------------------------------------------------------------------------
+// By the threshold that they had others of the same clusters would be about as many, and as good:
+// else the body is another one. Kept links are refined until they are hardly worse.
+bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept,
+  const Ranks& ranks)
+{
+  this->Begin(kept.Error);
+  this->Limited = kept.IsLimited;
+  this->NewThreshold = kept.Threshold * this->Reference;
+  const Prospect others = this->Measure(this->NewThreshold);
+  this->StartFrom(kept, ranks);
+  this->Threshold = std::numeric_limits<double>::infinity();
+  this->Expected = this->Measure(this->Threshold);
+  const double aim = GrowthAimedAt * std::min(others.Error, kept.Error);
+  const double most =
+    mostLinks > 0.0 ? KeptMargin * mostLinks : std::numeric_limits<double>::infinity();
+  if (this->Expected.Error > aim)
+  {
+    this->Threshold =
+      this->FindThreshold(aim, std::min(most, this->GetMostLinks(others)), ThresholdSteps);
+    this->Expected = this->Measure(this->Threshold);
+  }
+  const bool couldBeFiner = kept.IsLimited && others.Links < kept.LinksPerReceiver / MostGrowth;
+  return !couldBeFiner && this->IsAsGoodAs(others, most);
+}
+
+//------------------------------------------------------------------------------
+void ScatteringRefinement::StartFrom(const LinkChoice& kept, const Ranks& ranks)
+{
+  this->Kept = &kept;
+  this->SharedWith = ranks;
+  this->AreDivided = kept.AreDivided;
+  const auto look = [&](vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType k = begin; k < end; ++k)
+    {
+      Pulse::Beat();
+      if (IsOfRank(this->Receivers[k].GetPatch(), ranks))
+      {
+        this->Look(this->Receivers[k].GetPatch(), this->Receivers[k]);
+      }
+    }
+  };
+  Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, look);
+}
+
+//------------------------------------------------------------------------------
+double ScatteringRefinement::GetMostLinks(const Prospect& others) const
+{
+  return MostGrowth * std::min(others.Links, this->Kept->LinksPerReceiver);
+}
+
+//------------------------------------------------------------------------------
+bool ScatteringRefinement::IsAsGoodAs(const Prospect& others, double mostLinks) const
+{
+  const double error = MostGrowth * std::min(others.Error, this->Kept->Error);
+  return this->Expected.Error <= std::max(error, NoError) &&
+    this->Expected.Links <= std::min(mostLinks, this->GetMostLinks(others));
+}
+
+//------------------------------------------------------------------------------
+LinkChoice ScatteringRefinement::GetChoice() const
+{
+  LinkChoice choice;
+  choice.Error = this->Expected.Error;
+  choice.LinksPerReceiver = this->Expected.Links;
+  choice.Threshold = this->Threshold / this->Reference;
+  choice.IsLimited = this->Limited;
+  choice.AreDivided = this->AreDivided;
+  return choice;
 }
 
 //------------------------------------------------------------------------------
@@ -146,17 +388,17 @@ double ScatteringRefinement::GetClusterError(int slot) const
   {
     if (!this->Clusters.HoldsPatch(slot, receiver.GetPatch()))
     {
-      sum +=
-        this->Areas[receiver.GetPatch()] * receiver.GetDeviation(receiver.GetPart(slot)).square();
+      sum += this->Areas[receiver.GetPatch()] *
+        this->GetDeviation(receiver, receiver.GetPart(slot)).square();
     }
   }
   return sum.maxCoeff();
 }
 
 //------------------------------------------------------------------------------
-void ScatteringRefinement::ChooseUniform(int clusters)
+void ScatteringRefinement::ChooseUniform(int clusters, double tolerance)
 {
-  this->Begin();
+  this->Begin(tolerance);
   std::priority_queue<std::pair<double, int>> queue;
   // The root holds all receivers.
   queue.emplace(std::numeric_limits<double>::infinity(), 0);
@@ -179,13 +421,26 @@ void ScatteringRefinement::ChooseUniform(int clusters)
 }
 
 //------------------------------------------------------------------------------
+// As Divides has it, for any light.
+std::vector<double> ScatteringRefinement::GetLimits() const
+{
+  std::vector<double> limits(this->AreDivided.size(), this->Threshold);
+  for (std::size_t slot = 0; slot < limits.size(); ++slot)
+  {
+    limits[slot] = this->AreDivided[slot] ? -1.0 : limits[slot];
+  }
+  return limits;
+}
+
+//------------------------------------------------------------------------------
 struct ScatteringRefinement::Filler
 {
   const ScatteringRefinement& Outer;
   const Values& Totals;
   const AirGaps& Gaps;
-  vtkIdType First; ///< block
-  vtkIdType Step;  ///< from one block to the next
+  const RefinementOnDevice* Device; ///< has looked, where there is one
+  vtkIdType First;                  ///< block
+  vtkIdType Step;                   ///< from one block to the next
   std::vector<Block>& Blocks;
 
   /// As between patches, to one of the patches of the cluster.
@@ -210,6 +465,28 @@ struct ScatteringRefinement::Filler
     }
   }
 
+  // What is wide, and is not divided because its light is even, is summed up from parts that are
+  // not: the pieces of a cluster may agree with its centre by chance.
+  Values GetValue(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part) const
+  {
+    const double widest2 = this->Outer.WidestDeviation2;
+    Values value = Values::Zero();
+    receiver.VisitPart(
+      part,
+      [&](const ScatteringReceiver::Part& below)
+      {
+        return !below.IsExact &&
+          (receiver.GetDeviation(below).square() > widest2 * below.Value.square()).any();
+      },
+      [&](const ScatteringReceiver::Part& below)
+      {
+        value += below.IsExact || below.IsFactor
+          ? below.Value
+          : this->Outer.Clusters.Integrate(receiver.GetPatch(), below.Slot);
+      });
+    return value;
+  }
+
   void AddRow(const ScatteringReceiver& receiver, Block& block) const
   {
     const std::size_t before = block.Columns.size();
@@ -223,9 +500,9 @@ struct ScatteringRefinement::Filler
           return;
         }
         const ScatteringClusters& clusters = this->Outer.Clusters;
-        const Values value =
-          part.IsExact ? part.Value : clusters.Integrate(receiver.GetPatch(), part.Slot);
+        const Values value = this->GetValue(receiver, part);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
+        block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);
         for (int band = 0; band < Bands; ++band)
         {
@@ -246,7 +523,14 @@ struct ScatteringRefinement::Filler
       for (vtkIdType patch = first; patch < std::min(first + BlockSize, patches); ++patch)
       {
         Pulse::Beat();
-        receiver.Look(patch);
+        if (this->Device)
+        {
+          receiver.Adopt(patch, this->Device->GetWalk(patch));
+        }
+        else
+        {
+          this->Outer.Look(patch, receiver);
+        }
         this->AddRow(receiver, this->Blocks[k]);
       }
     }
@@ -254,9 +538,45 @@ struct ScatteringRefinement::Filler
 };
 
 //------------------------------------------------------------------------------
+// The monitor hears equally often on all ranks.
+Outcome ScatteringRefinement::FillAll(vtkIdType blocks, const Filler& filler,
+  const Monitor& monitor)
+{
+  Outcome goesOn = Outcome::Done();
+  for (vtkIdType batch = 0; goesOn && batch < NumberOfBatches; ++batch)
+  {
+    Threads::For(blocks * batch / NumberOfBatches, blocks * (batch + 1) / NumberOfBatches, 1,
+      filler);
+    goesOn = monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(NumberOfBatches));
+  }
+  return goesOn;
+}
+
+//------------------------------------------------------------------------------
+Outcome ScatteringRefinement::FillFromDevice(RefinementOnDevice& device, const Filler& filler,
+  const Monitor& monitor) const
+{
+  const auto patches = static_cast<vtkIdType>(this->Areas.size());
+  Outcome goesOn = device.Initialize(this->LeaveOut, this->GetLimits());
+  for (vtkIdType first = 0; goesOn && first < patches;)
+  {
+    const vtkIdType blocks = device.GetBatchSize() / BlockSize;
+    const vtkIdType last = std::min(first + blocks * BlockSize, patches);
+    goesOn = device.Refine(first, last);
+    if (goesOn)
+    {
+      Threads::For(first / BlockSize, (last + BlockSize - 1) / BlockSize, 1, filler);
+      goesOn = monitor.Check(static_cast<double>(last) / static_cast<double>(patches));
+    }
+    first = last;
+  }
+  return goesOn;
+}
+
+//------------------------------------------------------------------------------
 Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const AirGaps& gaps,
-  const Ranks& ranks, const Monitor& monitor, vtkExchangeHierarchy* exchange,
-  Summary& summary) const
+  const Ranks& ranks, const Monitor& monitor, RefinementOnDevice* device,
+  vtkExchangeHierarchy* exchange, Summary& summary) const
 {
   const auto patches = static_cast<vtkIdType>(this->Areas.size());
   const vtkIdType all = (patches + BlockSize - 1) / BlockSize;
@@ -268,26 +588,24 @@ Outcome ScatteringRefinement::Fill(const ScatteringProfiles& profiles, const Air
   {
     totals[band] = profiles[band]->GetTotal();
   }
-  const Filler filler{ *this, totals, gaps, ranks.GetMine(), step, blocks };
-  for (vtkIdType batch = 0; batch < NumberOfBatches; ++batch)
+  const Filler filler{ *this, totals, gaps, device, ranks.GetMine(), step, blocks };
+  Outcome filled = device ? this->FillFromDevice(*device, filler, monitor)
+                          : ScatteringRefinement::FillAll(mine, filler, monitor);
+  if (!filled)
   {
-    Threads::For(mine * batch / NumberOfBatches, mine * (batch + 1) / NumberOfBatches, 1, filler);
-    if (Outcome goesOn =
-          monitor.Check(static_cast<double>(batch + 1) / static_cast<double>(NumberOfBatches));
-        !goesOn)
-    {
-      return goesOn;
-    }
+    return filled;
   }
-  double counts[2] = {};
+  double counts[3] = {};
   for (const Block& block : blocks)
   {
     counts[0] += static_cast<double>(block.Columns.size());
     counts[1] += block.LeftOut;
+    counts[2] += block.Reused;
   }
-  ranks.Sum(counts, 2);
+  ranks.Sum(counts, 3);
   summary.Links = counts[0];
   summary.LeftOut = counts[1];
+  summary.Reused = counts[2];
   summary.ThroughAir = gaps.StartSums(this->Areas, profiles, this->GetAirSample());
   this->SumUpAir(blocks, totals, summary.ThroughAir);
   return this->Store(blocks, ranks.GetMine(), ranks.GetNumber(), exchange);

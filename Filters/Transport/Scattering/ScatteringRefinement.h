@@ -16,19 +16,30 @@
  * the squared error of a sample of receivers, and divide only those that hold the receiver: its own
  * branch of the tree. *Adaptive* links begin at the root.
  *
+ * Of patches that have moved since, the choice may be kept (LinkChoice): each receiver looks at the
+ * clusters that it had, and at what was left out, and these are divided by a threshold of their
+ * own.
+ *
  * The error that links have together is that of light which differs from its mean over each cluster
  * by Deviation of the mean, independently of the profile: the root of the sum of squares.
+ *
+ * Where the light is given (ClusterLight) its own deviation decides, in place of that one, and the
+ * error is what links miss of it beside much finer ones: errors of links have the same sign where
+ * both the light and the profile fall towards one side, so that squares would add up to too little.
  */
 #ifndef ScatteringRefinement_h
 #define ScatteringRefinement_h
 
 #include "Links/LinksThroughAir.h"
+#include "Scattering/ClusterLight.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringReceiver.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "Support/Ranks.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 class vtkExchangeHierarchy;
@@ -36,20 +47,34 @@ class vtkExchangeHierarchy;
 namespace LightTransport
 {
 class AirGaps;
-class Ranks;
+class RefinementOnDevice;
+struct LinkChoice;
 
 class ScatteringRefinement
 {
 public:
   /// All must outlive this. Errors of links are relative to `reference`, what a patch receives in
-  /// even light over the profile's total. What is certainly below `leaveOut`, per mm^2, is.
+  /// even light over the profile's total; with `light` (patches x bands of each of some lights;
+  /// empty for any light) to what patches receive of that. What is certainly below `leaveOut`, per
+  /// mm^2, is.
   ScatteringRefinement(const ScatteringClusters& clusters, const std::vector<double>& areas,
-    double reference, double leaveOut);
+    const std::vector<double>& light, double reference, double leaveOut);
 
-  ///@{ Which links there are. At most `mostLinks` (0: any number) on average.
-  void ChooseUniform(int clusters);
+  ///@{ Which links there are. At most `mostLinks` (0: any number) on average. Errors about as large
+  /// as the tolerance are told.
+  void ChooseUniform(int clusters, double tolerance);
   void ChooseAdaptive(double tolerance, double mostLinks);
   ///@}
+
+  ///@{ Or keep a choice, which must outlive this. False where it does not do any more, see
+  /// ReuseLinks
+  /// of vtkSubsurfaceScattering. Collective.
+  bool KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks);
+  bool KeepAdaptive(double mostLinks, const LinkChoice& kept, const Ranks& ranks);
+  ///@}
+  bool IsKept() const { return this->Kept != nullptr; }
+  /// What is to be kept when patches move, but for their rows.
+  LinkChoice GetChoice() const;
 
   /// What the choice comes to, of a sample of receivers.
   struct Prospect
@@ -61,18 +86,24 @@ public:
   /// Whether the number of links kept ChooseAdaptive from the tolerance.
   bool IsLimited() const { return this->Limited; }
 
+  /// Of every slot: what a link from it may miss; negative where it is divided anyway.
+  std::vector<double> GetLimits() const;
+
   struct Summary
   {
     double Links = 0.0;
     double LeftOut = 0.0;
+    double Reused = 0.0; ///< from clusters of the choice that is kept
     /// Of links that were looked at, each between the receiver and a patch of the cluster.
     LinksThroughAir ThroughAir;
   };
 
   /// This rank's rows. The counts are those of all ranks, what goes
-  /// through air that of this one.
+  /// through air that of this one. `device` looks for the receivers where there is one, which one
+  /// rank alone may have.
   Outcome Fill(const ScatteringProfiles& profiles, const AirGaps& gaps, const Ranks& ranks,
-    const Monitor& monitor, vtkExchangeHierarchy* exchange, Summary& summary) const;
+    const Monitor& monitor, RefinementOnDevice* device, vtkExchangeHierarchy* exchange,
+    Summary& summary) const;
 
 private:
   static constexpr int Bands = ScatteringIntegrals::NumberOfBands;
@@ -89,15 +120,31 @@ private:
     std::vector<int> Columns;
     std::vector<float> Values;
     double LeftOut = 0.0;
+    double Reused = 0.0;
     std::vector<AirLink> ThroughAir;
   };
   struct Filler;
 
+  static Outcome FillAll(vtkIdType blocks, const Filler& filler, const Monitor& monitor);
+  Outcome FillFromDevice(RefinementOnDevice& device, const Filler& filler,
+    const Monitor& monitor) const;
+
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
-  void Begin();
+  ScatteringIntegrals::Bands GetDeviation(const ScatteringReceiver& receiver,
+    const ScatteringReceiver::Part& part) const;
+  void Begin(double tolerance);
+  void LookAtLight(double tolerance);
+  template <typename Divide>
+  std::vector<double> Receive(const Divide& divide) const;
+  std::vector<double> GetSizes(const std::vector<double>& received) const;
+  double GetLightError(const std::vector<double>& received) const;
+  void StartFrom(const LinkChoice& kept, const Ranks& ranks);
+  double GetMostLinks(const Prospect& others) const;
+  bool IsAsGoodAs(const Prospect& others, double mostLinks) const;
+  void Look(vtkIdType patch, ScatteringReceiver& receiver) const;
   Prospect Measure(double threshold) const;
-  double FindThreshold(double tolerance, double mostLinks) const;
+  double FindThreshold(double tolerance, double mostLinks, int steps) const;
   double GetClusterError(int slot) const;
   double GetAirSample() const;
   void SumUpAir(const std::vector<Block>& blocks, const ScatteringIntegrals::Bands& totals,
@@ -107,12 +154,24 @@ private:
 
   const ScatteringClusters& Clusters;
   const std::vector<double>& Areas;
+  ClusterLight Light;
   const double Reference;
   const double LeaveOut;
   std::vector<ScatteringReceiver> Receivers; ///< some of all, by which rows are foreseen
+  /// What receivers get by much finer links, receivers x components of the light; empty for any.
+  std::vector<double> Received;
+  /// Squared deviation of the profile, over its mean, from which on its mean over a cluster is the
+  /// sum of parts; links for any light are narrow themselves.
+  double WidestDeviation2 = std::numeric_limits<double>::infinity();
+  /// Whether clusters that hold the receiver are, whatever their deviation.
+  bool DividesOwn = true;
   /// Nodes that are divided for all receivers.
   std::vector<bool> AreDivided;
   double Threshold = 0.0;
+  const LinkChoice* Kept = nullptr;
+  double NewThreshold = std::numeric_limits<double>::infinity(); ///< of what is not kept
+  /// With whom the sample is shared; of several ranks each looks at its own receivers.
+  Ranks SharedWith;
   Prospect Expected;
   bool Limited = false;
 };

@@ -22,8 +22,10 @@
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace LightTransport
 {
@@ -33,6 +35,8 @@ namespace
 constexpr double IndexTolerance = 1e-6;
 // Diffusion lengths below which a body is thin.
 constexpr double ThinBody = 2.0;
+// Of one product. More do not go faster: what the clusters send leaves the caches then.
+constexpr int LightsAtOnce = 4;
 
 //------------------------------------------------------------------------------
 /// A field data array of one of the data sets, or nullptr.
@@ -130,21 +134,24 @@ Outcome ScatteringRun::ReadIrradiance()
   {
     return read;
   }
-  if (components != 1 && components != Bands)
+  if (components != 1 && components % Bands != 0)
   {
     return Outcome::Failed("The " + arrays.GetKind() + " \"" + name + "\" has " +
       std::to_string(components) +
-      " components: it must have 1 (the same in all bands) or 3 (red, green, blue).");
+      " components: it must have 1 (the same in all bands), 3 (red, green, blue), or 3 for each of "
+      "several lights, one light after another.");
   }
-  const std::size_t patches = this->Scene.GetAreas().size();
-  this->Irradiance.resize(patches * Bands);
-  for (std::size_t patch = 0; patch < patches; ++patch)
+  if (components > 1)
   {
-    for (int band = 0; band < Bands; ++band)
-    {
-      this->Irradiance[patch * Bands + band] =
-        values[patch * components + (components == 1 ? 0 : band)];
-    }
+    this->NumberOfLights = components / Bands;
+    this->Irradiance = std::move(values);
+    return Outcome::Done();
+  }
+  this->Irradiance.clear();
+  this->Irradiance.reserve(values.size() * Bands);
+  for (const double value : values)
+  {
+    this->Irradiance.insert(this->Irradiance.end(), Bands, value);
   }
   return Outcome::Done();
 }
@@ -218,48 +225,53 @@ Outcome ScatteringRun::Compute()
 Outcome ScatteringRun::Scatter()
 {
   this->Scattered = this->GetEntering();
-  return this->ApplyLinks({ &this->Scattered });
+  return this->ApplyLinks(this->Scattered, this->NumberOfLights);
 }
 
 //------------------------------------------------------------------------------
-Outcome ScatteringRun::ApplyLinks(const std::vector<std::vector<double>*>& fields)
+Outcome ScatteringRun::ApplyLinks(std::vector<double>& light, int numberOfLights)
 {
   enum Slot
   {
-    INCIDENT,
-    LEFT,
-    RIGHT,
-    SCATTERED,
-    SCRATCH
+    ENTERING,
+    LEAVING
   };
   vtkExchange* exchange = this->Cache.Get().GetExchange();
-  vtkSmartPointer<vtkLinkOperator> links;
-  if (Outcome made = LinkOperators::Make(static_cast<LinkDevice>(this->Owner->GetDevice()),
-        exchange, Bands, this->AllRanks, links, this->DeviceExplanation);
-      !made)
-  {
-    return made;
-  }
   const std::vector<double>& areas = exchange->GetAreas();
-  std::vector<double> left(areas.size() * Bands);
-  for (std::size_t k = 0; k < left.size(); ++k)
+  const int products = (numberOfLights + LightsAtOnce - 1) / LightsAtOnce;
+  const int bands = Bands * ((numberOfLights + products - 1) / products);
+  const int components = Bands * numberOfLights;
+  vtkSmartPointer<vtkLinkOperator> links;
+  Outcome done = LinkOperators::Make(static_cast<LinkDevice>(this->Owner->GetDevice()), exchange,
+    bands, this->AllRanks, links, this->DeviceExplanation);
+  std::vector<double> some(areas.size() * bands, 0.0);
+  for (int first = 0; done && first < components; first += bands)
   {
-    left[k] = 1.0 / areas[k / Bands];
-  }
-  const std::vector<double> right(left.size(), 1.0);
-  for (std::vector<double>* field : fields)
-  {
-    const bool isApplied = links->SetVector(INCIDENT, field->data()) &&
-      links->SetVector(LEFT, left.data()) && links->SetVector(RIGHT, right.data()) &&
-      links->Apply(SCATTERED, LEFT, RIGHT, INCIDENT, SCRATCH) &&
-      links->GetVector(SCATTERED, field->data());
-    if (!isApplied)
+    const int count = std::min(bands, components - first);
+    for (std::size_t patch = 0; patch < areas.size(); ++patch)
+    {
+      std::copy_n(light.begin() + patch * components + first, count, some.begin() + patch * bands);
+    }
+    if (!links->SetVector(ENTERING, some.data()) || !links->Multiply(LEAVING, ENTERING) ||
+      !links->GetVector(LEAVING, some.data()))
     {
       return Outcome::FailedAsReported();
     }
+    for (std::size_t patch = 0; patch < areas.size(); ++patch)
+    {
+      std::transform(some.begin() + patch * bands, some.begin() + patch * bands + count,
+        light.begin() + patch * components + first,
+        [scale = 1.0 / areas[patch]](double power) { return scale * power; });
+    }
+    done = this->Progress.GetMonitor()
+             .GetStage(LinksDone, 1.0)
+             .Check(static_cast<double>(first + count) / components);
   }
-  this->DeviceUsed = links->GetDeviceName();
-  return Outcome::Done();
+  if (done)
+  {
+    this->DeviceUsed = links->GetDeviceName();
+  }
+  return done;
 }
 
 //------------------------------------------------------------------------------
@@ -312,15 +324,19 @@ void ScatteringRun::WriteThickness(const SceneOutput& output)
 void ScatteringRun::WriteFluxes()
 {
   const double share = this->GetEnteringShare();
+  const auto components = static_cast<std::size_t>(this->GetNumberOfComponents());
+  this->EnteringFlux.assign(components, 0.0);
+  this->LeavingFlux.assign(components, 0.0);
   for (std::size_t k = 0; k < this->Irradiance.size(); ++k)
   {
-    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands];
-    this->EnteringFlux[k % Bands] += area * share * this->Irradiance[k];
+    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / components];
+    this->EnteringFlux[k % components] += area * share * this->Irradiance[k];
   }
   this->SumLeaving();
   vtkFieldData* fields = this->GetOutputFields();
-  FieldValues::Add(fields, "EnteringFlux", this->EnteringFlux, Bands);
-  FieldValues::Add(fields, "LeavingFlux", this->LeavingFlux, Bands);
+  FieldValues::Add(fields, "EnteringFlux", this->EnteringFlux.data(),
+    this->GetNumberOfComponents());
+  FieldValues::Add(fields, "LeavingFlux", this->LeavingFlux.data(), this->GetNumberOfComponents());
   FieldValues::Add(fields, "DeviceUsed", this->DeviceUsed);
   FieldValues::Add(fields, "DeviceExplanation", this->DeviceExplanation);
 }
@@ -328,21 +344,22 @@ void ScatteringRun::WriteFluxes()
 //------------------------------------------------------------------------------
 void ScatteringRun::SumLeaving()
 {
+  const auto components = static_cast<std::size_t>(this->GetNumberOfComponents());
   for (std::size_t k = 0; k < this->Scattered.size(); ++k)
   {
-    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / Bands];
-    this->LeavingFlux[k % Bands] += area * this->Scattered[k];
+    const double area = this->GetAreaUnit() * this->Scene.GetAreas()[k / components];
+    this->LeavingFlux[k % components] += area * this->Scattered[k];
   }
 }
 
 //------------------------------------------------------------------------------
 void ScatteringRun::WriteScattered(const SceneOutput& output)
 {
-  output.AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, Bands);
+  output.AddArray(ArrayNames::ScatteredIrradiance, this->Scattered, this->GetNumberOfComponents());
   const Links& links = this->Cache.Get();
   vtkFieldData* fields = this->GetOutputFields();
   links.AddSummaries(fields);
-  FieldValues::Add(fields, "LinksReused", this->Cache.WereMade() ? 0.0 : 1.0);
+  FieldValues::Add(fields, "LinksReused", this->Cache.WereMade() ? links.ReusedShare : 1.0);
   FieldValues::Add(fields, "ApplySeconds", this->ApplySeconds);
 
   this->Table->Initialize();

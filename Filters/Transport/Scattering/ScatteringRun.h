@@ -55,39 +55,46 @@ protected:
   Outcome CheckTexels() const;
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
+  /// In the order of the scene.
+  Outcome ReadIrradiance();
   /// Adds what leaves to LeavingFlux.
   virtual void SumLeaving();
   /// Exitance, and what is to be told of how it came about.
   virtual void WriteScattered(const SceneOutput& output);
 
-  /// What enters the patches, patches x bands.
+  /// What enters the patches, patches x components.
   std::vector<double> GetEntering() const;
-  /// From what enters the patches to what leaves them, in place.
-  Outcome ApplyLinks(const std::vector<std::vector<double>*>& fields);
+  /// From what enters the patches of each of some lights, patches x components of all of them, to
+  /// what leaves the patches, in place: lights share passes over the links.
+  Outcome ApplyLinks(std::vector<double>& light, int numberOfLights);
+
+  int GetNumberOfLights() const { return this->NumberOfLights; }
+  /// The bands of each light, one after another.
+  int GetNumberOfComponents() const { return Bands * this->NumberOfLights; }
 
   vtkSubsurfaceScattering* Owner;
   LinkCache& Cache;
   std::vector<ScatteringMedium> Media; ///< of each band
-  ///@{ patches x bands
+  ///@{ patches x components
   std::vector<double> Irradiance;
   std::vector<double> Scattered;
   ///@}
   ///@{ Known when written.
-  double EnteringFlux[Bands] = {};
-  double LeavingFlux[Bands] = {};
-  double ThinShares[Bands] = {}; ///< of the surface, below ThinBody; with ComputeThickness
+  std::vector<double> EnteringFlux; ///< of each component
+  std::vector<double> LeavingFlux;  ///< likewise
+  double ThinShares[Bands] = {};    ///< of the surface, below ThinBody; with ComputeThickness
   ///@}
   double ApplySeconds = 0.0;
   std::string DeviceUsed;
   std::string DeviceExplanation;
 
 private:
-  Outcome ReadIrradiance();
   void CompareIndices() const;
   double GetEnteringShare() const;
   void WriteThickness(const SceneOutput& output);
   void WriteFluxes();
 
+  int NumberOfLights = 1;
   std::vector<double> Thickness; ///< of each patch, in scene units
 };
 } // namespace LightTransport

@@ -5,6 +5,7 @@
 #include "Scene/CoincidentFaces.h"
 #include "Scene/ScenePieces.h"
 #include "Shared/Pulse.h"
+#include "Support/BitHash.h"
 
 #include <Eigen/Geometry>
 
@@ -12,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -20,6 +20,7 @@
 #include <sstream>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace LightTransport
 {
@@ -98,10 +99,11 @@ void AddSurfaces(const std::vector<Vector>& centers, const std::vector<vtkIdType
 
 //------------------------------------------------------------------------------
 Outcome PatchScene::Build(vtkDataObject* input, const Ranks& ranks, Order order, int numberOfSides,
-  bool takesTexels)
+  bool takesTexels, std::shared_ptr<const PatchArrangement> kept)
 {
   *this = PatchScene();
   this->OrderOfPatches = order;
+  this->Kept = std::move(kept);
   GatheredPolygons polygons;
   if (Outcome gathered =
         PolygonGathering::Gather(input, ranks, order == Order::Atlas, takesTexels, polygons);
@@ -244,7 +246,7 @@ Outcome PatchScene::Normalize(const GatheredPolygons& polygons)
 void PatchScene::Arrange(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
   const ScenePieces& pieces)
 {
-  const std::vector<vtkIdType> order = this->SortPieces(polygons, corners, pieces);
+  const std::vector<vtkIdType> order = this->ArrangePieces(polygons, corners, pieces);
   this->MergePoints(polygons, corners, pieces, order);
   this->ComputeFingerprint(polygons, pieces, order);
   this->AllocatePatches();
@@ -369,40 +371,61 @@ std::vector<vtkIdType> PatchScene::GetLocalPatches() const
 void PatchScene::ComputeFingerprint(const GatheredPolygons& polygons, const ScenePieces& pieces,
   const std::vector<vtkIdType>& order)
 {
-  std::uint64_t hash = 0xCBF29CE484222325ull;
-  const auto add = [&hash](std::uint64_t bits)
-  {
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
-    hash ^= hash >> 29;
-  };
+  BitHash hash;
   for (vtkIdType piece = 0; piece < pieces.GetNumber(); ++piece)
   {
-    add(static_cast<std::uint64_t>(pieces.GetCount(piece)));
+    hash.Add(static_cast<std::uint64_t>(pieces.GetCount(piece)));
   }
   for (const vtkIdType piece : order)
   {
     Pulse::Beat(piece);
     for (vtkIdType k = pieces.Offsets[piece]; k < pieces.Offsets[piece + 1]; ++k)
     {
-      std::uint64_t bits[3];
-      std::memcpy(bits, &polygons.Coordinates[3 * pieces.Corners[k]], sizeof(bits));
-      std::for_each(std::begin(bits), std::end(bits), add);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        hash.AddNumber(polygons.Coordinates[3 * pieces.Corners[k] + axis]);
+      }
     }
   }
   // Where rounding decides, another compiler may sort in another way: what was computed for one
   // order must not be taken for the other.
-  for (const vtkIdType piece : order)
-  {
-    add(static_cast<std::uint64_t>(piece));
-  }
+  hash.AddAll(order);
   // The spatial tree follows from the order of the patches.
-  if (this->OrderOfPatches == Order::Atlas)
+  if (this->OrderOfPatches != Order::Spatial)
   {
     for (const PatchTree::Node& node : this->Tree.GetNodes())
     {
-      add(static_cast<std::uint64_t>(node.Last));
+      hash.Add(static_cast<std::uint64_t>(node.Last));
     }
   }
-  this->Fingerprint = hash;
+  this->Fingerprint = hash.Get();
+}
+
+//------------------------------------------------------------------------------
+// As before, where there was one of the same pieces.
+std::vector<vtkIdType> PatchScene::ArrangePieces(const GatheredPolygons& polygons,
+  const std::vector<Vector>& corners, const ScenePieces& pieces)
+{
+  if (this->OrderOfPatches != Order::Surface)
+  {
+    return this->SortPieces(polygons, corners, pieces);
+  }
+  BitHash hash;
+  hash.Add(polygons.Topology);
+  hash.AddAll(pieces.Faces);
+  hash.AddAll(pieces.Offsets);
+  hash.AddAll(pieces.Corners);
+  if (this->Kept && this->Kept->Topology == hash.Get())
+  {
+    this->Arrangement = this->Kept;
+    this->Tree.Regrow(pieces.GetNumber(), this->Kept->Cuts);
+    return this->Kept->Pieces;
+  }
+  auto arrangement = std::make_shared<PatchArrangement>();
+  arrangement->Topology = hash.Get();
+  arrangement->Pieces = this->SortPieces(polygons, corners, pieces);
+  arrangement->Cuts = this->Tree.GetCuts();
+  this->Arrangement = std::move(arrangement);
+  return this->Arrangement->Pieces;
 }
 } // namespace LightTransport

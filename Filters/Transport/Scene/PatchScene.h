@@ -28,6 +28,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,15 @@ class vtkDataObject;
 namespace LightTransport
 {
 struct ScenePieces;
+
+/// How the patches of a surface are arranged, to arrange those of the same polygons elsewhere
+/// alike.
+struct PatchArrangement
+{
+  std::uint64_t Topology = 0;    ///< of all that does not depend on where points are
+  std::vector<vtkIdType> Pieces; ///< of each patch, among those that polygons are cut into
+  std::vector<vtkIdType> Cuts;   ///< PatchTree::GetCuts
+};
 
 class PatchScene : public PatchGeometry
 {
@@ -55,10 +65,13 @@ public:
    * that has an area), coordinates that are not finite; in the order of an atlas for a surface
    * without "AtlasCoordinates", or more surfaces than MaximumSurfaces. `numberOfSides` is 2 where
    * the backs of polygons are faces, too; `takesTexels` lets the input be texel images
-   * (TexelGathering), whose polygons are looked at as they are: neighbours may overlap.
+   * (TexelGathering), whose polygons are looked at as they are: neighbours may overlap. In the
+   * order of a surface, patches of the polygons that `kept` had, with the same point ids (or texels
+   * at the same places of their image), cut alike, are arranged as they were, wherever they are.
    */
   Outcome Build(vtkDataObject* input, const Ranks& ranks, Order order = Order::Spatial,
-    int numberOfSides = 1, bool takesTexels = false);
+    int numberOfSides = 1, bool takesTexels = false,
+    std::shared_ptr<const PatchArrangement> kept = nullptr);
 
   const SceneFaces& GetFaces() const { return this->Faces; }
   /// Whether polygons are those of texels.
@@ -96,6 +109,13 @@ public:
   /// The tree that the order of the patches comes from.
   const PatchTree& GetTree() const { return this->Tree; }
   Order GetOrder() const { return this->OrderOfPatches; }
+  /// In the order of a surface; else nullptr.
+  const std::shared_ptr<const PatchArrangement>& GetArrangement() const
+  {
+    return this->Arrangement;
+  }
+  /// Whether it is the one that was given.
+  bool IsKept() const { return this->Kept && this->Arrangement == this->Kept; }
 
   /// Input coordinates = GetCenter() + GetScale() * scene coordinates.
   double GetScale() const { return this->Scale; }
@@ -112,6 +132,8 @@ private:
   void WarnOfSpacing();
   void Arrange(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
     const ScenePieces& pieces);
+  std::vector<vtkIdType> ArrangePieces(const GatheredPolygons& polygons,
+    const std::vector<Vector>& corners, const ScenePieces& pieces);
   std::vector<vtkIdType> SortPieces(const GatheredPolygons& polygons,
     const std::vector<Vector>& corners, const ScenePieces& pieces);
   void MergePoints(const GatheredPolygons& polygons, const std::vector<Vector>& corners,
@@ -125,6 +147,8 @@ private:
 
   Order OrderOfPatches = Order::Spatial;
   PatchTree Tree;
+  std::shared_ptr<const PatchArrangement> Kept;
+  std::shared_ptr<const PatchArrangement> Arrangement;
   SceneFaces Faces;
   std::vector<int> Problems;
   std::vector<std::string> Warnings;

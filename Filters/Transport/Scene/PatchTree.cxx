@@ -302,6 +302,29 @@ std::vector<vtkIdType> PatchTree::Sort(const std::vector<std::uint64_t>& codes)
 }
 
 //------------------------------------------------------------------------------
+std::vector<vtkIdType> PatchTree::GetCuts() const
+{
+  std::vector<vtkIdType> cuts;
+  for (const Node& node : this->Nodes)
+  {
+    if (!node.IsLeaf())
+    {
+      cuts.push_back(this->Nodes[node.Left].Last);
+    }
+  }
+  return cuts;
+}
+
+//------------------------------------------------------------------------------
+void PatchTree::Regrow(vtkIdType patches, const std::vector<vtkIdType>& cuts)
+{
+  auto cut = cuts.begin();
+  this->Grow(
+    patches, [&](vtkIdType, vtkIdType) { return *cut++; }, [](vtkIdType, vtkIdType) {});
+  this->Blocks.clear();
+}
+
+//------------------------------------------------------------------------------
 std::uint64_t PatchTree::GetCode(double x, double y)
 {
   std::uint64_t code = 0;

@@ -77,6 +77,12 @@ public:
   std::vector<vtkIdType> Sort(const std::vector<std::uint64_t>& codes);
   ///@}
 
+  ///@{ The last patches of the left children, by which a tree of other patches, as many, gets the
+  /// same shape. Regrow's has no GetBlock.
+  std::vector<vtkIdType> GetCuts() const;
+  void Regrow(vtkIdType patches, const std::vector<vtkIdType>& cuts);
+  ///@}
+
   /// Place of a point of the unit square along the curve that visits the nodes of a quadtree one
   /// after another (Morton 1966): the bits of x and y in turn, AtlasBits of each. x comes first, as
   /// vtkSurfaceAtlas puts the halves of a piece beside each other and their halves on top.

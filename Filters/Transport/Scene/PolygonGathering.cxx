@@ -8,6 +8,7 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
+#include "Support/BitHash.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -56,7 +57,7 @@ bool IsGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 
 //------------------------------------------------------------------------------
 // False when a polygon names points that do not exist.
-bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
+bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons, BitHash& topology)
 {
   auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
     data->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
@@ -78,6 +79,7 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
     cells->GetCellAtId(polygon, corners);
     polygons.LocalCells.push_back({ block, first + polygon });
     polygons.Counts.push_back(corners->GetNumberOfIds());
+    topology.Add(static_cast<std::uint64_t>(block));
     for (vtkIdType corner = 0; corner < corners->GetNumberOfIds(); ++corner)
     {
       const vtkIdType id = corners->GetId(corner);
@@ -85,6 +87,7 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
       {
         return false;
       }
+      topology.Add(static_cast<std::uint64_t>(id));
       double point[3];
       data->GetPoint(id, point);
       for (const double coordinate : point)
@@ -101,6 +104,7 @@ bool CollectBlock(vtkPolyData* data, int block, GatheredPolygons& polygons)
 Outcome CollectLocal(vtkDataObject* input, GatheredPolygons& polygons)
 {
   const std::vector<vtkDataSet*> leaves = Leaves::Get(input);
+  BitHash topology;
   for (std::size_t block = 0; block < leaves.size(); ++block)
   {
     auto* data = vtkPolyData::SafeDownCast(leaves[block]);
@@ -118,12 +122,13 @@ Outcome CollectLocal(vtkDataObject* input, GatheredPolygons& polygons)
     {
       return checked;
     }
-    if (!CollectBlock(data, static_cast<int>(block), polygons))
+    if (!CollectBlock(data, static_cast<int>(block), polygons, topology))
     {
       return Outcome::Failed(
         "The input has polygons whose points do not exist: check its connectivity.");
     }
   }
+  polygons.Topology = topology.Get();
   if (!std::all_of(polygons.Coordinates.begin(), polygons.Coordinates.end(),
         [](double value) { return std::isfinite(value); }))
   {
@@ -187,6 +192,10 @@ void GatherRanks(const Ranks& ranks, GatheredPolygons& polygons)
     std::accumulate(counts.begin(), counts.begin() + ranks.GetMine(), static_cast<vtkIdType>(0));
   const std::vector<double> precisions = ranks.Gather(std::vector<double>{ polygons.Precision });
   polygons.Precision = *std::max_element(precisions.begin(), precisions.end());
+  BitHash topology;
+  topology.AddAll(counts);
+  topology.AddAll(ranks.Gather(std::vector<std::uint64_t>{ polygons.Topology }));
+  polygons.Topology = topology.Get();
   polygons.Counts = ranks.Gather(polygons.Counts);
   polygons.Coordinates = ranks.Gather(polygons.Coordinates);
   polygons.Codes = ranks.Gather(polygons.Codes);

@@ -43,6 +43,9 @@ struct GatheredPolygons
   std::vector<vtkIdType> Counts;
   std::vector<double> Coordinates;
   ///@}
+  /// Depends on all but the coordinates: which points polygons have, or which texels of their
+  /// images there are.
+  std::uint64_t Topology = 0;
   /// What the coordinates of all ranks are worth, relative to the largest of them.
   double Precision = 0.0;
   ///@{ For the order of an atlas: the place of each polygon (PatchTree::GetCode), and the number of

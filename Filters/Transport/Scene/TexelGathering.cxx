@@ -8,6 +8,7 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
+#include "Support/BitHash.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -270,6 +271,12 @@ public:
   {
     const auto count = static_cast<vtkIdType>(this->Unique.size());
     polygons.Counts.assign(count, 4);
+    BitHash topology;
+    for (const Key& key : this->Keys)
+    {
+      topology.AddAll(key);
+    }
+    polygons.Topology = topology.Get();
     polygons.Coordinates.reserve(12 * count);
     for (vtkIdType polygon = 0; polygon < count; ++polygon)
     {

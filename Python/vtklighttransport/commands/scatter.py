@@ -3,7 +3,7 @@
 """scatter IN OUT: diffuse subsurface scattering."""
 
 from vtklighttransport.shell.body import (
-    BODY, add_light_that_falls_in, light_body, make_scattering)
+    BODY, MODEL, add_light_that_falls_in, light_body, make_scattering)
 from vtklighttransport.shell.files import (
     add_output, check_input, check_output, is_image, read_file, write_patches)
 from vtklighttransport.shell.lights import has_lights
@@ -18,9 +18,7 @@ DESCRIPTION = (
     "Adds the array ScatteredIrradiance (flux per unit area that leaves the surface). Give a "
     "light, or a mesh with the cell array Irradiance, or the texel image of an atlas with it.")
 PROPERTIES = (
-    Choice("--model", "Model", "MODEL_",
-           "the diffuse reflectance profile of a flat surface, or photons in the body itself "
-           "(monte-carlo), which must be closed"),
+    MODEL,
     *BODY,
     Number("--target-error", "TargetError", float,
            "standard error of the result of monte-carlo, relative"),
@@ -37,6 +35,8 @@ PROPERTIES = (
            "that are small near by; auto takes the cheaper one of dense and adaptive"),
     Number("--number-of-links", "NumberOfLinks", int,
            "clusters of uniform links, and links of a patch that adaptive ones have at most"),
+    Switch("--refine-by-irradiance", "RefineByIrradiance", True,
+           "choose clusters by the light that falls in, too: fewer links, or a smaller error"),
     Switch("--compress-links", "CompressLinks", True,
            "keep links from clusters in one or two bytes each"),
     Number("--compression-tolerance", "CompressionTolerance", float,

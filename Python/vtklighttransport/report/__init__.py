@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a scene: error against run time, for methods x tolerances x sizes.
 
-subject     what a report is of: its methods, what it tells of each
-radiosity   ... ways to link patches, beside dense links
-scattering  ... models of subsurface scattering, beside Monte Carlo
-study       goes through methods, tolerances and sizes
-record      what has been measured: the rows of report.csv, what was left out
-page        report.html
-html        a page from top to bottom: paragraphs, tables, figures
-figures     its plots and pictures
+subject           what a report is of: its methods, what it tells of each
+radiosity         ... ways to link patches, beside dense links
+scattering        ... models of subsurface scattering, beside Monte Carlo
+scattering_links  ... ways to link patches of one of them, beside all pairs
+study             goes through methods, tolerances and sizes
+record            what has been measured: the rows of report.csv, what was left out
+page              report.html
+html              a page from top to bottom: paragraphs, tables, figures
+figures           its plots and pictures
 
 Needs numpy.
 """

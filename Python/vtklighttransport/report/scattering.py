@@ -109,14 +109,7 @@ class Scattering(Subject):
         return row["patches"], -row["tolerance"]
 
     def make_terms(self):
-        scattering = self.make_plain_filter()
-        reduced, absorption, index = find_material(scattering)
-        return {
-            "Material": f"{scattering.GetMaterialName(scattering.GetMaterial())}: reduced "
-                        f"scattering {print_bands(reduced)} and absorption "
-                        f"{print_bands(absorption)} per mm (red, green, blue), index {index:g}",
-            "Scale": f"{scattering.GetMillimetersPerUnit():g} mm per unit of the mesh",
-        }
+        return describe_body(self.make_plain_filter())
 
     def explain(self, page, rows):
         page.add_paragraph(
@@ -186,6 +179,17 @@ def make_method(name, tolerance, values, settings):
     return Method(name, tolerance, sorted(values, reverse=True), settings)
 
 
+def describe_body(scattering):
+    """Terms of the page on the material and the scale."""
+    reduced, absorption, index = find_material(scattering)
+    return {
+        "Material": f"{scattering.GetMaterialName(scattering.GetMaterial())}: reduced "
+                    f"scattering {print_bands(reduced)} and absorption "
+                    f"{print_bands(absorption)} per mm (red, green, blue), index {index:g}",
+        "Scale": f"{scattering.GetMillimetersPerUnit():g} mm per unit of the mesh",
+    }
+
+
 def print_bands(values):
     return ", ".join(f"{value:g}" for value in values)
 
@@ -205,7 +209,7 @@ def find_bands(surface, name):
 
 def find_stated(surface):
     """The worst band of the first that is there."""
-    for name in ("RelativeError", "LinkErrorBound"):
+    for name in ("RelativeError", "LinkErrorBound", "LinkError"):
         values = find_bands(surface, name)
         if values is not None:
             return float(values.max())

@@ -6,11 +6,15 @@ import argparse
 import re
 
 
-def parse_numbers(text):
+def parse_numbers(text, kind=float, name="numbers"):
     try:
-        return [float(part) for part in text.split(",")]
+        return [kind(part) for part in text.split(",")]
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no list of numbers") from error
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of {name}") from error
+
+
+def parse_whole_numbers(text):
+    return parse_numbers(text, int, "whole numbers")
 
 
 def parse_light(text):

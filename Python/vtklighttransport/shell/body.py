@@ -7,6 +7,9 @@ from vtklighttransport.shell.properties import (
     Choice, Color, InputArray, Number, add_arrays, choose_array, choose_arrays, make_filter)
 from vtkmodules.vtkCommonCore import reference
 
+MODEL = Choice("--model", "Model", "MODEL_",
+               "the diffuse reflectance profile of a flat surface, or photons in the body itself "
+               "(monte-carlo), which must be closed")
 BODY = (
     Choice("--material", "Material", "MATERIAL_",
            "measured material; it wins over the three options below"),

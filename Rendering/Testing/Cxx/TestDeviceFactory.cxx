@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The filters' abstract device operator and shooter are made by this module once it is loaded, and
- * open.
+ * The filters' abstract device operator, refiner of links and shooter are made by this module once
+ * it is loaded, and open.
  */
 #include "vtkDeviceLinkOperator.h"
+#include "vtkDeviceLinkRefiner.h"
 #include "vtkDeviceShooter.h"
 
 #include "vtkSmartPointer.h"
@@ -32,6 +33,13 @@ int TestDeviceFactory(int, char*[])
   if (std::string(device->GetDeviceName()).find("OpenGL (") != 0 || !device->IsSinglePrecision())
   {
     std::cerr << "ERROR: " << device->GetDeviceName() << " is no OpenGL device\n";
+    return EXIT_FAILURE;
+  }
+  auto refiner = vtkSmartPointer<vtkDeviceLinkRefiner>::Take(vtkDeviceLinkRefiner::New());
+  if (!refiner || !refiner->IsA("vtkOpenGLLinkRefiner") || !refiner->Open(reason) ||
+    std::string(refiner->GetDeviceName()) != device->GetDeviceName())
+  {
+    std::cerr << "ERROR: no factory gives a vtkOpenGLLinkRefiner that opens: " << reason << "\n";
     return EXIT_FAILURE;
   }
   auto shooter = vtkSmartPointer<vtkDeviceShooter>::Take(vtkDeviceShooter::New());

@@ -262,6 +262,10 @@ bool TestCompression(vtkOpenGLLinkOperator* device)
     all->CompressRows(0.0);
     good = TestCodes(device, all, kernels, 1, "all pairs" + what) && good;
   }
+  const ClusterLinks colours(400, 3);
+  const auto lights = colours.MakeAdaptive(0.8);
+  lights->CompressRows(0.01);
+  good = TestCodes(device, lights, 9, 2, "coded, three lights of three kernels") && good;
   const ClusterLinks shared(300, 1);
   const auto one = shared.MakeAdaptive(0.8);
   one->CompressRows(0.0);
@@ -477,6 +481,7 @@ int TestOpenGLHierarchicalLinks(int, char*[])
     { 300, 8, 10000, 5, 100, 2 }, { 1000, 8, 20000, 1, 64, 6 }, { 300, 8, 1000, 1, 0, 1, 1 },
     { 300, 8, 1000, 3, 0, 1, 1 }, { 300, 8, 1000, 2, 0, 1, 2 }, { 300, 8, 1000, 3, 0, 1, 3 },
     { 300, 8, 1000, 4, 0, 1, 4 }, { 300, 8, 1000, 5, 0, 1, 5 }, { 300, 8, 1000, 32, 0, 1, 32 },
+    { 300, 8, 1000, 6, 0, 1, 3 }, { 300, 8, 1000, 24, 0, 1, 3 }, { 300, 8, 1000, 10, 0, 1, 5 },
     { 1, 1, 3, 3, 0, 1, 3 }, { 3000, 4, 50000, 3, 0, 1, 3 }, { 300, 8, 10000, 3, 64, 4, 3 } };
   vtkNew<vtkOpenGLLinkOperator> device;
   bool good = true;

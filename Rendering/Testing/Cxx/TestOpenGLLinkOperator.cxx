@@ -71,7 +71,7 @@ void MultiplyExactly(vtkExchangeMatrix* exchange, int bands, const Vector& x, Ve
     {
       for (int band = 0; band < bands; ++band)
       {
-        const int kernel = exchange->GetNumberOfKernels() == 1 ? 0 : band;
+        const int kernel = band % exchange->GetNumberOfKernels();
         const double term =
           exchange->GetValue(i, j, kernel) * x[static_cast<std::size_t>(j * bands + band)];
         y[static_cast<std::size_t>(i * bands + band)] += term;
@@ -331,6 +331,7 @@ int TestOpenGLLinkOperator(int, char*[])
   const Case cases[] = { { 1, 1, 1, 0, 1 }, { 5, 3, 1, 0, 1 }, { 300, 1, 1, 0, 1 },
     { 300, 5, 1, 0, 1 }, { 1000, 3, 1, 0, 1 }, { 300, 32, 1, 0, 1 }, { 1, 3, 3, 0, 1 },
     { 5, 3, 3, 0, 1 }, { 300, 3, 3, 0, 1 }, { 1000, 3, 3, 0, 1 }, { 300, 32, 32, 0, 8 },
+    { 300, 6, 3, 0, 1 }, { 1000, 24, 3, 0, 1 }, { 300, 10, 5, 0, 2 }, { 1000, 6, 3, 64, 16 * 16 },
     { 5, 3, 1, 64, 1 }, { 300, 3, 1, 64, 5 * 2 }, { 300, 5, 5, 64, 5 * 5 * 2 },
     { 1000, 3, 1, 64, 16 * 4 }, { 1000, 1, 1, 100, 16 * 3 }, { 1000, 3, 3, 64, 16 * 16 } };
   vtkNew<vtkOpenGLLinkOperator> device;

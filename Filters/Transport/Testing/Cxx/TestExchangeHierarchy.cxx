@@ -307,6 +307,22 @@ void TestRows(const Tree& tree)
     Check(Compare(row, matrices[kernel].row(1)) < 1e-12, "row of each kernel");
     CheckClose(hierarchy->GetValue(1, 2, kernel), matrices[kernel](1, 2), 1e-12, "value");
   }
+  // Several lights side by side, as they are gathered at a time and more: each as if it were alone.
+  for (const int lights : { 2, 3, 4, 7 })
+  {
+    const Values many = MakeValues(x.rows(), lights * kernels, 6);
+    vtkNew<vtkHierarchicalLinkOperator> together;
+    Check(together->Initialize(hierarchy, lights * kernels), "initialize for several lights");
+    const Values all = Multiply(together, many);
+    for (int light = 0; light < lights; ++light)
+    {
+      const Values one = many.middleCols(light * kernels, kernels);
+      Check(all.middleCols(light * kernels, kernels) == Multiply(links, one),
+        "lights beside others");
+    }
+    Check(together->GetRow(1, kernels + 1, row.data()), "row of a band of another light");
+    Check(Compare(row, matrices[1].row(1)) < 1e-12, "row of its kernel");
+  }
   Check(hierarchy->SetLinks({}) && hierarchy->IsSymmetric(), "no links are symmetric");
 }
 

@@ -65,18 +65,41 @@ thread_local Refusal Refused;
 } // namespace
 
 //------------------------------------------------------------------------------
-// Of all tests of this program: nothing is refused unless a test asks for it.
-void* operator new(std::size_t size)
+// Of all tests of this program: nothing is refused unless a test asks for it. All forms, so that
+// what one took another may give back where an instrument has its own, too.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
 {
   const bool isRefused =
     !LightTransportTesting::ThreadCommunicator::IsCalled() && Refused.IsRefused();
   void* memory = isRefused ? nullptr : std::malloc(size > 0 ? size : 1);
+  if (memory)
+  {
+    Refused.Grant(size);
+  }
+  return memory;
+}
+
+//------------------------------------------------------------------------------
+void* operator new(std::size_t size)
+{
+  void* memory = operator new(size, std::nothrow);
   if (!memory)
   {
     throw std::bad_alloc();
   }
-  Refused.Grant(size);
   return memory;
+}
+
+//------------------------------------------------------------------------------
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
+{
+  return operator new(size, std::nothrow);
+}
+
+//------------------------------------------------------------------------------
+void* operator new[](std::size_t size)
+{
+  return operator new(size);
 }
 
 //------------------------------------------------------------------------------
@@ -87,6 +110,18 @@ void operator delete(void* memory) noexcept
 
 //------------------------------------------------------------------------------
 void operator delete(void* memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
+
+//------------------------------------------------------------------------------
+void operator delete[](void* memory) noexcept
+{
+  std::free(memory);
+}
+
+//------------------------------------------------------------------------------
+void operator delete[](void* memory, std::size_t) noexcept
 {
   std::free(memory);
 }

@@ -88,7 +88,7 @@ std::vector<double> Multiply(const std::vector<double>& x, vtkIdType n, int band
     {
       for (int band = 0; band < bands; ++band)
       {
-        y[i * bands + band] += GetEntry(i, j, kernels == 1 ? 0 : band) * x[j * bands + band];
+        y[i * bands + band] += GetEntry(i, j, band % kernels) * x[j * bands + band];
       }
     }
   }
@@ -168,7 +168,7 @@ void TestSweep(vtkIdType n, int bands, int kernels)
       double sum = 0.0;
       for (vtkIdType j = 0; j < n; ++j)
       {
-        Check(row[j] == GetEntry(i, j, kernels == 1 ? 0 : band), "row of the matrix");
+        Check(row[j] == GetEntry(i, j, band % kernels), "row of the matrix");
         sum += row[j] * x[j * bands + band];
       }
       x[i * bands + band] = e[i * bands + band] + left[i * bands + band] * sum;
@@ -389,9 +389,12 @@ int TestLinkOperator(int, char*[])
       TestProducts(n, bands, 1);
     }
     TestProducts(n, 3, 3);
+    TestProducts(n, 6, 3);
+    TestProducts(n, 15, 3);
   }
   TestSweep(300, 3, 1);
   TestSweep(520, 2, 2);
+  TestSweep(520, 6, 2);
   TestParts();
   TestSparse(700, 3, 1);
   TestSparse(1100, 2, 2);

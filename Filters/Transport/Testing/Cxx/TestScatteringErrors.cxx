@@ -226,6 +226,9 @@ void TestEnvironments()
     image->SetScalarComponentFromDouble(x, 1, 0, 0, x == 2 ? vtkMath::Nan() : 1.0);
   }
   ExpectDirect("pixel 6", [&](Filter* filter) { filter->SetEnvironment(image); });
+  image->GetPointData()->GetScalars()->SetNumberOfTuples(5);
+  ExpectDirect("has 5 tuples where there are 8 points",
+    [&](Filter* filter) { filter->SetEnvironment(image); });
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 // for triangles from much smaller to much larger than the mean free path.
 #include "LightTransportTesting.h"
 #include "Scattering/DipoleProfile.h"
+#include "Scattering/PhotonBeamProfile.h"
 #include "Scattering/ScatteringIntegrals.h"
 #include "ScatteringIntegralsTesting.h"
 #include "vtkMath.h"
@@ -156,7 +157,7 @@ void TestWidePatch()
 {
   const ScatteringProfiles profiles = MakeProfiles();
   const double size = 3000.0;
-  const ScatteringIntegrals integrals(profiles, size, Tolerance);
+  const ScatteringIntegrals integrals(profiles, 2.0 * size, Tolerance);
   const Triangle patch(size * Origin, size * Side, size * Vector(0.4, 0.9, 0.0));
   double perimeter = 0.0;
   for (int k = 0; k < 3; ++k)
@@ -268,6 +269,60 @@ void TestSheets()
     }
   }
 }
+
+//------------------------------------------------------------------------------
+/// In one plane two may overlap: a copy gives what the triangle gives itself, seen from either
+/// side, and the parts of what overlaps by a little or by much, or not at all, give the whole.
+void TestOnePlane()
+{
+  ScatteringProfiles dipoles = MakeProfiles();
+  ScatteringProfiles beams;
+  for (const double scattering : { 2.19, 2.62, 1.0 })
+  {
+    beams.push_back(std::make_unique<PhotonBeamProfile>(ScatteringMedium{ scattering, 0.01, 1.5 }));
+  }
+  for (const double size : { 0.01, 0.5, 10.0 })
+  {
+    for (const ScatteringProfiles* profiles : { &dipoles, &beams })
+    {
+      const std::string name =
+        std::string(profiles == &beams ? "1/r" : "finite") + ", size " + std::to_string(size);
+      const ScatteringIntegrals integrals(*profiles, 10.0 * size, Tolerance);
+      const auto place = [&](double x, double y) { return Vector(size * Vector(x, y, 0.0)); };
+      const Triangle first(place(0.0, 0.0), place(1.0, 0.0), place(0.4, 0.9));
+      const double tolerance = 1e-9 * first.Area;
+      const Vector* const c = first.Corners;
+      Result3 self;
+      Result3 front;
+      Result3 back;
+      integrals.AddSelf(first, self);
+      integrals.AddPair(first, { c[1], c[2], c[0] }, tolerance, front);
+      integrals.AddPair(first, { c[1], c[0], c[2] }, tolerance, back);
+      for (const double gap : { -0.5, -0.01, -1e-6, 1e-6, 0.1 })
+      {
+        const Vector p = place(-0.1, -gap), q = place(0.9, -gap), r = place(0.6, -gap - 0.7);
+        const Vector middle = 0.3 * p + 0.7 * q;
+        Result3 whole;
+        Result3 parts;
+        integrals.AddPair(first, { q, p, r }, tolerance, whole);
+        integrals.AddPair(first, { middle, p, r }, tolerance, parts);
+        integrals.AddPair({ q, middle, r }, first, tolerance, parts);
+        for (int band = 0; band < 3; ++band)
+        {
+          CheckClose(parts.Value[band], whole.Value[band], 4.0 * Tolerance,
+            "parts, gap " + std::to_string(gap) + ", " + name);
+        }
+        Check(whole.Error <= 2.0 * Tolerance * whole.Value.maxCoeff() + 2.0 * tolerance,
+          "error estimate within the tolerance, gap " + std::to_string(gap) + ", " + name);
+      }
+      for (int band = 0; band < 3; ++band)
+      {
+        CheckClose(front.Value[band], self.Value[band], 4.0 * Tolerance, "copy, " + name);
+        CheckClose(back.Value[band], self.Value[band], 4.0 * Tolerance, "copy's back, " + name);
+      }
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -278,5 +333,6 @@ int TestScatteringIntegrals(int, char*[])
   TestWidePatch();
   TestWideNeighbours();
   TestSheets();
+  TestOnePlane();
   return Result();
 }

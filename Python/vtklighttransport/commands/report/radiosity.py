@@ -11,6 +11,7 @@ from vtklighttransport.shell.properties import (
 TITLE = "radiosity"
 CLASS = "vtkRadiosity"
 LEVELS = 2
+LINK_TOLERANCES = [1e-1, 1e-2, 1e-3]
 VALUES = (
     Tolerances("--dense-tolerances", "ViewFactorTolerance", [1e-2, 1e-3], "dense links"),
     Tolerances("--progressive-tolerances", "Tolerance", [1e-1, 1e-2], "--progressive"),

@@ -2,15 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of subsurface scattering: models."""
 
+from vtklighttransport.commands.report import body
+from vtklighttransport.commands.report.body import CLASS, LEVELS, light  # noqa: F401 (of a kind)
 from vtklighttransport.commands.report.values import Tolerance, Tolerances
-from vtklighttransport.shell.body import (
-    BODY, add_light_that_falls_in, light_body, make_scattering)
-from vtklighttransport.shell.properties import (
-    DEVICE, add_properties, check_properties, find_choices, find_class)
+from vtklighttransport.shell.properties import find_choices, find_class
 
-TITLE = "scattering (--scatter); give a light, or a mesh with the cell array Irradiance"
-CLASS = "vtkSubsurfaceScattering"
-LEVELS = 0
+TITLE = "models of scattering (--scatter)"
+LINK_TOLERANCES = [1e-1, 1e-2, 1e-3]
 VALUES = (
     Tolerances("--target-errors", "TargetError", [0.1, 0.05, 0.03], "Monte Carlo"),
     Tolerance("--reference-error", "TargetError", 0.02, "the Monte Carlo reference"),
@@ -22,12 +20,10 @@ def add_options(group):
                        help="as --model of scatter, beside Monte Carlo [all]")
     for value in VALUES:
         value.add_to(group)
-    add_light_that_falls_in(group)
-    add_properties(group, CLASS, BODY)
 
 
 def check(options):
-    check_properties(options, CLASS, BODY)
+    body.check(options)
     models = find_choices(find_class(CLASS), "MODEL_")
     for name in options.models or ():
         if name not in models:
@@ -36,8 +32,4 @@ def check(options):
 
 def make_subject(options):
     from vtklighttransport.report.scattering import Scattering
-    return Scattering(options, lambda: make_scattering(options, (DEVICE, *BODY)))
-
-
-def light(options, messages, surface, subject):
-    return light_body(options, messages, surface, subject.make_plain_filter())
+    return Scattering(options, lambda: body.make_filter(options))

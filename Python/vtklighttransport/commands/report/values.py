@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Options that choose what a report measures: counts and tolerances."""
 
-from vtklighttransport.shell.arguments import check_range, parse_numbers, refuse_value
+from vtklighttransport.shell.arguments import (
+    check_range, parse_numbers, parse_whole_numbers, refuse_value)
 from vtklighttransport.shell.properties import find_class, keeps_value
 
 
@@ -59,11 +60,21 @@ class Tolerances(Value):
         self.name = name
 
     def show(self):
-        return ",".join(f"{value:g}" for value in self.default)
+        return print_numbers(self.default)
 
     def check(self, options, model):
         for value in self.get(options):
             check_tolerance(options, model, self, value)
+
+
+class Counts(Tolerances):
+    def __init__(self, flag, name, default, text):
+        super().__init__(flag, name, default, text)
+        self.kind = parse_whole_numbers
+
+
+def print_numbers(values):
+    return ",".join(f"{value:g}" for value in values)
 
 
 def check_tolerance(options, model, option, value):

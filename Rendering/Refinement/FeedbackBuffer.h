@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef FeedbackBuffer_h
+#define FeedbackBuffer_h
+
+#include "Shared/Outcome.h"
+#include "vtkType.h"
+
+#include <vector>
+
+namespace LightTransport
+{
+/// A buffer of OpenGL with records of as many vectors of four floats, which shaders write by
+/// transform feedback and read as attributes. In one context, which is current in all calls.
+class FeedbackBuffer
+{
+public:
+  static constexpr int FloatsPerVector = 4;
+
+  explicit FeedbackBuffer(int vectorsPerRecord) : Vectors(vectorsPerRecord) {}
+  FeedbackBuffer(const FeedbackBuffer&) = delete;
+  void operator=(const FeedbackBuffer&) = delete;
+
+  /// Before the context goes.
+  void Release();
+
+  /// Exchange what two of the same records hold.
+  void Swap(FeedbackBuffer& other);
+
+  /// Room for so many records; the first `kept` stay, others are undefined.
+  Outcome Reserve(vtkIdType records, vtkIdType kept);
+
+  Outcome Upload(const std::vector<float>& values);
+  void Download(vtkIdType records, std::vector<float>& values) const;
+
+  unsigned int GetHandle() const { return this->Handle; }
+  int GetVectorsPerRecord() const { return this->Vectors; }
+  vtkIdType GetBytesPerRecord() const;
+  vtkIdType GetCapacity() const { return this->Capacity; }
+
+private:
+  int Vectors;
+  unsigned int Handle = 0;
+  vtkIdType Capacity = 0; ///< records
+};
+} // namespace LightTransport
+
+#endif
