@@ -277,19 +277,28 @@ Outcome vtkOpenGLScatteredMap::Upload()
   {
     return allocated;
   }
+  this->UploadTables(width, height);
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenGLScatteredMap::UploadTables(int width, int height)
+{
+  Parts& parts = *this->Device;
   vtkPointData* maps = this->Texels->GetPointData();
   vtkDataArray* rows = maps->GetArray(ArrayNames::LinkRow);
   vtkDataArray* areas = maps->GetArray(ArrayNames::TexelArea);
   const std::vector<double>& linkedAreas = parts.Exchange->GetAreas();
+  const vtkIdType texels = areas->GetNumberOfTuples();
   double whole = 0.0;
-  for (vtkIdType texel = 0; texel < areas->GetNumberOfTuples(); ++texel)
+  for (vtkIdType texel = 0; texel < texels; ++texel)
   {
     whole += areas->GetComponent(texel, 0);
   }
-  const double meanArea = whole / static_cast<double>(areas->GetNumberOfTuples());
+  const double meanArea = whole / static_cast<double>(texels);
   std::vector<float> places(static_cast<std::size_t>(4) * width * height, 0.0f);
-  std::vector<float> owners(static_cast<std::size_t>(4 * areas->GetNumberOfTuples()), 0.0f);
-  for (vtkIdType texel = 0; texel < areas->GetNumberOfTuples(); ++texel)
+  std::vector<float> owners(static_cast<std::size_t>(4 * texels), 0.0f);
+  for (vtkIdType texel = 0; texel < texels; ++texel)
   {
     const auto row = static_cast<std::size_t>(rows->GetComponent(texel, 0));
     if (row == 0)
@@ -305,9 +314,9 @@ Outcome vtkOpenGLScatteredMap::Upload()
     owner[1] = static_cast<float>(1.0 / linkedAreas[row - 1]);
     owner[2] = static_cast<float>(areas->GetComponent(texel, 0) / meanArea);
   }
+  FloatTextures& engine = this->Texture->Texture->GetEngine();
   engine.UploadTable(parts.Rows, places);
   engine.UploadTable(parts.Owners, owners);
-  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------

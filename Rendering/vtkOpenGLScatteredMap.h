@@ -99,6 +99,7 @@ private:
   LightTransport::Outcome MakeLinks(vtkOpenGLTransmittedMap* entering);
   LightTransport::Outcome Open(vtkOpenGLTransmittedMap* entering);
   LightTransport::Outcome Upload();
+  void UploadTables(int width, int height);
   LightTransport::Outcome Apply(vtkOpenGLTransmittedMap* entering);
 
   vtkNew<vtkOpenGLAtlasTexture> Texture;

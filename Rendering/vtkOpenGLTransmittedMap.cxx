@@ -9,6 +9,7 @@
 #include "Device/DeviceSession.h"
 #include "Maps/AtlasDrawing.h"
 #include "Maps/SceneLights.h"
+#include "Maps/SceneUniforms.h"
 #include "Maps/ShadowMap.h"
 #include "Shared/Attempt.h"
 #include "Shared/TransportMemory.h"
@@ -25,8 +26,9 @@
 #include "vtkTimeStamp.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
-#include <tuple>
+#include <vector>
 
 using namespace LightTransport;
 
@@ -36,33 +38,9 @@ namespace
 {
 constexpr Advice WithoutMemory = { "use smaller maps, or a surface of fewer triangles",
   "OpenGL gave up", "try a newer driver" };
-/// Of the scene's diagonal: nothing nearer casts a shadow.
+/// Of the scene: nothing nearer casts a shadow.
 constexpr double ShadowBias = 1e-5;
 
-//------------------------------------------------------------------------------
-void SetVector(vtkShaderProgram* program, const char* name, const Vector3& vector)
-{
-  const float values[3] = { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
-    static_cast<float>(vector[2]) };
-  program->SetUniform3f(name, values);
-}
-
-//------------------------------------------------------------------------------
-void SetLight(vtkShaderProgram* program, const SceneLight& light, const Vector3& origin)
-{
-  Vector3 position = light.Position;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    position[axis] -= origin[axis];
-  }
-  program->SetUniformi("isPositional", light.IsPositional ? 1 : 0);
-  SetVector(program, "lightPosition", position);
-  SetVector(program, "lightAxis", light.Axis);
-  SetVector(program, "color", light.Color);
-  SetVector(program, "attenuation", light.Attenuation);
-  program->SetUniformf("coneCosine", static_cast<float>(light.ConeCosine));
-  program->SetUniformf("exponent", static_cast<float>(light.Exponent));
-}
 } // namespace
 
 /// All that the map depends on.
@@ -290,10 +268,8 @@ Outcome vtkOpenGLTransmittedMap::Draw(const State& state)
 // Light by light, and view by view, so that one shadow map is enough.
 Outcome vtkOpenGLTransmittedMap::AddLights(const State& state)
 {
-  Parts& parts = *this->Device;
   AtlasTexture& texture = *this->Texture->Texture;
   texture.GetEngine().Clear(texture.GetTexels());
-  const Vector3 origin = state.GetOrigin();
   std::vector<SceneLight> lights = state.Lights;
   if (lights.empty())
   {
@@ -301,14 +277,7 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state)
     lights.emplace_back();
     lights.back().Axis[2] = 1.0;
   }
-  const double* scene = this->Shadows ? parts.Shadow->GetBounds() : state.Bounds.data();
-  double diagonal = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    diagonal = std::max(diagonal, scene[2 * axis + 1] - scene[2 * axis]);
-  }
-  const std::string body =
-    std::string(vtkLightTransportPassesFresnelFS) + vtkLightTransportMapsIrradianceFS;
+  const double* scene = this->GetSceneBounds(state);
   bool isFirst = true;
   Outcome drawn = Outcome::Done();
   for (const SceneLight& light : lights)
@@ -316,35 +285,54 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state)
     for (const LightView& view :
       SceneLights::MakeViews(light, state.Bounds.data(), scene, this->ShadowMapSize))
     {
-      const bool hasShadows = this->Shadows;
-      drawn = drawn && hasShadows ? parts.Shadow->Draw(view, origin) : drawn;
-      vtkShaderProgram* program = nullptr;
-      drawn = drawn ? parts.Drawing->Use(program, body.c_str(), 1) : drawn;
-      if (!drawn)
-      {
-        return drawn;
-      }
-      AtlasDrawing::SetMove(program,
-        MakeMove(state.Matrix.data(), parts.Drawing->GetSurface().Center, origin));
-      SetLight(program, light, origin);
-      ShadowMap::SetView(program, view, origin);
-      program->SetUniformi("face", view.Face);
-      program->SetUniformi("hasShadows", hasShadows ? 1 : 0);
-      program->SetUniformf("bias", static_cast<float>(ShadowBias * diagonal));
-      program->SetUniformf("refractiveIndex", static_cast<float>(this->RefractiveIndex));
-      program->SetUniformf("countsArea", isFirst ? 1.0f : 0.0f);
+      drawn = drawn ? this->AddView(state, light, view, isFirst) : drawn;
       isFirst = false;
-      if (hasShadows)
-      {
-        parts.Shadow->GetTexture()->Activate();
-        program->SetUniformi("shadows", parts.Shadow->GetTexture()->GetTextureUnit());
-      }
-      drawn = parts.Drawing->AddSamples(program, texture.GetTexels(), this->Samples);
-      if (hasShadows)
-      {
-        parts.Shadow->GetTexture()->Deactivate();
-      }
     }
+  }
+  return drawn;
+}
+
+//------------------------------------------------------------------------------
+const double* vtkOpenGLTransmittedMap::GetSceneBounds(const State& state) const
+{
+  return this->Shadows ? this->Device->Shadow->GetBounds() : state.Bounds.data();
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkOpenGLTransmittedMap::AddView(const State& state, const SceneLight& light,
+  const LightView& view, bool countsArea)
+{
+  Parts& parts = *this->Device;
+  const Vector3 origin = state.GetOrigin();
+  const std::string body =
+    std::string(vtkLightTransportPassesFresnelFS) + vtkLightTransportMapsIrradianceFS;
+  vtkShaderProgram* program = nullptr;
+  Outcome drawn = this->Shadows ? parts.Shadow->Draw(view, origin) : Outcome::Done();
+  drawn = drawn ? parts.Drawing->Use(program, body.c_str(), 1) : drawn;
+  if (!drawn)
+  {
+    return drawn;
+  }
+  const double* scene = this->GetSceneBounds(state);
+  const double size = std::max({ scene[1] - scene[0], scene[3] - scene[2], scene[5] - scene[4] });
+  AtlasDrawing::SetMove(program,
+    SceneUniforms::MakeMove(state.Matrix.data(), parts.Drawing->GetSurface().Center, origin));
+  SceneUniforms::SetLight(program, light, origin);
+  SceneUniforms::SetView(program, view, origin);
+  program->SetUniformi("hasShadows", this->Shadows ? 1 : 0);
+  program->SetUniformf("bias", static_cast<float>(ShadowBias * size));
+  program->SetUniformf("refractiveIndex", static_cast<float>(this->RefractiveIndex));
+  program->SetUniformf("countsArea", countsArea ? 1.0f : 0.0f);
+  vtkTextureObject* shadows = this->Shadows ? parts.Shadow->GetTexture() : nullptr;
+  if (shadows)
+  {
+    shadows->Activate();
+    program->SetUniformi("shadows", shadows->GetTextureUnit());
+  }
+  drawn = parts.Drawing->AddSamples(program, this->Texture->Texture->GetTexels(), this->Samples);
+  if (shadows)
+  {
+    shadows->Deactivate();
   }
   return drawn;
 }

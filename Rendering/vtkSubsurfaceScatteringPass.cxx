@@ -261,6 +261,11 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
   RadianceShader::Uniforms& uniforms)
 {
   Body* body = this->FindBody(prop);
+  AtlasDrawing* drawing = body->Transmitted->GetDrawing();
+  if (!drawing)
+  {
+    return;
+  }
   if (this->Bound != body)
   {
     this->LetGoOfMaps();
@@ -268,7 +273,7 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
   }
   uniforms.RefractiveIndex = body->RefractiveIndex;
   uniforms.MeanTransmittance = body->MeanTransmittance;
-  vtkTextureObject* points = body->Transmitted->GetDrawing()->GetPoints();
+  vtkTextureObject* points = drawing->GetPoints();
   points->Activate();
   program->SetUniformi("lightTransportPoints", points->GetTextureUnit());
   program->SetUniformi("lightTransportPointWidthBits", AtlasDrawing::PointWidthBits);

@@ -89,7 +89,7 @@ public:
   ///@}
 
   ///@{
-  /// See vtkOpenGLTransmittedMap. Defaults 2, on, 2048.
+  /// See vtkOpenGLTransmittedMap. Defaults 2, on, 4096.
   vtkSetClampMacro(IrradianceSamples, int, 1, 8);
   vtkGetMacro(IrradianceSamples, int);
   vtkSetMacro(Shadows, bool);
@@ -144,7 +144,7 @@ private:
   int IrradianceMapSize = 512;
   int IrradianceSamples = 2;
   bool Shadows = true;
-  int ShadowMapSize = 2048;
+  int ShadowMapSize = 4096;
   int ScatteredMapSize = 512;
   double RefractiveIndex = 0.0;
   double MeanTransmittance = 1.0;

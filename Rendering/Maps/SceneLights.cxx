@@ -133,6 +133,25 @@ LightView MakePointView(const SceneLight& light, const std::array<Vector3, 3>& a
   view.Far = std::max(GetRange(scene, view.Origin, axes[2])[1], 0.0) + Margin * diagonal;
   return view;
 }
+
+//------------------------------------------------------------------------------
+/// Where a cone around the ball that holds bounds is narrower than `tangent`, that and its axis.
+void AimAtBounds(const Vector3& from, const double bounds[6], Vector3& ahead, double& tangent)
+{
+  Vector3 path;
+  for (int k = 0; k < 3; ++k)
+  {
+    path[k] = 0.5 * (bounds[2 * k] + bounds[2 * k + 1]) - from[k];
+  }
+  const double distance = vtkMath::Normalize(path.data());
+  const double radius = 0.5 * (1.0 + Margin) * GetDiagonal(bounds);
+  const double square = distance * distance - radius * radius;
+  if (square > 0.0 && radius < tangent * std::sqrt(square))
+  {
+    ahead = path;
+    tangent = radius / std::sqrt(square);
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -193,19 +212,25 @@ std::vector<LightView> SceneLights::MakeViews(const SceneLight& light, const dou
   {
     return { MakeDistantView(light, receivers, scene, size) };
   }
-  if (light.ConeCosine >= std::cos(vtkMath::RadiansFromDegrees(WidestView)))
+  // The narrower of two cones: that of the light, and one around all that is lit.
+  const double widest = std::tan(vtkMath::RadiansFromDegrees(WidestView));
+  Vector3 ahead = light.Axis;
+  double tangent = light.ConeCosine > 0.0
+    ? std::sqrt(1.0 / (light.ConeCosine * light.ConeCosine) - 1.0)
+    : VTK_DOUBLE_MAX;
+  AimAtBounds(light.Position, receivers, ahead, tangent);
+  if (tangent <= widest)
   {
-    const double tangent = std::sqrt(1.0 / (light.ConeCosine * light.ConeCosine) - 1.0);
-    return { MakePointView(light, MakeAxes(light.Axis), tangent, scene, size) };
+    return { MakePointView(light, MakeAxes(ahead), tangent, scene, size) };
   }
   std::vector<LightView> views;
   for (int face = 0; face < 6; ++face)
   {
-    const int ahead = face / 2;
+    const int axis = face / 2;
     std::array<Vector3, 3> axes = {};
-    axes[0][(ahead + 1) % 3] = 1.0;
-    axes[1][(ahead + 2) % 3] = 1.0;
-    axes[2][ahead] = face % 2 == 0 ? 1.0 : -1.0;
+    axes[0][(axis + 1) % 3] = 1.0;
+    axes[1][(axis + 2) % 3] = 1.0;
+    axes[2][axis] = face % 2 == 0 ? 1.0 : -1.0;
     views.push_back(MakePointView(light, axes, 1.0, scene, size));
     views.back().Face = face;
   }

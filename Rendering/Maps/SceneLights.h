@@ -48,9 +48,9 @@ namespace SceneLights
 /// where the camera has them now. Fails for numbers that are none.
 Outcome Read(vtkRenderer* renderer, std::vector<SceneLight>& lights);
 
-/// One view, or six around a light that shines everywhere. `receivers` and `scene`: bounds
-/// (xmin, xmax, ...) of what is lit, and of what casts shadows as well; maps have `size` texels a
-/// side.
+/// One view of what is lit, or six around a light that has it all about. `receivers` and `scene`:
+/// bounds (xmin, xmax, ...) of what is lit, and of what casts shadows as well; maps have `size`
+/// texels a side.
 std::vector<LightView> MakeViews(const SceneLight& light, const double receivers[6],
   const double scene[6], int size);
 } // namespace SceneLights

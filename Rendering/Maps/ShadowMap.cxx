@@ -5,6 +5,7 @@
 #include "Context/OpenGLContextGuard.h"
 #include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
+#include "Maps/SceneUniforms.h"
 #include "vtkLightTransportMapsShadowFS.h"
 #include "vtkLightTransportMapsShadowVS.h"
 
@@ -80,33 +81,7 @@ vtkMTimeType GetTime(vtkDataObject* data)
   return time;
 }
 
-//------------------------------------------------------------------------------
-void SetVector(vtkShaderProgram* program, const char* name, const Vector3& vector)
-{
-  const float values[3] = { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
-    static_cast<float>(vector[2]) };
-  program->SetUniform3f(name, values);
-}
 } // namespace
-
-//------------------------------------------------------------------------------
-std::array<float, 16> MakeMove(const double matrix[16], const Vector3& center,
-  const Vector3& origin)
-{
-  std::array<float, 16> move = {};
-  for (int row = 0; row < 3; ++row)
-  {
-    double shift = matrix[4 * row + 3] - origin[row];
-    for (int column = 0; column < 3; ++column)
-    {
-      move[4 * column + row] = static_cast<float>(matrix[4 * row + column]);
-      shift += matrix[4 * row + column] * center[column];
-    }
-    move[12 + row] = static_cast<float>(shift);
-  }
-  move[15] = 1.0f;
-  return move;
-}
 
 //------------------------------------------------------------------------------
 ShadowMap::ShadowMap(FloatTextures& engine)
@@ -294,23 +269,6 @@ Outcome ShadowMap::Upload(Caster& caster, vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-void ShadowMap::SetView(vtkShaderProgram* program, const LightView& view, const Vector3& origin)
-{
-  Vector3 from;
-  vtkMath::Subtract(view.Origin.data(), origin.data(), from.data());
-  SetVector(program, "viewOrigin", from);
-  SetVector(program, "viewRight", view.Axes[0]);
-  SetVector(program, "viewUp", view.Axes[1]);
-  SetVector(program, "viewAhead", view.Axes[2]);
-  const float frame[4] = { static_cast<float>(view.Middle[0]), static_cast<float>(view.Middle[1]),
-    static_cast<float>(view.Half[0]), static_cast<float>(view.Half[1]) };
-  program->SetUniform4f("frame", frame);
-  program->SetUniformi("isPerspective", view.IsPerspective ? 1 : 0);
-  const float range[2] = { static_cast<float>(view.Near), static_cast<float>(view.Far) };
-  program->SetUniform2f("range", range);
-}
-
-//------------------------------------------------------------------------------
 Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
 {
   vtkOpenGLState* state = this->Engine.GetWindow()->GetState();
@@ -331,11 +289,11 @@ Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
   state->vtkglDepthFunc(GL_LESS);
   const float farthest = 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &farthest);
-  SetView(program, view, origin);
+  SceneUniforms::SetView(program, view, origin);
   Outcome drawn = Outcome::Done();
   for (Caster& caster : this->Casters)
   {
-    auto move = MakeMove(caster.Matrix.data(), caster.Center, origin);
+    auto move = SceneUniforms::MakeMove(caster.Matrix.data(), caster.Center, origin);
     program->SetUniformMatrix4x4("toScene", move.data());
     for (const auto& triangles : caster.Triangles)
     {

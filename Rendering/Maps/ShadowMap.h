@@ -45,8 +45,6 @@ public:
   /// Relative to `origin`, as all that shaders get.
   Outcome Draw(const LightView& view, const Vector3& origin);
 
-  /// What shaders need to look things up (vtkLightTransportMapsIrradianceFS.glsl).
-  static void SetView(vtkShaderProgram* program, const LightView& view, const Vector3& origin);
   vtkTextureObject* GetTexture() const { return this->Depth; }
 
 private:
@@ -73,11 +71,6 @@ private:
   std::vector<Caster> Casters;
   std::array<double, 6> Bounds = {};
 };
-
-/// From coordinates relative to `center`, moved by `matrix` (row by row), to those relative to
-/// `origin`, column by column.
-std::array<float, 16> MakeMove(const double matrix[16], const Vector3& center,
-  const Vector3& origin);
 } // namespace LightTransport
 
 #endif

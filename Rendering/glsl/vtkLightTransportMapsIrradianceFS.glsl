@@ -52,7 +52,8 @@ float GetLitPart()
   vec2 place = isPerspective != 0 ? seen.xy / (seen.z * frame.zw) : (seen.xy - frame.xy) / frame.zw;
   float size = float(textureSize(shadows, 0).x);
   float texel = 2.0 * max(frame.z, frame.w) / size * (isPerspective != 0 ? seen.z : 1.0);
-  float slope = length(normal.xy) / max(-normal.z, 1e-6);
+  float slant = isPerspective != 0 ? dot(normal, seen) / seen.z : normal.z;
+  float slope = length(normal.xy) / max(-slant, 1e-6);
   float allowed = bias + CORNER_ROUNDING * texel * slope;
   vec2 at = (0.5 * place + 0.5) * size - 0.5;
   vec2 first = floor(at);

@@ -13,10 +13,17 @@ namespace LightTransport
 //------------------------------------------------------------------------------
 Outcome TexelLinksRun::Check()
 {
-  return this->Owner->GetModel() == vtkSubsurfaceScattering::MODEL_MONTE_CARLO
-    ? Outcome::Failed("Model is MonteCarlo, whose photons walk in the body itself, and texels "
-                      "enclose none: choose a profile, such as Model Tabulated.")
-    : this->ProfileRun::Check();
+  if (this->Owner->GetModel() == vtkSubsurfaceScattering::MODEL_MONTE_CARLO)
+  {
+    return Outcome::Failed("Model is MonteCarlo, whose photons walk in the body itself, and texels "
+                           "enclose none: choose a profile, such as Model Tabulated.");
+  }
+  if (this->Owner->GetRefineByIrradiance())
+  {
+    return Outcome::Failed("RefineByIrradiance is on, and links are asked for that hold in any "
+                           "light: switch it off.");
+  }
+  return this->ProfileRun::Check();
 }
 
 //------------------------------------------------------------------------------
