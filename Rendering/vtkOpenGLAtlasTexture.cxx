@@ -5,12 +5,15 @@
 #include "Atlas/AtlasTexels.h"
 #include "Atlas/AtlasTexture.h"
 #include "Device/DeviceSession.h"
+#include "Shared/ArrayNames.h"
 #include "Shared/Attempt.h"
+#include "Shared/ZeroedArray.h"
 #include "vtkLightTransportAtlasSampleFS.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkShaderProgram.h"
@@ -178,6 +181,42 @@ bool vtkOpenGLAtlasTexture::ReadLevel(int level, vtkFloatArray* texels)
     vtkErrorMacro("OpenGL failed in reading a level with " << read.GetMessage() << ".");
     return false;
   }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkOpenGLAtlasTexture::ReadImage(vtkImageData* image, const char* valueName)
+{
+  vtkNew<vtkFloatArray> texels;
+  if (!this->ReadLevel(0, texels))
+  {
+    return false;
+  }
+  const int side = this->GetResolution();
+  const double step = 1.0 / side;
+  image->Initialize();
+  image->SetDimensions(side, side, 1);
+  image->SetSpacing(step, step, 1.0);
+  image->SetOrigin(0.5 * step, 0.5 * step, 0.0);
+  const int components = this->GetNumberOfComponents();
+  vtkNew<vtkFloatArray> values;
+  vtkNew<vtkFloatArray> areas;
+  values->SetName(valueName);
+  values->SetNumberOfComponents(components);
+  areas->SetName(ArrayNames::TexelArea);
+  ZeroedArray::Fill(values, texels->GetNumberOfTuples());
+  ZeroedArray::Fill(areas, texels->GetNumberOfTuples());
+  for (vtkIdType texel = 0; texel < texels->GetNumberOfTuples(); ++texel)
+  {
+    const float area = texels->GetTypedComponent(texel, 3);
+    areas->SetValue(texel, area);
+    for (int k = 0; k < components && area > 0.0f; ++k)
+    {
+      values->SetTypedComponent(texel, k, texels->GetTypedComponent(texel, k) / area);
+    }
+  }
+  image->GetPointData()->AddArray(values);
+  image->GetPointData()->AddArray(areas);
   return true;
 }
 

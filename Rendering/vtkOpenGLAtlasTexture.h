@@ -76,6 +76,11 @@ public:
   /// Build and where there is no such level.
   bool ReadLevel(int level, vtkFloatArray* texels);
 
+  /// Reads level 0 as an image that vtkAtlasToSurface takes: point arrays `valueName`, with the
+  /// components that the texture has, and "Area", relative to the mean. Returns false with an error
+  /// before Build.
+  bool ReadImage(vtkImageData* image, const char* valueName);
+
   /**
    * Samples at many points at once, in a fragment shader. `coordinates`: two components, in
    * [0,1]^2; `blocks`: three, the x, y and size of the point's chart in texels of level 0;
@@ -115,6 +120,11 @@ private:
   bool CheckPoints(vtkDataArray* coordinates, vtkDataArray* blocks, vtkDataArray* levels,
     vtkDoubleArray* values);
   bool IsReady();
+
+  /// These draw into it.
+  friend class vtkOpenGLScatteredMap;
+  friend class vtkOpenGLTransmittedMap;
+  friend class vtkSubsurfaceScatteringPass;
 
   const std::unique_ptr<LightTransport::AtlasTexture> Texture;
 };

@@ -279,6 +279,19 @@ bool vtkOpenGLLinkOperator::GetVector(int slot, double* values)
 }
 
 //------------------------------------------------------------------------------
+vtkTextureObject* vtkOpenGLLinkOperator::GetVectorTexture(int slot)
+{
+  if (!this->IsReady())
+  {
+    return nullptr;
+  }
+  const DeviceSession session(this->Device->Window.Get());
+  FloatVectors& vectors = *this->Device->Vectors;
+  return Finish(this, vectors.Allocate(slot), "GetVectorTexture") ? vectors.Get(slot)[0].Get()
+                                                                  : nullptr;
+}
+
+//------------------------------------------------------------------------------
 bool vtkOpenGLLinkOperator::Multiply(int y, int x)
 {
   if (!this->IsReady(x))

@@ -34,6 +34,7 @@
 #include <memory> // for std::unique_ptr
 
 class vtkRenderWindow;
+class vtkTextureObject;
 class vtkWindow;
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkOpenGLLinkOperator : public vtkDeviceLinkOperator
@@ -74,6 +75,14 @@ public:
 
   /// Drop everything that lives in this window's context. Windows call it when they close.
   void ReleaseGraphicsResources(vtkWindow* window);
+
+  /**
+   * The texture of the first four bands of a slot, for those who draw into it, or from it, in the
+   * same context: patch p is the texel (p % width, p / width). A slot that is not there yet is
+   * made, of undefined contents; texels without a patch must be 0. Multiply and Combine may give a
+   * slot another texture. Returns nullptr, with an error, before Initialize().
+   */
+  vtkTextureObject* GetVectorTexture(int slot);
 
   ///@{
   /**

@@ -2,8 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSubsurfaceScatteringPass
- * @brief draws the point array "ScatteredIrradiance" of vtkSubsurfaceScattering, added to what the
- * surface reflects at once
+ * @brief draws translucent surfaces: light that enters, is scattered inside and leaves elsewhere,
+ * added to what the surface reflects at once
+ *
+ * Actors that have a material (SetMaterial) are scattered in while they are drawn, on the GPU, in
+ * three steps, each a class of its own: what enters is drawn into the surface's atlas in the light
+ * of the renderer (vtkOpenGLTransmittedMap); links are applied to it (vtkOpenGLScatteredMap); the
+ * picture samples the result pixel by pixel, with mip-maps that no chart leaks into. Nothing is
+ * computed again where only the camera moves; a light that moves, or a headlight with the camera,
+ * costs the first step and the application of the links; points that move new links. Actors without
+ * a material pay nothing. A surface that fails is drawn as usual, and an error tells why, once.
+ *
+ * Other actors with the point array "ScatteredIrradiance" of vtkSubsurfaceScattering draw that.
  *
  * Radiance = VTK's own shading of the actor under the renderer's lights (the direct part: usually
  * specular reflection alone, with the property's diffuse and ambient coefficients 0) + w
@@ -18,8 +28,7 @@
  *
  * Colour = encoded(Exposure * radiance). VTK's shading has no unit; it is added as it is.
  * Physically based shading (vtkProperty::SetInterpolationToPBR) is decoded before it is added, with
- * the power of 2.2 that VTK encodes it with. See vtkTransportPass for what is drawn how; the pass
- * draws an array and computes no scattering.
+ * the power of 2.2 that VTK encodes it with. See vtkTransportPass for what is drawn how.
  *
  * After H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, A practical model for subsurface
  * light transport, SIGGRAPH 2001, eq. 5, whose exitant Fresnel factor is normalised here.
@@ -28,6 +37,15 @@
 #define vtkSubsurfaceScatteringPass_h
 
 #include "vtkTransportPass.h"
+
+#include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
+
+class vtkActor;
+class vtkOpenGLScatteredMap;
+class vtkOpenGLTransmittedMap;
+class vtkRenderer;
+class vtkSubsurfaceScattering;
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkSubsurfaceScatteringPass : public vtkTransportPass
 {
@@ -46,9 +64,67 @@ public:
   /// The weight w towards a direction that makes an angle of this cosine (0 to 1) with the normal.
   static double GetOutgoingWeight(double cosine, double refractiveIndex);
 
+  ///@{
+  /**
+   * Makes an actor translucent: the scattering of its surface is computed while it is drawn. The
+   * surface is one that vtkSurfaceAtlas made, the mapper a plain vtkPolyDataMapper of its own. The
+   * filter has the coefficients and says which links there are; nothing need be connected to it,
+   * and actors of one material may share it. MillimetersPerUnit is that of the mapper's input: the
+   * actor's matrix moves and turns it. nullptr takes the material away.
+   */
+  void SetMaterial(vtkActor* actor, vtkSubsurfaceScattering* material);
+  vtkSubsurfaceScattering* GetMaterial(vtkActor* actor);
+  ///@}
+
+  ///@{
+  /**
+   * Texels a side of the maps of what enters, and of what leaves; powers of two. Default 512, range
+   * 128 to 4096, and 16 to 2048. The larger the more exact: what enters takes 21 bytes a texel and
+   * a drawing for each light; what leaves takes besides the time to make its links.
+   */
+  vtkSetClampMacro(IrradianceMapSize, int, 128, 4096);
+  vtkGetMacro(IrradianceMapSize, int);
+  vtkSetClampMacro(ScatteredMapSize, int, 16, 2048);
+  vtkGetMacro(ScatteredMapSize, int);
+  ///@}
+
+  ///@{
+  /// See vtkOpenGLTransmittedMap. Defaults 2, on, 4096.
+  vtkSetClampMacro(IrradianceSamples, int, 1, 8);
+  vtkGetMacro(IrradianceSamples, int);
+  vtkSetMacro(Shadows, bool);
+  vtkGetMacro(Shadows, bool);
+  vtkBooleanMacro(Shadows, bool);
+  vtkSetClampMacro(ShadowMapSize, int, 16, 8192);
+  vtkGetMacro(ShadowMapSize, int);
+  ///@}
+
+  ///@{
+  /// How often the steps have been computed, over all actors: what enters was drawn, links were
+  /// made, links were applied.
+  vtkIdType GetNumberOfIrradianceRuns();
+  vtkIdType GetNumberOfLinkRuns();
+  vtkIdType GetNumberOfScatteringRuns();
+  ///@}
+
+  ///@{
+  /// The maps of an actor that has a material: their textures can be read
+  /// (vtkOpenGLAtlasTexture::ReadImage). nullptr for others. They follow the properties above.
+  vtkOpenGLTransmittedMap* GetTransmittedMap(vtkActor* actor);
+  vtkOpenGLScatteredMap* GetScatteredMap(vtkActor* actor);
+  ///@}
+
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
 protected:
   vtkSubsurfaceScatteringPass();
   ~vtkSubsurfaceScatteringPass() override;
+
+  void UpdateMaps(const vtkRenderState* state) override;
+  bool IsMapped(vtkProp* prop) override;
+  void SetMap(vtkShaderProgram* program, vtkProp* prop,
+    LightTransport::RadianceShader::Uniforms& uniforms) override;
+  void LetGoOfMaps() override;
 
   const char* GetFragmentShader() override;
   double GetFresnelIndex() override { return this->RefractiveIndex; }
@@ -58,6 +134,18 @@ private:
   vtkSubsurfaceScatteringPass(const vtkSubsurfaceScatteringPass&) = delete;
   void operator=(const vtkSubsurfaceScatteringPass&) = delete;
 
+  struct Body;
+
+  Body* FindBody(vtkProp* actor);
+  bool Update(Body& body, vtkRenderer* renderer);
+
+  std::vector<std::unique_ptr<Body>> Bodies;
+  Body* Bound = nullptr; ///< whose textures are active
+  int IrradianceMapSize = 512;
+  int IrradianceSamples = 2;
+  bool Shadows = true;
+  int ShadowMapSize = 4096;
+  int ScatteredMapSize = 512;
   double RefractiveIndex = 0.0;
   double MeanTransmittance = 1.0;
 };

@@ -12,6 +12,8 @@
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
+
 using namespace LightTransport;
 
 //------------------------------------------------------------------------------
@@ -71,9 +73,11 @@ void vtkTransportPass::Render(const vtkRenderState* state)
     return;
   }
   this->Parallel = state->GetRenderer()->GetActiveCamera()->GetParallelProjection() != 0;
+  this->UpdateMaps(state);
   this->MapArrays(state);
   this->PreRender(state);
   this->DelegatePass->Render(state);
+  this->LetGoOfMaps();
   this->NumberOfRenderedProps = this->DelegatePass->GetNumberOfRenderedProps();
   this->PostRender(state);
 }
@@ -92,7 +96,14 @@ void vtkTransportPass::ReleaseGraphicsResources(vtkWindow* window)
 //------------------------------------------------------------------------------
 void vtkTransportPass::MapArrays(const vtkRenderState* state)
 {
-  const bool found = this->Arrays->Map(state, this->ArrayName);
+  bool isAnyMapped = false;
+  const auto isMapped = [&](vtkActor* actor)
+  {
+    const bool mapped = this->IsMapped(actor);
+    isAnyMapped = isAnyMapped || mapped;
+    return mapped;
+  };
+  const bool found = this->Arrays->Map(state, this->ArrayName, isMapped) || isAnyMapped;
   if (!found && !this->Warned)
   {
     vtkWarningMacro("No visible actor has a point array \""
@@ -105,14 +116,15 @@ void vtkTransportPass::MapArrays(const vtkRenderState* state)
 //------------------------------------------------------------------------------
 vtkMTimeType vtkTransportPass::GetShaderStageMTime()
 {
-  return this->Arrays->GetMTime();
+  return std::max(this->Arrays->GetMTime(), this->MapsTime.GetMTime());
 }
 
 //------------------------------------------------------------------------------
 bool vtkTransportPass::PreReplaceShaderValues(std::string& vertexShader,
-  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
+  vtkProp* prop)
 {
-  if (this->Arrays->GetNumberOfComponents(mapper) > 0)
+  if (this->IsMapped(prop) || this->Arrays->GetNumberOfComponents(mapper) > 0)
   {
     RadianceShader::MarkPlaces(vertexShader, geometryShader, fragmentShader);
   }
@@ -121,11 +133,12 @@ bool vtkTransportPass::PreReplaceShaderValues(std::string& vertexShader,
 
 //------------------------------------------------------------------------------
 bool vtkTransportPass::PostReplaceShaderValues(std::string& vertexShader, std::string&,
-  std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp*)
+  std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  if (this->Arrays->GetNumberOfComponents(mapper) > 0)
+  const bool isMapped = this->IsMapped(prop);
+  if (isMapped || this->Arrays->GetNumberOfComponents(mapper) > 0)
   {
-    RadianceShader::FillPlaces(vertexShader, fragmentShader, this->GetFragmentShader());
+    RadianceShader::FillPlaces(vertexShader, fragmentShader, this->GetFragmentShader(), isMapped);
   }
   return true;
 }
@@ -136,7 +149,8 @@ bool vtkTransportPass::SetShaderParameters(vtkShaderProgram* program, vtkAbstrac
 {
   RadianceShader::Uniforms uniforms;
   uniforms.Components = this->Arrays->GetNumberOfComponents(mapper);
-  if (uniforms.Components == 0)
+  const bool isMapped = this->IsMapped(prop);
+  if (!isMapped && uniforms.Components == 0)
   {
     return true;
   }
@@ -149,6 +163,10 @@ bool vtkTransportPass::SetShaderParameters(vtkShaderProgram* program, vtkAbstrac
   uniforms.Exposure = this->Exposure;
   uniforms.RefractiveIndex = this->GetFresnelIndex();
   uniforms.MeanTransmittance = this->GetMeanTransmittance();
+  if (isMapped)
+  {
+    this->SetMap(program, prop, uniforms);
+  }
   RadianceShader::SetUniforms(program, uniforms);
   return true;
 }

@@ -22,6 +22,7 @@
 #include "vtkLightTransportRenderingModule.h" // for export macro
 #include "vtkOpenGLRenderPass.h"
 #include "vtkSmartPointer.h" // for members
+#include "vtkTimeStamp.h"    // for members
 
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
@@ -29,7 +30,11 @@
 namespace LightTransport
 {
 class MappedArrays;
+namespace RadianceShader
+{
+struct Uniforms;
 }
+} // namespace LightTransport
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkTransportPass : public vtkOpenGLRenderPass
 {
@@ -99,6 +104,24 @@ protected:
   virtual double GetMeanTransmittance() { return 1.0; }
   ///@}
 
+  ///@{
+  /**
+   * For a pass whose actors may be drawn from maps of their atlases instead: bring the maps of a
+   * frame up to date before it is drawn; whether an actor has one; let a program of that actor's
+   * mapper use it, and say which material it is; let go of it when the frame is drawn.
+   */
+  virtual void UpdateMaps(const vtkRenderState* vtkNotUsed(state)) {}
+  virtual bool IsMapped(vtkProp* vtkNotUsed(prop)) { return false; }
+  virtual void SetMap(vtkShaderProgram* vtkNotUsed(program), vtkProp* vtkNotUsed(prop),
+    LightTransport::RadianceShader::Uniforms& vtkNotUsed(uniforms))
+  {
+  }
+  virtual void LetGoOfMaps() {}
+  ///@}
+
+  /// To be called where IsMapped has changed for some actor.
+  void MapsModified() { this->MapsTime.Modified(); }
+
 private:
   vtkTransportPass(const vtkTransportPass&) = delete;
   void operator=(const vtkTransportPass&) = delete;
@@ -111,6 +134,7 @@ private:
   vtkSmartPointer<vtkRenderPass> DelegatePass;
 
   const std::unique_ptr<LightTransport::MappedArrays> Arrays;
+  vtkTimeStamp MapsTime;
   bool Parallel = false; ///< the camera's projection
   bool Warned = false;
 };

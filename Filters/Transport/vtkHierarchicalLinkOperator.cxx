@@ -22,6 +22,8 @@ constexpr int MaximumLights = 4;
 // Rows that a thread takes at a time: rows differ in length.
 constexpr vtkIdType RowsPerTask = 1024;
 constexpr vtkIdType TilesPerTask = 16;
+// Slots of one level that a thread takes at a time.
+constexpr vtkIdType SlotsPerTask = 4096;
 
 // What a pass over the links sums up: bands First to First + Count of each of some lights, which
 // lie Kernels bands apart. Where there is one kernel all bands are those of one light.
@@ -282,22 +284,34 @@ void vtkHierarchicalLinkOperator::SweepUp(const Vector& x)
   const int bands = this->NumberOfBands;
   this->Sent.resize(static_cast<std::size_t>(this->Hierarchy->GetNumberOfSlots()) * bands);
   double* patches = this->Sent.data() + nodes.size() * bands;
-  for (vtkIdType patch = 0; patch < this->NumberOfPatches; ++patch)
+  const auto weigh = [&](vtkIdType begin, vtkIdType end)
   {
-    for (int band = 0; band < bands; ++band)
+    for (vtkIdType patch = begin; patch < end; ++patch)
     {
-      patches[patch * bands + band] = weights[patch] * x[band * this->Stride + patch];
+      for (int band = 0; band < bands; ++band)
+      {
+        patches[patch * bands + band] = weights[patch] * x[band * this->Stride + patch];
+      }
     }
-  }
-  for (std::size_t node = nodes.size(); node-- > 0;)
+  };
+  Threads::For(0, this->NumberOfPatches, SlotsPerTask, weigh);
+  const auto sumUp = [&](vtkIdType begin, vtkIdType end)
   {
-    double* sum = this->Sent.data() + node * bands;
-    std::fill(sum, sum + bands, 0.0);
-    for (int child = nodes[node].First; child < nodes[node].Last; ++child)
+    for (vtkIdType node = begin; node < end; ++node)
     {
-      const double* sent = this->Sent.data() + static_cast<std::size_t>(child) * bands;
-      std::transform(sum, sum + bands, sent, sum, std::plus<double>());
+      double* sum = this->Sent.data() + node * bands;
+      std::fill(sum, sum + bands, 0.0);
+      for (int child = nodes[node].First; child < nodes[node].Last; ++child)
+      {
+        const double* sent = this->Sent.data() + static_cast<std::size_t>(child) * bands;
+        std::transform(sum, sum + bands, sent, sum, std::plus<double>());
+      }
     }
+  };
+  const std::vector<int>& levels = this->Hierarchy->GetLevels();
+  for (std::size_t level = levels.size() - 1; level-- > 0;)
+  {
+    Threads::For(levels[level], levels[level + 1], SlotsPerTask, sumUp);
   }
 }
 
@@ -305,14 +319,22 @@ void vtkHierarchicalLinkOperator::SweepUp(const Vector& x)
 void vtkHierarchicalLinkOperator::SweepDown(int bands)
 {
   const std::vector<vtkExchangeHierarchy::Node>& nodes = this->Hierarchy->GetNodes();
-  for (std::size_t node = 0; node < nodes.size(); ++node)
+  const auto handDown = [&](vtkIdType begin, vtkIdType end)
   {
-    const double* received = this->Received.data() + node * bands;
-    for (int child = nodes[node].First; child < nodes[node].Last; ++child)
+    for (vtkIdType node = begin; node < end; ++node)
     {
-      double* sum = this->Received.data() + static_cast<std::size_t>(child) * bands;
-      std::transform(sum, sum + bands, received, sum, std::plus<double>());
+      const double* received = this->Received.data() + node * bands;
+      for (int child = nodes[node].First; child < nodes[node].Last; ++child)
+      {
+        double* sum = this->Received.data() + static_cast<std::size_t>(child) * bands;
+        std::transform(sum, sum + bands, received, sum, std::plus<double>());
+      }
     }
+  };
+  const std::vector<int>& levels = this->Hierarchy->GetLevels();
+  for (std::size_t level = 0; level + 1 < levels.size(); ++level)
+  {
+    Threads::For(levels[level], levels[level + 1], SlotsPerTask, handDown);
   }
 }
 
@@ -327,13 +349,17 @@ void vtkHierarchicalLinkOperator::MultiplyPart(const Vector& x, Vector& y)
   const std::vector<double>& weights = this->Hierarchy->GetWeights();
   const double* patches =
     this->Received.data() + static_cast<std::size_t>(this->Hierarchy->GetNumberOfNodes()) * bands;
-  for (vtkIdType patch = 0; patch < this->NumberOfPatches; ++patch)
+  const auto weigh = [&](vtkIdType begin, vtkIdType end)
   {
-    for (int band = 0; band < bands; ++band)
+    for (vtkIdType patch = begin; patch < end; ++patch)
     {
-      y[band * this->Stride + patch] = weights[patch] * patches[patch * bands + band];
+      for (int band = 0; band < bands; ++band)
+      {
+        y[band * this->Stride + patch] = weights[patch] * patches[patch * bands + band];
+      }
     }
-  }
+  };
+  Threads::For(0, this->NumberOfPatches, SlotsPerTask, weigh);
 }
 
 //------------------------------------------------------------------------------

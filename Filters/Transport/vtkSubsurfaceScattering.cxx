@@ -6,6 +6,9 @@
 #include "Photons/MonteCarloRun.h"
 #include "Scattering/ProfileRun.h"
 #include "Scattering/ScatteringMaterials.h"
+#include "Scattering/TexelLinksRun.h"
+#include "Shared/AbortCheck.h"
+#include "vtkExchange.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -71,11 +74,42 @@ int vtkSubsurfaceScattering::RequestUpdateExtent(vtkInformation* request,
 //------------------------------------------------------------------------------
 std::unique_ptr<TransportRun> vtkSubsurfaceScattering::MakeRun(const RunPorts& ports)
 {
+  if (ports.LinksAlone)
+  {
+    return std::make_unique<TexelLinksRun>(this, *this->Links, ports);
+  }
   if (this->Model == MODEL_MONTE_CARLO)
   {
     return std::make_unique<MonteCarloRun>(this, *this->Links, ports);
   }
   return std::make_unique<ProfileRun>(this, *this->Links, ports);
+}
+
+//------------------------------------------------------------------------------
+vtkExchange* vtkSubsurfaceScattering::MakeTexelLinks(vtkImageData* texels, vtkImageData* rows)
+{
+  if (!texels || !rows)
+  {
+    vtkErrorMacro("There is no texel image to link, or none to write the rows to.");
+    return nullptr;
+  }
+  AbortCheck::Forget(this);
+  RunPorts ports;
+  ports.Filter = this;
+  ports.Input = texels;
+  ports.Output = rows;
+  ports.ProgressInterval = this->ProgressInterval;
+  ports.LinksAlone = true;
+  const Outcome outcome = this->Run(ports);
+  if (!outcome)
+  {
+    rows->Initialize();
+  }
+  if (!outcome.GetMessage().empty())
+  {
+    vtkErrorMacro(<< outcome.GetMessage());
+  }
+  return outcome ? this->Links->Get().GetExchange() : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -111,6 +111,8 @@ namespace LightTransport
 {
 class LinkCache;
 }
+class vtkExchange;
+class vtkImageData;
 
 class VTKLIGHTTRANSPORTFILTERS_EXPORT vtkSubsurfaceScattering : public vtkTransportAlgorithm
 {
@@ -456,6 +458,15 @@ public:
   void SetDeviceToCPU() { this->SetDevice(DEVICE_CPU); }
   void SetDeviceToOpenGL() { this->SetDevice(DEVICE_OPENGL); }
   ///@}
+
+  /**
+   * The links of a texel image alone, for those who apply them elsewhere
+   * (vtkSubsurfaceScatteringPass): no light is needed, and input connections do not matter. `rows`
+   * becomes a copy of `texels` with the point array "LinkRow": which row of the exchange a texel
+   * is, from 1 on; 0 for texels without surface. Returns nullptr, with an error, where there are
+   * none, and after an abort. The filter keeps the links until a run needs others.
+   */
+  vtkExchange* MakeTexelLinks(vtkImageData* texels, vtkImageData* rows);
 
 protected:
   vtkSubsurfaceScattering();

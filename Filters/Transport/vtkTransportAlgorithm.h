@@ -130,6 +130,9 @@ protected:
   virtual std::unique_ptr<LightTransport::TransportRun> MakeRun(
     const LightTransport::RunPorts& ports) = 0;
 
+  /// One run, whose outcome has not been reported yet.
+  LightTransport::Outcome Run(const LightTransport::RunPorts& ports);
+
   vtkMultiProcessController* Controller = nullptr;
   double FeatureAngle = 60.0;
   /// Seconds after which progress is told again, and an abort heard, within a step that takes long.
@@ -138,8 +141,6 @@ protected:
 private:
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
-
-  LightTransport::Outcome Run(const LightTransport::RunPorts& ports);
 };
 
 #endif

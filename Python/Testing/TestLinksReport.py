@@ -14,7 +14,7 @@ class TestLinksReport(ReportTestCase):
                "error_stated", "error_compression", "reference", "device"}
     METHODS = {"AllPairs": ("1e-1", "1e-2"), "Uniform": ("4", "32"),
                "UniformCompressed": ("4", "32"), "Adaptive": ("1e-1", "1e-2"),
-               "AdaptiveCompressed": ("1e-1", "1e-2")}
+               "AdaptiveCompressed": ("1e-1", "1e-2"), "AdaptiveForLight": ("1e-1", "1e-2")}
 
     def test_report(self):
         source = self.save("cube.vtp", make_cube(6))

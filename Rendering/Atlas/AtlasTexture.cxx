@@ -5,7 +5,9 @@
 #include "Context/OpenGLContextGuard.h"
 #include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
+#include "Device/DeviceMemory.h"
 #include "Device/SharedWindow.h"
+#include "Shared/TransportMemory.h"
 #include "Shared/ZeroedArray.h"
 #include "vtkLightTransportAtlasPointsFS.h"
 #include "vtkLightTransportAtlasSampleFS.h"
@@ -80,7 +82,7 @@ Outcome AtlasTexture::Open(vtkRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-Outcome AtlasTexture::Upload(const std::vector<float>& rgba, int resolution, int components)
+Outcome AtlasTexture::Allocate(int resolution, int components)
 {
   this->Resolution = resolution;
   this->Components = components;
@@ -98,8 +100,42 @@ Outcome AtlasTexture::Upload(const std::vector<float>& rgba, int resolution, int
   texture->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
   texture->SetMagnificationFilter(vtkTextureObject::Linear);
   texture->SetMaxLevel(this->GetNumberOfLevels() - 1);
-  const int region[4] = { 0, 0, resolution, resolution };
-  this->Engine->Upload(texture, region, resolution, rgba.data());
+  return Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasTexture::AllocateWithinMemory(int resolution, const char* name)
+{
+  const double texels = static_cast<double>(resolution) * resolution;
+  const double bytes = texels * FloatTextures::BytesPerTexel * 4.0 / 3.0;
+  const double available = GetAvailableDeviceBytes(this->Engine->GetWindow());
+  if ((available < 0.0 || bytes <= available) && this->Allocate(resolution, 3))
+  {
+    return Outcome::Done();
+  }
+  this->ClearTexture();
+  return Outcome::Failed(std::string(name) + " is " + std::to_string(resolution) +
+    ": a map of that takes " + TransportMemory::Format(bytes) + ", which " +
+    this->Engine->GetDeviceName() + " does not have" +
+    (available < 0.0 ? "" : " (" + TransportMemory::Format(available) + " are free)") +
+    ". Choose a smaller one.");
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasTexture::Upload(const std::vector<float>& rgba, int resolution, int components)
+{
+  if (Outcome allocated = this->Allocate(resolution, components); !allocated)
+  {
+    return allocated;
+  }
+  this->Engine->UploadTable(this->Atlas, rgba);
+  return this->MakeLevels();
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasTexture::MakeLevels()
+{
+  vtkTextureObject* texture = this->Atlas[0];
   // vtkTextureObject makes levels only together with texels.
   texture->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);

@@ -35,6 +35,14 @@ public:
   /// Makes the texture and its levels of resolution^2 texels (MakeAtlasTexels) that hold values of
   /// so many components.
   Outcome Upload(const std::vector<float>& rgba, int resolution, int components);
+  /// Allocate for three components; a failure tells how many bytes that takes, and how many are
+  /// there. `name` is the property that is the resolution.
+  Outcome AllocateWithinMemory(int resolution, const char* name);
+  ///@{ The same in two steps, for texels that are drawn: into level 0, then the others are made.
+  Outcome Allocate(int resolution, int components);
+  const FloatTextures::Group& GetTexels() const { return this->Atlas; }
+  Outcome MakeLevels();
+  ///@}
   bool IsThere() const { return this->IsOpen() && !this->Atlas.empty(); }
   /// Drops the texture.
   void ClearTexture();

@@ -44,7 +44,8 @@ void MappedArrays::ForgetDeadMappers()
 }
 
 //------------------------------------------------------------------------------
-bool MappedArrays::Map(const vtkRenderState* state, const std::string& arrayName)
+bool MappedArrays::Map(const vtkRenderState* state, const std::string& arrayName,
+  const std::function<bool(vtkActor*)>& skip)
 {
   this->ForgetDeadMappers();
   bool found = false;
@@ -54,7 +55,7 @@ bool MappedArrays::Map(const vtkRenderState* state, const std::string& arrayName
     auto* mapper = actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
     if (mapper)
     {
-      const int components = FindComponents(mapper, arrayName);
+      const int components = skip(actor) ? 0 : FindComponents(mapper, arrayName);
       found = found || components > 0;
       this->Map(mapper, arrayName, components);
     }

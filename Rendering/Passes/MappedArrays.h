@@ -11,9 +11,11 @@
 #include "vtkTimeStamp.h"
 #include "vtkWeakPointer.h"
 
+#include <functional>
 #include <map>
 #include <string>
 
+class vtkActor;
 class vtkPolyDataMapper;
 class vtkRenderState;
 
@@ -27,9 +29,11 @@ public:
   MappedArrays(const MappedArrays&) = delete;
   void operator=(const MappedArrays&) = delete;
 
-  /// Asks the mappers of all props that have this point array with 1, 3 or 4 components, and takes
-  /// back what others were asked for. False where no prop has it.
-  bool Map(const vtkRenderState* state, const std::string& arrayName);
+  /// Asks the mappers of all props that have this point array with 1, 3 or 4 components, but for
+  /// those that `skip`(actor) leaves out, and takes back what others were asked for. False where no
+  /// prop has it.
+  bool Map(const vtkRenderState* state, const std::string& arrayName,
+    const std::function<bool(vtkActor*)>& skip);
 
   /// Takes back what all mappers have been asked for.
   void Unmap();

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Passes/RadianceShader.h"
 
+#include "vtkLightTransportAtlasSampleFS.h"
 #include "vtkLightTransportPassesDecFS.h"
 #include "vtkLightTransportPassesDecGS.h"
 #include "vtkLightTransportPassesDecVS.h"
 #include "vtkLightTransportPassesFacetNormalFS.h"
+#include "vtkLightTransportPassesFresnelFS.h"
 #include "vtkLightTransportPassesImplGS.h"
 #include "vtkLightTransportPassesImplVS.h"
 
@@ -39,9 +41,11 @@ void RadianceShader::MarkPlaces(std::string& vertexShader, std::string& geometry
 
 //------------------------------------------------------------------------------
 void RadianceShader::FillPlaces(std::string& vertexShader, std::string& fragmentShader,
-  const char* lastStep)
+  const char* lastStep, bool isMapped)
 {
-  std::string declarations = vtkLightTransportPassesDecVS;
+  const std::string choice =
+    "#define LIGHT_TRANSPORT_IS_MAPPED " + std::to_string(isMapped ? 1 : 0) + "\n";
+  std::string declarations = choice + vtkLightTransportPassesDecVS;
   if (vertexShader.find("uniform mat4 MCVCMatrix;") == std::string::npos)
   {
     declarations += "uniform mat4 MCVCMatrix;\n";
@@ -53,7 +57,9 @@ void RadianceShader::FillPlaces(std::string& vertexShader, std::string& fragment
   std::string steps = hasNormal ? "  vec3 lightTransportNormal = normalVCVSOutput;\n"
                                 : vtkLightTransportPassesFacetNormalFS;
   steps += lastStep;
-  vtkShaderProgram::Substitute(fragmentShader, Declaration, vtkLightTransportPassesDecFS);
+  vtkShaderProgram::Substitute(fragmentShader, Declaration,
+    choice + vtkLightTransportAtlasSampleFS + vtkLightTransportPassesFresnelFS +
+      vtkLightTransportPassesDecFS);
   vtkShaderProgram::Substitute(fragmentShader, Implementation, steps);
 }
 

@@ -22,8 +22,10 @@ constexpr const char* Attribute = "lightTransportMC";
 void MarkPlaces(std::string& vertexShader, std::string& geometryShader,
   std::string& fragmentShader);
 
-/// `lastStep` writes gl_FragData[0]; see glsl/vtkLightTransportPassesDecFS.glsl.
-void FillPlaces(std::string& vertexShader, std::string& fragmentShader, const char* lastStep);
+/// `lastStep` writes gl_FragData[0]; see glsl/vtkLightTransportPassesDecFS.glsl. Radiance comes
+/// from an array, or from a map of the surface's atlas.
+void FillPlaces(std::string& vertexShader, std::string& fragmentShader, const char* lastStep,
+  bool isMapped);
 
 struct Uniforms
 {

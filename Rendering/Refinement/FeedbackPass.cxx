@@ -137,8 +137,7 @@ void FeedbackPass::SetAttributes(const FeedbackBuffer& source)
       const std::size_t offset = vector * FeedbackBuffer::FloatsPerVector * sizeof(float);
       glEnableVertexAttribArray(static_cast<GLuint>(location));
       glVertexAttribPointer(static_cast<GLuint>(location), FeedbackBuffer::FloatsPerVector,
-        GL_FLOAT, GL_FALSE, static_cast<GLsizei>(source.GetBytesPerRecord()),
-        AsPointer(offset));
+        GL_FLOAT, GL_FALSE, static_cast<GLsizei>(source.GetBytesPerRecord()), AsPointer(offset));
     }
   }
   glBindBuffer(GL_ARRAY_BUFFER, 0);

@@ -16,6 +16,7 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace LightTransport
 {
@@ -273,6 +274,10 @@ void FloatTextures::Bind(const Group& target)
 {
   this->Attach(target);
   this->Framebuffer->ActivateDrawBuffers(static_cast<unsigned int>(target.size()));
+  // VTK takes as many as before for granted where the first is the same.
+  std::vector<unsigned int> buffers(target.size());
+  std::iota(buffers.begin(), buffers.end(), GL_COLOR_ATTACHMENT0);
+  glDrawBuffers(static_cast<int>(buffers.size()), buffers.data());
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 in vec3 lightTransportVSOutput;
+flat in vec3 lightTransportBlockVSOutput;
 in vec3 lightTransportPositionVSOutput;
 uniform int lightTransportComponents;
 uniform int lightTransportParallel;
@@ -10,21 +11,22 @@ uniform float lightTransportExposure;
 uniform float lightTransportRefractiveIndex;
 uniform float lightTransportTransmittance;
 
+#if LIGHT_TRANSPORT_IS_MAPPED
+uniform sampler2D lightTransportMap;
+#endif
+
 // Radiant exitance of this fragment over pi.
 vec3 LightTransportRadiance()
 {
+#if LIGHT_TRANSPORT_IS_MAPPED
+  vec2 place = lightTransportVSOutput.xy;
+  float size = float(textureSize(lightTransportMap, 0).x);
+  float texels = size * max(length(dFdx(place)), length(dFdy(place)));
+  vec3 value = SampleAtlas(lightTransportMap, place, size * lightTransportBlockVSOutput, log2(max(texels, 1.0))).rgb;
+#else
   vec3 value = lightTransportComponents == 1 ? vec3(lightTransportVSOutput.x) : lightTransportVSOutput;
+#endif
   return value / 3.14159265358979;
-}
-
-// Fraction of unpolarised light that a smooth boundary reflects, seen from outside at this cosine.
-float LightTransportFresnel(float cosine)
-{
-  float index = lightTransportRefractiveIndex;
-  float inside = sqrt(max(index * index - 1.0 + cosine * cosine, 0.0));
-  float parallel = (index * index * cosine - inside) / max(index * index * cosine + inside, 1e-9);
-  float perpendicular = (cosine - inside) / max(cosine + inside, 1e-9);
-  return 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
 // Radiance as the picture stores it.

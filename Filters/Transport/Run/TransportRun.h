@@ -34,6 +34,7 @@ struct RunPorts
   vtkDataObject* Output = nullptr;
   vtkTable* Table = nullptr;     ///< of port 1; nullptr where a filter has none
   double ProgressInterval = 0.0; ///< seconds between progress events within a long step
+  bool LinksAlone = false;       ///< the links, and no light that they carry
 };
 
 class TransportRun

@@ -58,14 +58,9 @@ ClusterLight::ClusterLight(const ScatteringClusters& clusters, const std::vector
 }
 
 //------------------------------------------------------------------------------
-void ClusterLight::Add(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
-  double* received) const
+void ClusterLight::Add(int slot, const Bands& value, double* received) const
 {
-  const bool isSmoothPatch = this->Clusters.GetSlots().IsPatch(part.Slot) && !part.IsExact;
-  const Bands value = isSmoothPatch && !part.IsLeftOut
-    ? this->Clusters.GetArea(part.Slot) * this->Clusters.GetValue(receiver.GetPatch(), part.Slot)
-    : part.Value;
-  const double* means = &this->Means[part.Slot * this->Components];
+  const double* means = &this->Means[slot * this->Components];
   for (std::size_t component = 0; component < this->Components; ++component)
   {
     received[component] += value[static_cast<int>(component) % NumberOfBands] * means[component];

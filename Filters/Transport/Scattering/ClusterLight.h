@@ -31,9 +31,8 @@ public:
 
   std::size_t GetNumberOfComponents() const { return this->Components; }
 
-  /// Adds what a part brings to a receiver, each component.
-  void Add(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
-    double* received) const;
+  /// Adds what a link of this value from a slot brings, each component.
+  void Add(int slot, const Bands& value, double* received) const;
 
   /// What errors of each component are relative to; 0 where nothing is wrong with it.
   void SetSizes(const std::vector<double>& sizes);

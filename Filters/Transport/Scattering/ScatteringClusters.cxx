@@ -123,14 +123,6 @@ vtkIdType ScatteringClusters::Pick(int slot, double number) const
 }
 
 //------------------------------------------------------------------------------
-ScatteringClusters::Bands ScatteringClusters::GetValue(vtkIdType receiver, int slot) const
-{
-  return this->Integrals
-    .GetValue((this->GetReceiver(receiver).Center - this->Places[slot].Center).squaredNorm())
-    .max(0.0);
-}
-
-//------------------------------------------------------------------------------
 double ScatteringClusters::GetBound(vtkIdType receiver, int slot) const
 {
   const Place& here = this->GetReceiver(receiver);

@@ -62,10 +62,6 @@ public:
   /// A patch of a slot, by a number from 0 to 1: as likely as its area is large.
   vtkIdType Pick(int slot, double number) const;
 
-  /// The profile between the centres of a patch and a slot, which is what it is over all of a patch
-  /// below a smooth node.
-  Bands GetValue(vtkIdType receiver, int slot) const;
-
   /// An upper bound of the profile between a patch and a slot.
   double GetBound(vtkIdType receiver, int slot) const;
 

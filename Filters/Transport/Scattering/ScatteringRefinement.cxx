@@ -93,19 +93,26 @@ bool ScatteringRefinement::Divides(const ScatteringReceiver& receiver,
 }
 
 //------------------------------------------------------------------------------
-vtkIdType ScatteringRefinement::GetSample(vtkIdType index) const
-{
-  const auto patches = static_cast<vtkIdType>(this->Areas.size());
-  return (2 * index + 1) * patches / (2 * static_cast<vtkIdType>(this->Receivers.size()));
-}
-
-//------------------------------------------------------------------------------
 // Of the profile, times how much more than assumed that of the light is, where it is given.
 Values ScatteringRefinement::GetDeviation(const ScatteringReceiver& receiver,
   const ScatteringReceiver::Part& part) const
 {
   return this->Light.HasSizes() ? this->Light.GetDeviation(receiver, part)
                                 : receiver.GetDeviation(part);
+}
+
+//------------------------------------------------------------------------------
+vtkIdType ScatteringRefinement::GetSampleSize() const
+{
+  const vtkIdType most = this->Light.GetNumberOfComponents() > 0 ? LitSampleSize : SampleSize;
+  return std::min(static_cast<vtkIdType>(this->Areas.size()), most);
+}
+
+//------------------------------------------------------------------------------
+vtkIdType ScatteringRefinement::GetSample(vtkIdType index) const
+{
+  const auto patches = static_cast<vtkIdType>(this->Areas.size());
+  return (2 * index + 1) * patches / (2 * this->GetSampleSize());
 }
 
 //------------------------------------------------------------------------------
@@ -123,9 +130,7 @@ void ScatteringRefinement::Begin(double tolerance)
 // Of what is shared with other ranks each looks from its own receivers.
 void ScatteringRefinement::LookAround()
 {
-  const auto patches = static_cast<vtkIdType>(this->Areas.size());
-  const bool isLit = this->Light.GetNumberOfComponents() > 0;
-  const vtkIdType count = std::min(patches, isLit ? LitSampleSize : SampleSize);
+  const vtkIdType count = this->GetSampleSize();
   this->Receivers.assign(count, ScatteringReceiver(this->Clusters, this->LeaveOut));
   const auto look = [&](vtkIdType begin, vtkIdType end)
   {
@@ -163,6 +168,30 @@ void ScatteringRefinement::LookAtLight(double tolerance)
 }
 
 //------------------------------------------------------------------------------
+// What is wide, and is not divided because its light is even, is the sum of parts that are not: the
+// pieces of a cluster may agree with its centre by chance.
+Values ScatteringRefinement::GetValue(const ScatteringReceiver& receiver,
+  const ScatteringReceiver::Part& part) const
+{
+  Values value = Values::Zero();
+  receiver.VisitPart(
+    part,
+    [&](const ScatteringReceiver::Part& below)
+    {
+      return !below.IsExact &&
+        (receiver.GetDeviation(below).square() > this->WidestDeviation2 * below.Value.square())
+          .any();
+    },
+    [&](const ScatteringReceiver::Part& below)
+    {
+      value += below.IsExact || below.IsFactor
+        ? below.Value
+        : this->Clusters.Integrate(receiver.GetPatch(), below.Slot);
+    });
+  return value;
+}
+
+//------------------------------------------------------------------------------
 // Receivers x components of the light.
 template <typename Divide>
 std::vector<double> ScatteringRefinement::Receive(const Divide& divide) const
@@ -177,7 +206,12 @@ std::vector<double> ScatteringRefinement::Receive(const Divide& divide) const
       const ScatteringReceiver& receiver = this->Receivers[k];
       receiver.Visit([&](const ScatteringReceiver::Part& part) { return divide(receiver, part); },
         [&](const ScatteringReceiver::Part& part)
-        { this->Light.Add(receiver, part, &received[k * components]); });
+        {
+          if (!part.IsLeftOut)
+          {
+            this->Light.Add(part.Slot, this->GetValue(receiver, part), &received[k * components]);
+          }
+        });
     }
   };
   Threads::For(0, static_cast<vtkIdType>(this->Receivers.size()), 1, receive);
@@ -488,28 +522,6 @@ struct ScatteringRefinement::Filler
     }
   }
 
-  // What is wide, and is not divided because its light is even, is summed up from parts that are
-  // not: the pieces of a cluster may agree with its centre by chance.
-  Values GetValue(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part) const
-  {
-    const double widest2 = this->Outer.WidestDeviation2;
-    Values value = Values::Zero();
-    receiver.VisitPart(
-      part,
-      [&](const ScatteringReceiver::Part& below)
-      {
-        return !below.IsExact &&
-          (receiver.GetDeviation(below).square() > widest2 * below.Value.square()).any();
-      },
-      [&](const ScatteringReceiver::Part& below)
-      {
-        value += below.IsExact || below.IsFactor
-          ? below.Value
-          : this->Outer.Clusters.Integrate(receiver.GetPatch(), below.Slot);
-      });
-    return value;
-  }
-
   void AddRow(const ScatteringReceiver& receiver, Block& block) const
   {
     const std::size_t before = block.Columns.size();
@@ -523,7 +535,7 @@ struct ScatteringRefinement::Filler
           return;
         }
         const ScatteringClusters& clusters = this->Outer.Clusters;
-        const Values value = this->GetValue(receiver, part);
+        const Values value = this->Outer.GetValue(receiver, part);
         this->LookForAir(receiver.GetPatch(), part.Slot, value, block);
         block.Reused += part.IsKept ? 1.0 : 0.0;
         block.Columns.push_back(part.Slot);

@@ -67,7 +67,8 @@ public:
   ///@}
 
   ///@{ Or keep a choice, which must outlive this. False where it does not do any more, see
-  /// ReuseLinks of vtkSubsurfaceScattering. Not for links by light. Collective.
+  /// ReuseLinks
+  /// of vtkSubsurfaceScattering. Collective.
   bool KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks);
   bool KeepAdaptive(double mostLinks, const LinkChoice& kept, const Ranks& ranks);
   ///@}
@@ -130,12 +131,15 @@ private:
 
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
+  vtkIdType GetSampleSize() const;
   vtkIdType GetSample(vtkIdType index) const;
-  void LookAround();
   ScatteringIntegrals::Bands GetDeviation(const ScatteringReceiver& receiver,
     const ScatteringReceiver::Part& part) const;
   void Begin(double tolerance);
+  void LookAround();
   void LookAtLight(double tolerance);
+  ScatteringIntegrals::Bands GetValue(const ScatteringReceiver& receiver,
+    const ScatteringReceiver::Part& part) const;
   template <typename Divide>
   std::vector<double> Receive(const Divide& divide) const;
   std::vector<double> GetSizes(const std::vector<double>& received) const;

@@ -51,6 +51,8 @@ protected:
   /// What looks into the body, which texels do not enclose; nullptr where nothing does.
   virtual const char* FindUseOfBody() const;
   virtual std::unique_ptr<LinkBuilder> MakeBuilder() const = 0;
+  /// A failure where the input is texels, and something looks into the body.
+  Outcome CheckTexels() const;
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
   /// In the order of the scene.
@@ -87,7 +89,6 @@ protected:
   std::string DeviceExplanation;
 
 private:
-  Outcome CheckTexels() const;
   void CompareIndices() const;
   double GetEnteringShare() const;
   void WriteThickness(const SceneOutput& output);

@@ -58,6 +58,8 @@ using Scattering = vtkSubsurfaceScattering;
 /// decision is another one.
 constexpr double MostDifferences = 1e-3;
 constexpr double NextToLimit = 1e-3;
+/// And how many may differ for another reason: a cluster is next to what its pieces stand for.
+constexpr double MostOthers = 1e-5;
 ///@}
 /// Of values of links that both have, and of results: of the largest one.
 constexpr double ValueTolerance = 1e-4;
@@ -300,7 +302,8 @@ void TestLinks(const Case& setting)
             << " tests, values to " << rows.WorstValue << std::endl;
   Check(rows.Links > 0.0 && rows.Differences <= MostDifferences * rows.Links,
     what + ": " + std::to_string(rows.Differences) + " links differ");
-  Check(rows.Others == 0.0, what + ": " + std::to_string(rows.Others) + " of them without need");
+  Check(rows.Others <= MostOthers * rows.Links,
+    what + ": " + std::to_string(rows.Others) + " of them without need");
   Check(std::abs(summaries[1].Links - rows.Links) <= 2.0 * MostDifferences * rows.Links,
     what + ": as many links");
   Check(std::abs(summaries[1].LeftOut - summaries[0].LeftOut) <= MostDifferences * rows.Links,

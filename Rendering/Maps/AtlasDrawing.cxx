@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Maps/AtlasDrawing.h"
+
+#include "Context/OpenGLFunctions.h"
+#include "vtkLightTransportMapsAtlasVS.h"
+#include "vtkLightTransportTexturesCommonFS.h"
+
+#include "vtkActor.h"
+#include "vtkMatrix3x3.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkShaderProgram.h"
+
+namespace LightTransport
+{
+//------------------------------------------------------------------------------
+Outcome AtlasDrawing::FindSurface(vtkActor* actor, vtkPolyData*& surface)
+{
+  auto* mapper = actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
+  if (!mapper || mapper->IsA("vtkCompositePolyDataMapper") ||
+    mapper->IsA("vtkCompositePolyDataMapper2") || mapper->GetNumberOfInputConnections(0) == 0)
+  {
+    return Outcome::Failed(
+      "An actor with a material needs a vtkPolyDataMapper with a surface that "
+      "vtkSurfaceAtlas made; composite data has one atlas for each block: give "
+      "each an actor.");
+  }
+  mapper->Update();
+  surface = mapper->GetInput();
+  return surface ? Outcome::Done()
+                 : Outcome::Failed("The mapper of an actor with a material has no surface: connect "
+                                   "one that vtkSurfaceAtlas made.");
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasDrawing::SetSurface(vtkPolyData* data)
+{
+  Outcome set = this->Surface.Read(data);
+  set = set ? this->Triangles.Upload(this->Surface.Corners, ChartedSurface::FloatsPerCorner) : set;
+  return set ? this->UploadPoints() : set;
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasDrawing::UploadPoints()
+{
+  const int width = 1 << PointWidthBits;
+  const auto texels = static_cast<vtkIdType>(this->Surface.Points.size() / 4);
+  const int height = FloatTextures::DivideUp(texels, width);
+  if (height > this->Engine.GetMaximumTextureSize())
+  {
+    return Outcome::Failed("The surface has too many points for a texture: use fewer.");
+  }
+  std::vector<float> points = this->Surface.Points;
+  points.resize(static_cast<std::size_t>(4) * width * height, 0.0f);
+  Outcome allocated = this->Engine.Allocate(this->Points, 1, width, height);
+  if (allocated)
+  {
+    this->Engine.UploadTable(this->Points, points);
+  }
+  return allocated;
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasDrawing::CheckSize(int size, const char* name) const
+{
+  if ((size & (size - 1)) != 0)
+  {
+    return Outcome::Failed(std::string(name) + " is " + std::to_string(size) +
+      ", which is no power of two: choose one.");
+  }
+  return size >= this->Surface.SmallestMap
+    ? Outcome::Done()
+    : Outcome::Failed(std::string(name) + " is " + std::to_string(size) +
+        ", and the smallest chart has a texel of its own from " +
+        std::to_string(this->Surface.SmallestMap) + " on: choose at least that.");
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasDrawing::Use(vtkShaderProgram*& program, const char* body, int outputs)
+{
+  std::string source = vtkLightTransportTexturesCommonFS;
+  vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Define",
+    "#define GROUPS 1\n#define WIDTH_BITS 1\n#define OUTPUTS " + std::to_string(outputs) + "\n");
+  source += body;
+  program = this->Engine.GetWindow()->GetShaderCache()->ReadyShaderProgram(
+    vtkLightTransportMapsAtlasVS, source.c_str(), "");
+  const Outcome compiled = FloatTextures::CheckProgram(program);
+  if (compiled)
+  {
+    SetMove(program, { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 });
+  }
+  return compiled;
+}
+
+//------------------------------------------------------------------------------
+// Normals turn with the inverse transpose.
+void AtlasDrawing::SetMove(vtkShaderProgram* program, std::array<float, 16> move)
+{
+  program->SetUniformMatrix4x4("toScene", move.data());
+  double turn[9];
+  for (int k = 0; k < 9; ++k)
+  {
+    turn[k] = move[4 * (k / 3) + k % 3];
+  }
+  const double sense = vtkMatrix3x3::Determinant(turn) < 0.0 ? -1.0 : 1.0;
+  vtkMatrix3x3::Invert(turn, turn);
+  vtkMatrix3x3::Transpose(turn, turn);
+  float values[9];
+  for (int k = 0; k < 9; ++k)
+  {
+    values[k] = static_cast<float>(sense * turn[k]);
+  }
+  program->SetUniformMatrix3x3("turn", values);
+}
+
+//------------------------------------------------------------------------------
+Outcome AtlasDrawing::AddSamples(vtkShaderProgram* program, const FloatTextures::Group& target,
+  int samples)
+{
+  vtkOpenGLState* state = this->Engine.GetWindow()->GetState();
+  const vtkOpenGLState::ScopedglBlendFuncSeparate blending(state);
+  const vtkOpenGLState::ScopedglEnableDisable enabled(state, GL_BLEND);
+  const int size = static_cast<int>(target[0]->GetWidth());
+  this->Engine.Bind(target);
+  state->vtkglViewport(0, 0, size, size);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendEquation(GL_FUNC_ADD);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE);
+  program->SetUniformf("weight", 1.0f / static_cast<float>(samples * samples));
+  Outcome drawn = Outcome::Done();
+  for (int sample = 0; drawn && sample < samples * samples; ++sample)
+  {
+    const auto place = [&](int step)
+    { return static_cast<float>(((step + 0.5) / samples - 0.5) / size); };
+    const float shift[2] = { place(sample % samples), place(sample / samples) };
+    program->SetUniform2f("shift", shift);
+    drawn = this->Triangles.Draw(program,
+      { { "position", 0, 3 }, { "normal", 3, 3 }, { "place", 6, 2 }, { "share", 8, 2 } });
+  }
+  return drawn;
+}
+} // namespace LightTransport

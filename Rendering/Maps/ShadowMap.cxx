@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Maps/ShadowMap.h"
+
+#include "Context/OpenGLContextGuard.h"
+#include "Context/OpenGLFunctions.h"
+#include "Device/DeviceErrors.h"
+#include "Maps/SceneUniforms.h"
+#include "vtkLightTransportMapsShadowFS.h"
+#include "vtkLightTransportMapsShadowVS.h"
+
+#include "vtkActor.h"
+#include "vtkActorCollection.h"
+#include "vtkCellArray.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkMapper.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+#include "vtkTriangleFilter.h"
+
+#include <algorithm>
+
+namespace LightTransport
+{
+namespace
+{
+//------------------------------------------------------------------------------
+bool CastsShadows(vtkActor* actor)
+{
+  return actor->GetVisibility() && actor->GetMapper() &&
+    actor->GetMapper()->GetNumberOfInputConnections(0) > 0 &&
+    actor->GetProperty()->GetRepresentation() == VTK_SURFACE &&
+    actor->GetProperty()->GetOpacity() > 0.0;
+}
+
+//------------------------------------------------------------------------------
+template <typename Visit>
+void VisitSurfaces(vtkDataObject* data, const Visit& visit)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (!composite)
+  {
+    if (auto* surface = vtkPolyData::SafeDownCast(data))
+    {
+      visit(surface);
+    }
+    return;
+  }
+  vtkSmartPointer<vtkCompositeDataIterator> blocks;
+  blocks.TakeReference(composite->NewIterator());
+  for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
+  {
+    if (auto* surface = vtkPolyData::SafeDownCast(blocks->GetCurrentDataObject()))
+    {
+      visit(surface);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Of the shape alone: arrays come and go. Composite data know nothing of what changes in their
+// blocks.
+vtkMTimeType GetTime(vtkDataObject* data)
+{
+  vtkMTimeType time = vtkCompositeDataSet::SafeDownCast(data) ? data->GetMTime() : 0;
+  VisitSurfaces(data,
+    [&](vtkPolyData* surface)
+    {
+      time = std::max(time, surface->GetPoints() ? surface->GetPoints()->GetMTime() : 0);
+      time = std::max({ time, surface->GetPolys()->GetMTime(), surface->GetStrips()->GetMTime() });
+    });
+  return time;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+ShadowMap::ShadowMap(FloatTextures& engine)
+  : Engine(engine), Framebuffer(vtkSmartPointer<vtkOpenGLFramebufferObject>::New())
+{
+}
+
+//------------------------------------------------------------------------------
+ShadowMap::~ShadowMap()
+{
+  if (this->Engine.IsAlive())
+  {
+    const OpenGLContextGuard guard(this->Engine.GetWindow());
+    this->Framebuffer->ReleaseGraphicsResources(this->Engine.GetWindow());
+    this->Depth = nullptr;
+  }
+}
+
+//------------------------------------------------------------------------------
+Outcome ShadowMap::SetSize(int size)
+{
+  if (this->Depth && this->Size == size)
+  {
+    return Outcome::Done();
+  }
+  if (size > this->Engine.GetMaximumTextureSize())
+  {
+    return Outcome::Failed("too many texels a side");
+  }
+  this->Size = size;
+  this->Depth = vtkSmartPointer<vtkTextureObject>::New();
+  this->Depth->SetContext(this->Engine.GetWindow());
+  const auto side = static_cast<unsigned int>(size);
+  this->Depth->AllocateDepth(side, side, vtkTextureObject::Float32);
+  if (Outcome allocated = DeviceErrors::Check(); !allocated)
+  {
+    this->Depth = nullptr;
+    return allocated;
+  }
+  this->Framebuffer->SetContext(this->Engine.GetWindow());
+  this->Framebuffer->Bind();
+  this->Framebuffer->AddDepthAttachment(this->Depth);
+  this->Framebuffer->DeactivateDrawBuffers();
+  return DeviceErrors::Check();
+}
+
+//------------------------------------------------------------------------------
+// True where they are those that are known, where they were.
+bool ShadowMap::Find(vtkRenderer* renderer, std::vector<Caster>& found)
+{
+  vtkActorCollection* actors = renderer->GetActors();
+  vtkCollectionSimpleIterator place;
+  actors->InitTraversal(place);
+  std::size_t known = 0;
+  while (vtkActor* actor = actors->GetNextActor(place))
+  {
+    if (!CastsShadows(actor))
+    {
+      continue;
+    }
+    actor->GetMapper()->Update();
+    vtkDataObject* data = actor->GetMapper()->GetInputDataObject(0, 0);
+    if (!data)
+    {
+      continue;
+    }
+    Caster caster;
+    caster.Data = data;
+    caster.Time = GetTime(data);
+    actor->ComputeMatrix();
+    std::copy_n(actor->GetMatrix()->GetData(), 16, caster.Matrix.begin());
+    actor->GetBounds(caster.Bounds.data());
+    const std::size_t index = found.size();
+    known += index < this->Casters.size() && this->Casters[index].Data == caster.Data &&
+        this->Casters[index].Time == caster.Time && this->Casters[index].Matrix == caster.Matrix
+      ? 1
+      : 0;
+    found.push_back(std::move(caster));
+  }
+  return known == this->Casters.size() && known == found.size();
+}
+
+//------------------------------------------------------------------------------
+Outcome ShadowMap::Update(vtkRenderer* renderer, bool& areOthers)
+{
+  std::vector<Caster> found;
+  areOthers = !this->Find(renderer, found);
+  if (!areOthers)
+  {
+    return Outcome::Done();
+  }
+  Outcome uploaded = Outcome::Done();
+  for (Caster& caster : found)
+  {
+    const auto known = std::find_if(this->Casters.begin(), this->Casters.end(),
+      [&caster](const Caster& other) {
+        return other.Data == caster.Data && other.Time == caster.Time && !other.Triangles.empty();
+      });
+    if (known != this->Casters.end())
+    {
+      caster.Center = known->Center;
+      caster.Triangles = std::move(known->Triangles);
+      known->Triangles.clear();
+    }
+    else if (uploaded)
+    {
+      uploaded = this->Upload(caster);
+    }
+  }
+  this->Casters = std::move(found);
+  this->AddBounds();
+  if (!uploaded)
+  {
+    this->Casters.clear();
+  }
+  return uploaded;
+}
+
+//------------------------------------------------------------------------------
+void ShadowMap::AddBounds()
+{
+  vtkMath::UninitializeBounds(this->Bounds.data());
+  for (const Caster& caster : this->Casters)
+  {
+    for (int axis = 0; axis < 3 && vtkMath::AreBoundsInitialized(caster.Bounds.data()); ++axis)
+    {
+      const bool isFirst = this->Bounds[2 * axis] > this->Bounds[2 * axis + 1];
+      double& low = this->Bounds[2 * axis];
+      double& high = this->Bounds[2 * axis + 1];
+      low = isFirst ? caster.Bounds[2 * axis] : std::min(low, caster.Bounds[2 * axis]);
+      high = isFirst ? caster.Bounds[2 * axis + 1] : std::max(high, caster.Bounds[2 * axis + 1]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+Outcome ShadowMap::Upload(Caster& caster)
+{
+  bool isFirst = true;
+  Outcome uploaded = Outcome::Done();
+  VisitSurfaces(caster.Data,
+    [&](vtkPolyData* surface)
+    {
+      if (isFirst && surface->GetNumberOfPoints() > 0)
+      {
+        surface->GetPoint(0, caster.Center.data());
+        isFirst = false;
+      }
+      uploaded = uploaded ? this->Upload(caster, surface) : uploaded;
+    });
+  return uploaded;
+}
+
+//------------------------------------------------------------------------------
+Outcome ShadowMap::Upload(Caster& caster, vtkPolyData* data)
+{
+  vtkNew<vtkTriangleFilter> divider;
+  divider->PassVertsOff();
+  divider->PassLinesOff();
+  divider->SetInputData(data);
+  divider->Update();
+  vtkPolyData* triangles = divider->GetOutput();
+  std::vector<float> corners;
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  for (vtkIdType cell = 0; cell < triangles->GetNumberOfPolys(); ++cell)
+  {
+    triangles->GetPolys()->GetCellAtId(cell, count, ids);
+    for (vtkIdType corner = 0; corner < count; ++corner)
+    {
+      double point[3];
+      triangles->GetPoint(ids[corner], point);
+      for (int k = 0; k < 3; ++k)
+      {
+        corners.push_back(static_cast<float>(point[k] - caster.Center[k]));
+      }
+    }
+  }
+  if (corners.empty())
+  {
+    return Outcome::Done();
+  }
+  caster.Triangles.push_back(std::make_unique<TriangleBuffer>(this->Engine));
+  return caster.Triangles.back()->Upload(corners, 3);
+}
+
+//------------------------------------------------------------------------------
+Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
+{
+  vtkOpenGLState* state = this->Engine.GetWindow()->GetState();
+  const vtkOpenGLState::ScopedglDepthFunc function(state);
+  const vtkOpenGLState::ScopedglDepthMask mask(state);
+  const vtkOpenGLState::ScopedglEnableDisable test(state, GL_DEPTH_TEST);
+  vtkShaderProgram* program = this->Engine.GetWindow()->GetShaderCache()->ReadyShaderProgram(
+    vtkLightTransportMapsShadowVS, vtkLightTransportMapsShadowFS, "");
+  if (Outcome compiled = FloatTextures::CheckProgram(program); !compiled)
+  {
+    return compiled;
+  }
+  this->Framebuffer->Bind();
+  this->Framebuffer->DeactivateDrawBuffers();
+  state->vtkglViewport(0, 0, this->Size, this->Size);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(GL_LESS);
+  const float farthest = 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  SceneUniforms::SetView(program, view, origin);
+  Outcome drawn = Outcome::Done();
+  for (Caster& caster : this->Casters)
+  {
+    auto move = SceneUniforms::MakeMove(caster.Matrix.data(), caster.Center, origin);
+    program->SetUniformMatrix4x4("toScene", move.data());
+    for (const auto& triangles : caster.Triangles)
+    {
+      drawn = drawn ? triangles->Draw(program, { { "position", 0, 3 } }) : drawn;
+    }
+  }
+  return drawn;
+}
+} // namespace LightTransport
