@@ -316,8 +316,8 @@ public:
    * since: a body that comes back there has its links back. Rigid movements keep all links. Field
    * data "LinksReused" is the share of links that were kept. Links are chosen afresh as well after
    * any property of links has been changed. Switched off, each result is that of a new filter, to
-   * the bit. Links between all pairs have nothing to be kept: all of them are evaluated anew.
-   * Default on.
+   * the bit. Links between all pairs have nothing to be kept: all of them are evaluated anew. Those
+   * of RefineByIrradiance, which are for one light, are chosen anew, too. Default on.
    */
   vtkSetMacro(ReuseLinks, bool);
   vtkGetMacro(ReuseLinks, bool);
