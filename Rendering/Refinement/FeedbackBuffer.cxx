@@ -31,7 +31,7 @@ void FeedbackBuffer::Swap(FeedbackBuffer& other)
 //------------------------------------------------------------------------------
 vtkIdType FeedbackBuffer::GetBytesPerRecord() const
 {
-  return static_cast<vtkIdType>(this->Vectors * FloatsPerVector * sizeof(float));
+  return static_cast<vtkIdType>(sizeof(float)) * FloatsPerVector * this->Vectors;
 }
 
 //------------------------------------------------------------------------------
