@@ -92,9 +92,9 @@ class ScatteringLinks(Subject):
             "of the model. L2 is the root mean square over area and bands, relative to that of "
             "the reference; the largest error is relative to the largest scattered irradiance. "
             "\"Stated\" is what the filter says itself: of all pairs a bound, of links from "
-            "clusters what is expected of light that differs within them, of those for the light that "
-            "is there (RefineByIrradiance) what a sample of patches misses of it. \"Coded\" is what "
-            "a code book of 256 entries adds to the links.")
+            "clusters what is expected of light that differs within them, of those for the "
+            "light that is there (RefineByIrradiance) what a sample of patches misses of it. "
+            "\"Coded\" is what a code book of 256 entries adds to the links.")
         page.add_paragraph(
             "Tolerances are LinkTolerance; of uniform links they are NumberOfLinks, the clusters "
             "that all patches share. \"A patch\" is the number of links of each on average.")
