@@ -56,7 +56,7 @@ protected:
   /// From irradiance to exitance; by the links, unless a model does without.
   virtual Outcome Scatter();
   /// In the order of the scene.
-  Outcome ReadIrradiance();
+  virtual Outcome ReadIrradiance();
   /// Adds what leaves to LeavingFlux.
   virtual void SumLeaving();
   /// Exitance, and what is to be told of how it came about.

@@ -17,6 +17,7 @@ public:
 protected:
   Outcome Check() override;
   Outcome Read() override { return this->CheckTexels(); }
+  Outcome ReadIrradiance() override { return Outcome::Done(); }
   Outcome Compute() override { return Outcome::Done(); }
   void Write() override;
 };

@@ -347,6 +347,9 @@ void TestErrors()
   scene.Material->SetModelToMonteCarlo();
   expect("Model is MonteCarlo");
   scene.Material->SetModelToPhotonBeamDiffusion();
+  scene.Material->RefineByIrradianceOn();
+  expect("RefineByIrradiance is on");
+  scene.Material->RefineByIrradianceOff();
   scene.Light->SetIntensity(-1.0);
   expect("A light has");
   scene.Light->SetIntensity(1.0);

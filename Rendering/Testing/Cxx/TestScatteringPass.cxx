@@ -193,8 +193,8 @@ void TestOpaqueActor()
 void TestEnergy()
 {
   Drawing scene(16);
-  constexpr int Directions = 24;
-  constexpr int Pixels = 128;
+  constexpr int Directions = 16;
+  constexpr int Pixels = 96;
   scene.Window->SetSize(Pixels, Pixels);
   scene.Actor->GetProperty()->SetSpecular(0.0);
   vtkCamera* camera = scene.Renderer->GetActiveCamera();
@@ -254,6 +254,7 @@ void TestSeams()
   scene.Actor->GetProperty()->SetSpecular(0.0);
   scene.Material->SetMillimetersPerUnit(100.0);
   scene.Material->SetLinkMethodToDense();
+  scene.Pass->SetScatteredMapSize(16);
   scene.Light->PositionalOn();
   scene.Light->SetConeAngle(20.0);
   scene.Light->SetPosition(0.0, 0.0, 6.0);
