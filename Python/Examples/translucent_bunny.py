@@ -103,8 +103,8 @@ class TranslucentBunny:
 
     def put_light(self, angle):
         """0: behind the bunny, above."""
-        self.light.SetPosition(
-            MIDDLE[0] - 20.0 * math.sin(angle), MIDDLE[1] + 14.0, MIDDLE[2] - 20.0 * math.cos(angle))
+        self.light.SetPosition(MIDDLE[0] - 20.0 * math.sin(angle), MIDDLE[1] + 14.0,
+                               MIDDLE[2] - 20.0 * math.cos(angle))
 
     def read_map(self, atlas_map, name):
         """One of the maps, brought to the surface (one read-back)."""
