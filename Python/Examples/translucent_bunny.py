@@ -103,8 +103,9 @@ class TranslucentBunny:
 
     def put_light(self, angle):
         """0: behind the bunny, above."""
-        self.light.SetPosition(
-            MIDDLE[0] - 20.0 * math.sin(angle), MIDDLE[1] + 14.0, MIDDLE[2] - 20.0 * math.cos(angle))
+        x = MIDDLE[0] - 20.0 * math.sin(angle)
+        z = MIDDLE[2] - 20.0 * math.cos(angle)
+        self.light.SetPosition(x, MIDDLE[1] + 14.0, z)
 
     def read_map(self, atlas_map, name):
         """One of the maps, brought to the surface (one read-back)."""
