@@ -67,7 +67,8 @@ def make_material():
     material.SetMaterialToMarble()
     material.SetMillimetersPerUnit(3.0)
     material.SetLinkMethodToAdaptive()
-    material.SetNumberOfLinks(64)
+    material.SetLinkTolerance(3e-3)
+    material.SetNumberOfLinks(256)
     return material
 
 
