@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,7 @@ constexpr double ShadowBias = 1e-5;
 struct vtkOpenGLTransmittedMap::State
 {
   vtkPolyData* Surface = nullptr;
-  vtkMTimeType SurfaceTime = 0;
+  std::uint64_t SurfaceStamp = 0;
   vtkMTimeType OwnTime = 0;
   std::array<double, 16> Matrix = {};
   std::array<double, 6> Bounds = {};
@@ -62,7 +63,7 @@ struct vtkOpenGLTransmittedMap::State
   }
   bool HasSurfaceOf(const State& other) const
   {
-    return this->Surface == other.Surface && this->SurfaceTime == other.SurfaceTime;
+    return this->Surface == other.Surface && this->SurfaceStamp == other.SurfaceStamp;
   }
   bool operator==(const State& other) const
   {
@@ -189,7 +190,7 @@ Outcome vtkOpenGLTransmittedMap::Refresh(vtkActor* actor, vtkRenderer* renderer)
   Outcome found = AtlasDrawing::FindSurface(actor, state.Surface);
   if (found)
   {
-    state.SurfaceTime = ChartedSurface::GetTime(state.Surface);
+    state.SurfaceStamp = ChartedSurface::GetStamp(state.Surface);
     state.OwnTime = this->GetMTime();
     actor->ComputeMatrix();
     std::copy_n(actor->GetMatrix()->GetData(), 16, state.Matrix.begin());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Maps/ChartedSurface.h"
 
+#include "Maps/ShapeStamp.h"
 #include "Shared/ArrayNames.h"
 
 #include "vtkCellArray.h"
@@ -96,17 +97,13 @@ bool ChartedSurface::Chart::Round()
 }
 
 //------------------------------------------------------------------------------
-vtkMTimeType ChartedSurface::GetTime(vtkPolyData* surface)
+std::uint64_t ChartedSurface::GetStamp(vtkPolyData* surface)
 {
-  vtkMTimeType time = 0;
-  const std::array<vtkObject*, 4> parts = { surface->GetPoints(), surface->GetPolys(),
+  ShapeStamp stamp;
+  stamp.Add({ surface->GetPoints(), surface->GetPolys(),
     surface->GetPointData()->GetArray(ArrayNames::AtlasCoordinates),
-    surface->GetCellData()->GetArray(ArrayNames::ChartId) };
-  for (vtkObject* part : parts)
-  {
-    time = std::max(time, part ? part->GetMTime() : 0);
-  }
-  return time;
+    surface->GetCellData()->GetArray(ArrayNames::ChartId) });
+  return stamp.Get();
 }
 
 //------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include "vtkType.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 class vtkPolyData;
@@ -23,8 +24,8 @@ struct ChartedSurface
   /// Fails, with the remedy, for what is no surface with an atlas.
   Outcome Read(vtkPolyData* surface);
 
-  /// When what Read looks at was last changed.
-  static vtkMTimeType GetTime(vtkPolyData* surface);
+  /// ShapeStamp of what Read looks at.
+  static std::uint64_t GetStamp(vtkPolyData* surface);
 
   std::vector<float> Corners; ///< of triangles, one after another
   /// Two RGBA texels of each point: its place in the atlas; lower left corner and size of the block

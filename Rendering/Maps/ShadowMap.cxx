@@ -7,6 +7,7 @@
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceMemory.h"
 #include "Maps/SceneUniforms.h"
+#include "Maps/ShapeStamp.h"
 #include "vtkLightTransportMapsShadowFS.h"
 #include "vtkLightTransportMapsShadowVS.h"
 
@@ -68,18 +69,15 @@ void VisitSurfaces(vtkDataObject* data, const Visit& visit)
 }
 
 //------------------------------------------------------------------------------
-// Of the shape alone: arrays come and go. Composite data know nothing of what changes in their
-// blocks.
-vtkMTimeType GetTime(vtkDataObject* data)
+// Of the shape alone: arrays come and go.
+std::uint64_t GetStamp(vtkDataObject* data)
 {
-  vtkMTimeType time = vtkCompositeDataSet::SafeDownCast(data) ? data->GetMTime() : 0;
+  ShapeStamp stamp;
   VisitSurfaces(data,
-    [&](vtkPolyData* surface)
-    {
-      time = std::max(time, surface->GetPoints() ? surface->GetPoints()->GetMTime() : 0);
-      time = std::max({ time, surface->GetPolys()->GetMTime(), surface->GetStrips()->GetMTime() });
+    [&](vtkPolyData* surface) {
+      stamp.Add({ surface->GetPoints(), surface->GetPolys(), surface->GetStrips() });
     });
-  return time;
+  return stamp.Get();
 }
 
 } // namespace
@@ -157,13 +155,13 @@ bool ShadowMap::Find(vtkRenderer* renderer, std::vector<Caster>& found)
     }
     Caster caster;
     caster.Data = data;
-    caster.Time = GetTime(data);
+    caster.Stamp = GetStamp(data);
     actor->ComputeMatrix();
     std::copy_n(actor->GetMatrix()->GetData(), 16, caster.Matrix.begin());
     actor->GetBounds(caster.Bounds.data());
     const std::size_t index = found.size();
     known += index < this->Casters.size() && this->Casters[index].Data == caster.Data &&
-        this->Casters[index].Time == caster.Time && this->Casters[index].Matrix == caster.Matrix
+        this->Casters[index].Stamp == caster.Stamp && this->Casters[index].Matrix == caster.Matrix
       ? 1
       : 0;
     found.push_back(std::move(caster));
@@ -185,7 +183,7 @@ Outcome ShadowMap::Update(vtkRenderer* renderer, bool& areOthers)
   {
     const auto known = std::find_if(this->Casters.begin(), this->Casters.end(),
       [&caster](const Caster& other) {
-        return other.Data == caster.Data && other.Time == caster.Time && !other.Triangles.empty();
+        return other.Data == caster.Data && other.Stamp == caster.Stamp && !other.Triangles.empty();
       });
     if (known != this->Casters.end())
     {

@@ -11,6 +11,7 @@
 #include "vtkWeakPointer.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -51,7 +52,7 @@ private:
   struct Caster
   {
     vtkWeakPointer<vtkDataObject> Data;
-    vtkMTimeType Time = 0;
+    std::uint64_t Stamp = 0; ///< of its shape
     std::array<double, 16> Matrix = {};
     Vector3 Center = {};
     std::array<double, 6> Bounds = {};

@@ -89,6 +89,8 @@ double GetDifference(const std::vector<float>& a, const std::vector<float>& b)
 void TestRuns()
 {
   Drawing scene;
+  vtkNew<vtkPoints> older;
+  older->DeepCopy(scene.Ball->GetPoints());
   std::array<vtkIdType, 3> expected = { 0, 0, 0 };
   const auto check = [&](std::array<vtkIdType, 3> more, const std::string& what)
   {
@@ -127,9 +129,11 @@ void TestRuns()
   points->Modified();
   scene.Ball->Modified();
   check({ 1, 1, 1 }, "points move");
+  scene.Ball->SetPoints(older);
+  check({ 1, 1, 1 }, "points of an earlier time");
   vtkNew<vtkDoubleArray> array;
   array->SetName("Temperature");
-  array->SetNumberOfTuples(points->GetNumberOfPoints());
+  array->SetNumberOfTuples(scene.Ball->GetNumberOfPoints());
   scene.Ball->GetPointData()->AddArray(array);
   scene.Ball->Modified();
   check({ 0, 0, 0 }, "another array");
