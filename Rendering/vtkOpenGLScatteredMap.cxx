@@ -77,7 +77,8 @@ struct vtkOpenGLScatteredMap::Parts
   FloatTextures::Group Rows;   ///< by rows of the links: which texel
   FloatTextures::Group Owners; ///< by texels: which row
   bool IsUploaded = false;
-  vtkMTimeType AppliedTime = 0; ///< of what enters
+  vtkMTimeType AppliedTime = 0; ///< of what enters; links were applied to it, or failed
+  bool HasApplied = false;
 };
 
 //------------------------------------------------------------------------------
@@ -148,6 +149,8 @@ void vtkOpenGLScatteredMap::ReleaseGraphicsResources()
   this->Device->Owners.clear();
   this->Device->Links->Release();
   this->Device->IsUploaded = false;
+  // What did not fit may fit now.
+  this->Device->HasFailed = this->Device->HasFailed && !this->Device->Exchange;
   this->Texture->ReleaseGraphicsResources();
 }
 
@@ -179,28 +182,30 @@ Outcome vtkOpenGLScatteredMap::Refresh(vtkOpenGLTransmittedMap* entering)
     return Outcome::FailedAsReported();
   }
   Outcome done = this->Open(entering);
+  // Failed until it is done: memory may end it by an exception.
   if (done && !areLinked)
   {
+    parts.HasFailed = true;
     done = this->MakeLinks(entering);
     parts.HasFailed = !done;
   }
-  if (!done)
+  if (done && !parts.IsUploaded)
   {
-    return done;
-  }
-  if (!parts.IsUploaded)
-  {
+    parts.HasFailed = true;
+    parts.AppliedTime = 0;
     done = this->Upload();
     parts.IsUploaded = static_cast<bool>(done);
     parts.HasFailed = !done;
-    parts.AppliedTime = 0;
   }
-  if (done && parts.AppliedTime != entering->GetRunTime())
+  if (!done || parts.AppliedTime == entering->GetRunTime())
   {
-    done = this->Apply(entering);
-    parts.AppliedTime = entering->GetRunTime();
-    ++this->NumberOfScatteringRuns;
+    return done && !parts.HasApplied ? Outcome::FailedAsReported() : done;
   }
+  parts.AppliedTime = entering->GetRunTime();
+  parts.HasApplied = false;
+  done = this->Apply(entering);
+  parts.HasApplied = static_cast<bool>(done);
+  this->NumberOfScatteringRuns += parts.HasApplied ? 1 : 0;
   return done;
 }
 

@@ -51,8 +51,9 @@ public:
 
   ///@{
   /**
-   * The material and its links. Nothing need be connected to the filter; its Incidence and Device
-   * do not matter. Models that are profiles only. Default nullptr, which is an error in Update.
+   * The material and its links. Nothing need be connected to the filter; its Incidence does
+   * not matter, and Device says only where links are chosen. Models that are profiles only. Default
+   * nullptr, which is an error in Update.
    */
   void SetMaterial(vtkSubsurfaceScattering* material);
   vtkSubsurfaceScattering* GetMaterial();
@@ -92,7 +93,6 @@ private:
   vtkOpenGLScatteredMap(const vtkOpenGLScatteredMap&) = delete;
   void operator=(const vtkOpenGLScatteredMap&) = delete;
 
-  friend class vtkSubsurfaceScatteringPass;
   struct Parts;
 
   LightTransport::Outcome Refresh(vtkOpenGLTransmittedMap* entering);

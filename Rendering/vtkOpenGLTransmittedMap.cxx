@@ -18,6 +18,8 @@
 #include "vtkOpenGLAtlasTexture.h"
 
 #include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -278,13 +280,13 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state)
     lights.emplace_back();
     lights.back().Axis[2] = 1.0;
   }
-  const double* scene = this->GetSceneBounds(state);
+  const Box scene = this->GetSceneBounds(state);
   bool isFirst = true;
   Outcome drawn = Outcome::Done();
   for (const SceneLight& light : lights)
   {
     for (const LightView& view :
-      SceneLights::MakeViews(light, state.Bounds.data(), scene, this->ShadowMapSize))
+      SceneLights::MakeViews(light, state.Bounds.data(), scene.data(), this->ShadowMapSize))
     {
       drawn = drawn ? this->AddView(state, light, view, isFirst) : drawn;
       isFirst = false;
@@ -294,9 +296,17 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state)
 }
 
 //------------------------------------------------------------------------------
-const double* vtkOpenGLTransmittedMap::GetSceneBounds(const State& state) const
+// What is lit casts no shadows itself where it is drawn as lines.
+vtkOpenGLTransmittedMap::Box vtkOpenGLTransmittedMap::GetSceneBounds(const State& state) const
 {
-  return this->Shadows ? this->Device->Shadow->GetBounds() : state.Bounds.data();
+  vtkBoundingBox scene(state.Bounds.data());
+  if (this->Shadows && vtkMath::AreBoundsInitialized(this->Device->Shadow->GetBounds()))
+  {
+    scene.AddBounds(this->Device->Shadow->GetBounds());
+  }
+  Box bounds;
+  scene.GetBounds(bounds.data());
+  return bounds;
 }
 
 //------------------------------------------------------------------------------
@@ -314,7 +324,7 @@ Outcome vtkOpenGLTransmittedMap::AddView(const State& state, const SceneLight& l
   {
     return drawn;
   }
-  const double* scene = this->GetSceneBounds(state);
+  const Box scene = this->GetSceneBounds(state);
   const double size = std::max({ scene[1] - scene[0], scene[3] - scene[2], scene[5] - scene[4] });
   AtlasDrawing::SetMove(program,
     SceneUniforms::MakeMove(state.Matrix.data(), parts.Drawing->GetSurface().Center, origin));

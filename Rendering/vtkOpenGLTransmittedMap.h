@@ -36,6 +36,7 @@
 #include "vtkNew.h"                           // for members
 #include "vtkObject.h"
 
+#include <array>  // for std::array
 #include <memory> // for std::unique_ptr
 
 class vtkActor;
@@ -135,7 +136,9 @@ private:
   LightTransport::Outcome AddLights(const State& state);
   LightTransport::Outcome AddView(const State& state, const LightTransport::SceneLight& light,
     const LightTransport::LightView& view, bool countsArea);
-  const double* GetSceneBounds(const State& state) const;
+  /// xmin, xmax, ... of what is lit and of what casts shadows.
+  using Box = std::array<double, 6>;
+  Box GetSceneBounds(const State& state) const;
 
   vtkNew<vtkOpenGLAtlasTexture> Texture;
   const std::unique_ptr<Parts> Device;

@@ -188,8 +188,13 @@ bool vtkExchangeHierarchy::SetCodedRows(CodedRows rows)
     rows.Book.size() == static_cast<std::size_t>(CodedRows::BookSize) * this->NumberOfKernels;
   for (const CodedRows::Tile& tile : rows.Tiles)
   {
-    good = good && tile.FirstRow >= 0 && tile.LastRow <= slots;
-    rows.VisitSlots(tile, [&](int, int slot) { good = good && slot >= 0 && slot < slots; });
+    good = good && tile.FirstRow >= 0 && tile.LastRow <= slots && tile.FirstSlot >= 0 &&
+      tile.NumberOfSlots >= 0 && tile.NumberOfSlots <= CodedRows::BookSize && tile.Common >= 0 &&
+      tile.FirstSlot + tile.NumberOfSlots <= static_cast<std::int64_t>(rows.Slots.size());
+    if (good)
+    {
+      rows.VisitSlots(tile, [&](int, int slot) { good = good && slot >= 0 && slot < slots; });
+    }
   }
   if (good)
   {

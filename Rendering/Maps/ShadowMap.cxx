@@ -5,6 +5,7 @@
 #include "Context/OpenGLContextGuard.h"
 #include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
+#include "Device/DeviceMemory.h"
 #include "Maps/SceneUniforms.h"
 #include "vtkLightTransportMapsShadowFS.h"
 #include "vtkLightTransportMapsShadowVS.h"
@@ -110,6 +111,12 @@ Outcome ShadowMap::SetSize(int size)
   if (size > this->Engine.GetMaximumTextureSize())
   {
     return Outcome::Failed("too many texels a side");
+  }
+  // Drivers may end the process where memory is refused.
+  const double available = GetAvailableDeviceBytes(this->Engine.GetWindow());
+  if (available >= 0.0 && sizeof(float) * static_cast<double>(size) * size > available)
+  {
+    return Outcome::Failed("too little memory");
   }
   this->Size = size;
   this->Depth = vtkSmartPointer<vtkTextureObject>::New();

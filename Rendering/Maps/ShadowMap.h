@@ -33,7 +33,6 @@ public:
 
   /// Texels a side, of the next drawing.
   Outcome SetSize(int size);
-  int GetSize() const { return this->Size; }
 
   /// Look for the surfaces that cast shadows: of all visible actors, wherever the camera looks.
   /// `areOthers` becomes true where they are not those of the last call, or elsewhere.

@@ -33,7 +33,7 @@ TriangleBuffer::~TriangleBuffer()
 Outcome TriangleBuffer::Upload(const std::vector<float>& corners, int floatsPerCorner)
 {
   this->FloatsPerCorner = floatsPerCorner;
-  this->NumberOfCorners = static_cast<int>(corners.size()) / floatsPerCorner;
+  this->NumberOfCorners = static_cast<int>(corners.size() / floatsPerCorner);
   this->Corners->Upload(corners, vtkOpenGLBufferObject::ArrayBuffer);
   return DeviceErrors::Check();
 }

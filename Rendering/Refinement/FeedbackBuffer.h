@@ -34,7 +34,6 @@ public:
   void Download(vtkIdType records, std::vector<float>& values) const;
 
   unsigned int GetHandle() const { return this->Handle; }
-  int GetVectorsPerRecord() const { return this->Vectors; }
   vtkIdType GetBytesPerRecord() const;
   vtkIdType GetCapacity() const { return this->Capacity; }
 

@@ -49,18 +49,20 @@ Outcome LinkCache::Update(const PatchScene& scene, const LinkBuilder& builder, c
   {
     return Outcome::Done();
   }
+  Links old = std::move(this->Kept);
+  this->Kept = Links();
   Links links;
   links.Fingerprint = scene.GetFingerprint();
-  if (fits && this->Kept.Choice && scene.GetArrangement() == this->Kept.Choice->Arrangement)
+  if (fits && old.Choice && scene.GetArrangement() == old.Choice->Arrangement)
   {
-    links.Choice = this->Kept.Choice;
+    links.Choice = old.Choice;
     if (!links.Choice->HasRows())
     {
-      links.Choice->TakeRows(*this->Kept.Hierarchy);
+      links.Choice->TakeRows(*old.Hierarchy);
     }
   }
   // The old ones go first, since both may not fit into memory.
-  this->Kept = Links();
+  old = Links();
   Outcome built = builder.Build(scene, ranks, monitor, links);
   if (built)
   {

@@ -6,6 +6,7 @@
 #include "vtkExchangeHierarchy.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace LightTransport
 {
@@ -66,22 +67,24 @@ std::vector<int> FindFirstPatches(const vtkExchangeHierarchy& links)
 void LinkChoice::TakeRows(const vtkExchangeHierarchy& links)
 {
   const auto patches = static_cast<std::size_t>(links.GetNumberOfPatches());
-  this->Offsets.assign(patches + 1, 0);
-  VisitLinks(links, [&](int receiver, int) { ++this->Offsets[receiver + 1]; });
+  std::vector<std::int64_t> offsets(patches + 1, 0);
+  VisitLinks(links, [&](int receiver, int) { ++offsets[receiver + 1]; });
   for (std::size_t patch = 0; patch < patches; ++patch)
   {
-    this->Offsets[patch + 1] += this->Offsets[patch];
+    offsets[patch + 1] += offsets[patch];
   }
-  this->Columns.resize(this->Offsets.back());
-  std::vector<std::int64_t> ends(this->Offsets.begin(), this->Offsets.end() - 1);
-  VisitLinks(links, [&](int receiver, int slot) { this->Columns[ends[receiver]++] = slot; });
+  std::vector<int> columns(offsets.back());
+  std::vector<std::int64_t> ends(offsets.begin(), offsets.end() - 1);
+  VisitLinks(links, [&](int receiver, int slot) { columns[ends[receiver]++] = slot; });
   const std::vector<int> first = FindFirstPatches(links);
   for (std::size_t patch = 0; patch < patches; ++patch)
   {
     Pulse::Beat(patch);
-    std::sort(this->Columns.begin() + this->Offsets[patch],
-      this->Columns.begin() + this->Offsets[patch + 1],
+    std::sort(columns.begin() + offsets[patch], columns.begin() + offsets[patch + 1],
       [&](int a, int b) { return first[a] < first[b]; });
   }
+  // All or nothing, where this ends by an exception.
+  this->Columns = std::move(columns);
+  this->Offsets = std::move(offsets);
 }
 } // namespace LightTransport

@@ -33,8 +33,8 @@ public:
   /// False where corners leave the other one's plane by more than `flatness` of the smaller size.
   bool Set(const Vector a[3], const Vector b[3], double flatness);
 
-  /// `potential` takes a squared distance. The error may be about `tolerance` and `relative` of the
-  /// integral.
+  /// `potential` takes a squared distance, and may be in single precision. The error may be about
+  /// `tolerance` and `relative` of the integral; what is less than rounding cannot be had.
   template <typename Potential>
   Sum Integrate(const Potential& potential, double relative, double tolerance) const;
 
@@ -46,6 +46,8 @@ private:
   static constexpr int MaximumDepth = 12;
   /// Of the difference between both rules, what the better one is off by at a kink.
   static constexpr double ErrorOfFine = 0.3;
+  /// Of the sum of what the pairs of edges are for themselves.
+  static constexpr double Rounding = 3e-7;
 
   struct Segment
   {
@@ -135,12 +137,15 @@ CoplanarTriangles::Sum CoplanarTriangles::Integrate(const Potential& potential, 
 {
   Sum parts[NumberOfPairs];
   Bands rough = Bands::Zero();
+  Bands size = Bands::Zero();
   for (int number = 0; number < NumberOfPairs; ++number)
   {
     parts[number] = Measure(potential, this->GetPair(number));
     rough += parts[number].Value;
+    size += parts[number].Value.abs();
   }
-  const Bands allowed = (tolerance + relative * rough.max(0.0)).square() / NumberOfPairs;
+  const Bands allowed =
+    (tolerance + relative * rough.max(0.0) + Rounding * size).square() / NumberOfPairs;
   Sum sum;
   for (int number = 0; number < NumberOfPairs; ++number)
   {

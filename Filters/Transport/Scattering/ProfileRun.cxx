@@ -99,7 +99,8 @@ std::unique_ptr<LinkBuilder> ProfileRun::MakeBuilder() const
     options.Seed = static_cast<std::uint64_t>(this->Owner->GetSeed());
   }
   const bool refines = this->Owner->GetRefineByIrradiance() &&
-    this->Owner->GetLinkMethod() != vtkSubsurfaceScattering::LINK_METHOD_DENSE;
+    this->Owner->GetLinkMethod() != vtkSubsurfaceScattering::LINK_METHOD_DENSE &&
+    !this->Owner->GetDropLinksThroughAir();
   return std::make_unique<ScatteringLinks>(this->Owner->GetModel(), options, this->Media,
     this->Owner->GetMillimetersPerUnit(),
     ScatteringLinkChoice{ this->Owner->GetLinkMethod(), this->Owner->GetNumberOfLinks(),

@@ -355,7 +355,7 @@ void ScatteringRefinement::ChooseAdaptive(double tolerance, double mostLinks)
 //------------------------------------------------------------------------------
 bool ScatteringRefinement::KeepUniform(int clusters, const LinkChoice& kept, const Ranks& ranks)
 {
-  this->ChooseUniform(clusters, kept.Error);
+  this->ChooseUniform(clusters, 0.0);
   const Prospect others = this->Expected;
   this->StartFrom(kept, ranks);
   this->Expected = this->Measure(this->Threshold);
@@ -374,7 +374,7 @@ bool ScatteringRefinement::KeepAdaptive(double mostLinks, const LinkChoice& kept
   Prospect others{ kept.LinksPerReceiver, kept.Error };
   if (kept.IsLimited)
   {
-    this->Begin(kept.Error);
+    this->Begin(0.0);
     others = this->Measure(this->NewThreshold);
   }
   this->StartFrom(kept, ranks);

@@ -60,8 +60,8 @@ public:
   ScatteringRefinement(const ScatteringClusters& clusters, const std::vector<double>& areas,
     const std::vector<double>& light, double reference, double leaveOut);
 
-  ///@{ Which links there are. At most `mostLinks` (0: any number) on average. Errors about as large
-  /// as the tolerance are told.
+  ///@{ Which links there are. At most `mostLinks` (0: any number) on average. Where the light is
+  /// given, errors about as large as the tolerance are told.
   void ChooseUniform(int clusters, double tolerance);
   void ChooseAdaptive(double tolerance, double mostLinks);
   ///@}

@@ -114,8 +114,6 @@ public:
   {
     return this->Arrangement;
   }
-  /// Whether it is the one that was given.
-  bool IsKept() const { return this->Kept && this->Arrangement == this->Kept; }
 
   /// Input coordinates = GetCenter() + GetScale() * scene coordinates.
   double GetScale() const { return this->Scale; }
