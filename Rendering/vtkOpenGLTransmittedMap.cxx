@@ -187,11 +187,12 @@ Outcome vtkOpenGLTransmittedMap::Open(vtkRenderer* renderer)
 Outcome vtkOpenGLTransmittedMap::Refresh(vtkActor* actor, vtkRenderer* renderer)
 {
   State state;
+  // Also of an attempt that finds no surface: it is not what was drawn before the first one.
+  state.OwnTime = this->GetMTime();
   Outcome found = AtlasDrawing::FindSurface(actor, state.Surface);
   if (found)
   {
     state.SurfaceStamp = ChartedSurface::GetStamp(state.Surface);
-    state.OwnTime = this->GetMTime();
     actor->ComputeMatrix();
     std::copy_n(actor->GetMatrix()->GetData(), 16, state.Matrix.begin());
     actor->GetBounds(state.Bounds.data());

@@ -209,11 +209,12 @@ vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfScatteringRuns()
 
 //------------------------------------------------------------------------------
 // Those of actors that are drawn in this frame; others wait.
-void vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
+bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
 {
   this->Bodies.erase(std::remove_if(this->Bodies.begin(), this->Bodies.end(),
                        [](const std::unique_ptr<Body>& body) { return !body->Actor; }),
     this->Bodies.end());
+  bool isAnyThere = false;
   for (int index = 0; index < state->GetPropArrayCount(); ++index)
   {
     Body* body = this->FindBody(state->GetPropArray()[index]);
@@ -221,6 +222,7 @@ void vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
     {
       continue;
     }
+    isAnyThere = true;
     const bool isMapped = this->Update(*body, state->GetRenderer());
     if (isMapped != body->IsMapped)
     {
@@ -228,6 +230,7 @@ void vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
       this->MapsModified();
     }
   }
+  return isAnyThere;
 }
 
 //------------------------------------------------------------------------------

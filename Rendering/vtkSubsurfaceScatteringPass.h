@@ -120,7 +120,7 @@ protected:
   vtkSubsurfaceScatteringPass();
   ~vtkSubsurfaceScatteringPass() override;
 
-  void UpdateMaps(const vtkRenderState* state) override;
+  bool UpdateMaps(const vtkRenderState* state) override;
   bool IsMapped(vtkProp* prop) override;
   void SetMap(vtkShaderProgram* program, vtkProp* prop,
     LightTransport::RadianceShader::Uniforms& uniforms) override;

@@ -73,8 +73,7 @@ void vtkTransportPass::Render(const vtkRenderState* state)
     return;
   }
   this->Parallel = state->GetRenderer()->GetActiveCamera()->GetParallelProjection() != 0;
-  this->UpdateMaps(state);
-  this->MapArrays(state);
+  this->MapArrays(state, this->UpdateMaps(state));
   this->PreRender(state);
   this->DelegatePass->Render(state);
   this->LetGoOfMaps();
@@ -94,16 +93,10 @@ void vtkTransportPass::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportPass::MapArrays(const vtkRenderState* state)
+void vtkTransportPass::MapArrays(const vtkRenderState* state, bool areMapsUsed)
 {
-  bool isAnyMapped = false;
-  const auto isMapped = [&](vtkActor* actor)
-  {
-    const bool mapped = this->IsMapped(actor);
-    isAnyMapped = isAnyMapped || mapped;
-    return mapped;
-  };
-  const bool found = this->Arrays->Map(state, this->ArrayName, isMapped) || isAnyMapped;
+  const auto isMapped = [this](vtkActor* actor) { return this->IsMapped(actor); };
+  const bool found = this->Arrays->Map(state, this->ArrayName, isMapped) || areMapsUsed;
   if (!found && !this->Warned)
   {
     vtkWarningMacro("No visible actor has a point array \""

@@ -107,10 +107,11 @@ protected:
   ///@{
   /**
    * For a pass whose actors may be drawn from maps of their atlases instead: bring the maps of a
-   * frame up to date before it is drawn; whether an actor has one; let a program of that actor's
-   * mapper use it, and say which material it is; let go of it when the frame is drawn.
+   * frame up to date before it is drawn, and return whether any actor has one, or an error has told
+   * why not; whether an actor has one; let a program of that actor's mapper use it, and say which
+   * material it is; let go of it when the frame is drawn.
    */
-  virtual void UpdateMaps(const vtkRenderState* vtkNotUsed(state)) {}
+  virtual bool UpdateMaps(const vtkRenderState* vtkNotUsed(state)) { return false; }
   virtual bool IsMapped(vtkProp* vtkNotUsed(prop)) { return false; }
   virtual void SetMap(vtkShaderProgram* vtkNotUsed(program), vtkProp* vtkNotUsed(prop),
     LightTransport::RadianceShader::Uniforms& vtkNotUsed(uniforms))
@@ -126,7 +127,7 @@ private:
   vtkTransportPass(const vtkTransportPass&) = delete;
   void operator=(const vtkTransportPass&) = delete;
 
-  void MapArrays(const vtkRenderState* state);
+  void MapArrays(const vtkRenderState* state, bool areMapsUsed);
 
   std::string ArrayName;
   double Exposure = 1.0;

@@ -44,6 +44,25 @@ def render_cornell_box(file, surface, size=512):
 
 def render_bunny(file, surface, refractive_index, light, size=512):
     """What is scattered, weighted for the eye, added to the mirror-like reflection of the light."""
+    scattered = lt.vtkSubsurfaceScatteringPass()
+    scattered.SetRefractiveIndex(refractive_index)
+    scattered.SetExposure(2.5)
+    draw_bunny(file, make_smooth_actor(surface), scattered, light, size)
+
+
+def render_bunny_while_scattering(file, surface, material, light, size=512):
+    """The same, scattered while it is drawn: the surface has an atlas."""
+    actor = make_smooth_actor(surface)
+    scattered = lt.vtkSubsurfaceScatteringPass()
+    scattered.SetMaterial(actor, material)
+    scattered.SetIrradianceMapSize(128)
+    scattered.SetScatteredMapSize(64)
+    scattered.SetExposure(20.0)
+    draw_bunny(file, actor, scattered, light, size)
+
+
+def make_smooth_actor(surface):
+    """With normals, and mirror-like reflection alone."""
     normals = vtkPolyDataNormals()
     normals.SetInputData(surface)
     normals.SplittingOff()
@@ -58,9 +77,10 @@ def render_bunny(file, surface, refractive_index, light, size=512):
     look.SetDiffuse(0.0)
     look.SetSpecular(0.15)
     look.SetSpecularPower(30.0)
-    scattered = lt.vtkSubsurfaceScatteringPass()
-    scattered.SetRefractiveIndex(refractive_index)
-    scattered.SetExposure(2.5)
+    return actor
+
+
+def draw_bunny(file, actor, scattered, light, size):
     renderer = vtkRenderer()
     renderer.AutomaticLightCreationOff()
     renderer.AddLight(light)

@@ -16,7 +16,7 @@ import vtklighttransport as lt
 from vtklighttransport.shell.lights import make_light
 
 import demo_pictures
-from demo_bunny import FROM_FRONT, Translucent, read_bunny
+from demo_bunny import FROM_BEHIND, FROM_FRONT, Translucent, read_bunny
 from demo_cornell_box import RadiosityScene
 from TestingTools import read_picture
 
@@ -57,10 +57,29 @@ def draw_bunny(file):
     demo_pictures.render_bunny(file, surface, marble.refractive_index, light, SIZE)
 
 
+def draw_bunny_scattering(file):
+    """On the GPU, while it is drawn; light from behind."""
+    mesher = lt.vtkPatchMesher()
+    mesher.SetInputData(read_bunny())
+    mesher.SetTargetNumberOfPatches(1500)
+    atlas = lt.vtkSurfaceAtlas()
+    atlas.SetInputConnection(mesher.GetOutputPort())
+    atlas.SetResolution(64)
+    atlas.Update()
+    material = lt.vtkSubsurfaceScattering()
+    material.SetMaterialToMarble()
+    material.SetMillimetersPerUnit(3.0)
+    material.SetLinkMethodToAdaptive()
+    light = make_light(FROM_BEHIND)
+    demo_pictures.render_bunny_while_scattering(
+        file, atlas.GetOutput(), material, light, SIZE // 2)
+
+
 CASES = {
     "CornellBox": draw_cornell_box,
     "ColoredByArray": draw_colored_by_array,
     "BunnyDirectAndScattered": draw_bunny,
+    "BunnyScatteredWhileDrawn": draw_bunny_scattering,
 }
 
 
