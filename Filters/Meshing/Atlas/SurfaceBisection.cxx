@@ -121,7 +121,7 @@ std::vector<char> SurfaceBisection::CutBetweenCorners(double share, double densi
           signs[0] * d[0][i] + signs[1] * d[1][i] + signs[2] * d[2][i] + signs[3] * d[3][i];
       }
       Cut cut = this->FindBestCut(values, share, density);
-      if (cut.Score < best.Score)
+      if (best.Sides.empty() || cut.Score < best.Score)
       {
         best = std::move(cut);
       }
@@ -430,8 +430,9 @@ SurfaceBisection::Cut SurfaceBisection::FindBestCut(const std::vector<double>& v
   }
   const std::vector<double> costs = this->FindCosts(ranks);
 
+  // In the middle where no cut is better than another: one face may have all of the area.
   Cut best;
-  std::size_t rank = 0;
+  std::size_t rank = size / 2;
   double area = 0.0;
   for (std::size_t i = 1; i < size; ++i)
   {

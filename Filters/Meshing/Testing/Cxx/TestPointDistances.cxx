@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances over thin faces against those in the plane, and what a crease adds.
+// Distances over thin faces against those in the plane, and what a crease adds; and that a piece is
+// cut in two whatever its faces are.
 #include "Atlas/PointDistances.h"
+#include "Atlas/SurfaceBisection.h"
 #include "MeshTestTools.h"
 
 #include <algorithm>
@@ -103,6 +105,27 @@ void TestBundles(Checker& check)
   check.True(number >= 32 * 16 && number <= 32 * 32, std::to_string(number) + " bundles");
   check.True(largest <= 100, std::to_string(largest) + " faces in the largest bundle");
 }
+
+//------------------------------------------------------------------------------
+// No cut is better than another where there is no area, or one face has all of it.
+void TestWithoutArea(double areaOfFirst, Checker& check)
+{
+  AtlasSurface surface;
+  const Watch watch;
+  check.True(!surface.Build(MakeSheet(4, 4, false), watch).HasFailed(), "surface");
+  std::fill(surface.Areas.begin(), surface.Areas.end(), 0.0);
+  surface.Areas[0] = areaOfFirst;
+  std::vector<int> faces(surface.GetNumberOfFaces());
+  std::iota(faces.begin(), faces.end(), 0);
+  const std::vector<int> owners(faces.size(), 0);
+  std::vector<int> local(faces.size(), 0);
+  SurfaceBisection bisection(surface, owners, local, watch);
+  auto halves = bisection.Divide(faces, 0.0, 1.0);
+  check.True(!halves[0].empty() && !halves[1].empty(), "two halves");
+  halves[0].insert(halves[0].end(), halves[1].begin(), halves[1].end());
+  std::sort(halves[0].begin(), halves[0].end());
+  check.True(halves[0] == faces, "all faces are in one of the halves");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -112,5 +135,7 @@ int TestPointDistances(int, char*[])
   TestSheet(false, check);
   TestSheet(true, check);
   TestBundles(check);
+  TestWithoutArea(0.0, check);
+  TestWithoutArea(1.0, check);
   return check.GetExitCode();
 }
