@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mesher, radiosity, direct irradiance, scattering and view factors through proxies.
 
-Every array is as it comes from the classes themselves; the tables of groups are as they must be.
+Every array is as it comes from the classes themselves; the tables of groups are as they must be,
+and so are time steps.
 """
 
 import PluginTools as tools
@@ -217,6 +218,58 @@ def test_medium():
     return problems
 
 
+def test_movement():
+    """Time steps of a ball that is twisted: links are kept from one to the next, unless asked."""
+    ball = simple.ProgrammableSource(
+        OutputDataSetType="vtkPolyData",
+        Script="""
+import math
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+sphere = vtkSphereSource()
+sphere.SetThetaResolution(24)
+sphere.SetPhiResolution(16)
+sphere.Update()
+output = self.GetPolyDataOutput()
+output.DeepCopy(sphere.GetOutput())
+turn = self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP())
+points = output.GetPoints()
+for point in range(points.GetNumberOfPoints()):
+    x, y, z = points.GetPoint(point)
+    c, s = math.cos(turn * z), math.sin(turn * z)
+    points.SetPoint(point, c * x - s * y, s * x + c * y, z)
+light = vtkDoubleArray()
+light.SetName("Irradiance")
+for cell in range(output.GetNumberOfCells()):
+    light.InsertNextValue(cell % 5)
+output.GetCellData().AddArray(light)
+""",
+        ScriptRequestInformation="""
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as pipeline
+information = self.GetOutputInformation(0)
+information.Set(pipeline.TIME_STEPS(), [0.0, 0.2, 0.4], 3)
+information.Set(pipeline.TIME_RANGE(), [0.0, 0.4], 2)
+""")
+    scattering = simple.SubsurfaceScattering(
+        Input=ball, Material="Marble", MillimetersPerUnit=20.0, LinkMethod="Adaptive", Device="CPU")
+
+    def get_shares():
+        shares = []
+        for time in (0.0, 0.2, 0.4):
+            scattering.UpdatePipeline(time)
+            result = scattering.GetClientSideObject().GetOutputDataObject(0)
+            shares.append(tools.get_summary(result, "LinksReused"))
+        return shares
+
+    shares = get_shares()
+    scattering.ReuseLinks = 0
+    fresh = get_shares()
+    if shares[0] != 0.0 or not min(shares[1:]) > 0.9 or any(fresh):
+        return [f"of the links of time steps {shares} are kept, and where none should be {fresh}"]
+    return []
+
+
 expected_results = run_classes()
 found_results, irradiance_proxy, scattering_proxy = run_proxies()
 all_problems = []
@@ -229,4 +282,5 @@ for key, array_name in (
 all_problems += test_lights(irradiance_proxy, scattering_proxy)
 all_problems += test_groups()
 all_problems += test_medium()
+all_problems += test_movement()
 tools.finish(all_problems)
