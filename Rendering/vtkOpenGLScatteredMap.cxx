@@ -54,13 +54,6 @@ int GetLevel(int size)
   return level;
 }
 
-//------------------------------------------------------------------------------
-/// For shaders that use vectors of this width.
-std::string GetDefines(int width)
-{
-  return "#define GROUPS 1\n#define OUTPUTS 1\n#define WIDTH_BITS " +
-    std::to_string(GetLevel(width)) + "\n";
-}
 } // namespace
 
 struct vtkOpenGLScatteredMap::Parts
@@ -333,7 +326,7 @@ Outcome vtkOpenGLScatteredMap::Apply(vtkOpenGLTransmittedMap* entering)
   AtlasTexture& source = *entering->Texture->Texture;
   const FloatTextures::Group sent = { parts.Links->GetVectorTexture(ENTERING) };
   const int width = static_cast<int>(sent[0]->GetWidth());
-  const std::string defines = GetDefines(width);
+  const std::string defines = FloatTextures::GetDefines(1, 1, width);
   const int levels = GetLevel(source.GetResolution()) - GetLevel(this->Resolution);
   vtkShaderProgram* program = nullptr;
   {

@@ -194,8 +194,7 @@ Outcome AtlasTexture::ReadLevel(int level, vtkFloatArray* texels)
 Outcome AtlasTexture::DrawPoints(const FloatTextures::Group& target,
   const FloatTextures::Group& points, const FloatTextures::Group& blocks, int height)
 {
-  const std::string defines =
-    "#define GROUPS 1\n#define OUTPUTS 1\n#define WIDTH_BITS " + std::to_string(WidthBits) + "\n";
+  const std::string defines = FloatTextures::GetDefines(1, 1, 1 << WidthBits);
   const std::string body =
     std::string(vtkLightTransportAtlasSampleFS) + vtkLightTransportAtlasPointsFS;
   vtkShaderProgram* program = nullptr;

@@ -3,6 +3,7 @@
 #include "Maps/AtlasDrawing.h"
 
 #include "Context/OpenGLFunctions.h"
+#include "Passes/PlainMapper.h"
 #include "vtkLightTransportMapsAtlasVS.h"
 #include "vtkLightTransportTexturesCommonFS.h"
 
@@ -11,7 +12,6 @@
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkShaderProgram.h"
 
 namespace LightTransport
@@ -19,9 +19,8 @@ namespace LightTransport
 //------------------------------------------------------------------------------
 Outcome AtlasDrawing::FindSurface(vtkActor* actor, vtkPolyData*& surface)
 {
-  auto* mapper = actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
-  if (!mapper || mapper->IsA("vtkCompositePolyDataMapper") ||
-    mapper->IsA("vtkCompositePolyDataMapper2") || mapper->GetNumberOfInputConnections(0) == 0)
+  vtkPolyDataMapper* mapper = actor ? FindPlainMapper(actor->GetMapper()) : nullptr;
+  if (!mapper)
   {
     return Outcome::Failed(
       "An actor with a material needs a vtkPolyDataMapper with a surface that "
@@ -83,7 +82,7 @@ Outcome AtlasDrawing::Use(vtkShaderProgram*& program, const char* body, int outp
 {
   std::string source = vtkLightTransportTexturesCommonFS;
   vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Define",
-    "#define GROUPS 1\n#define WIDTH_BITS 1\n#define OUTPUTS " + std::to_string(outputs) + "\n");
+    FloatTextures::GetDefines(1, outputs, 2));
   source += body;
   program = this->Engine.GetWindow()->GetShaderCache()->ReadyShaderProgram(
     vtkLightTransportMapsAtlasVS, source.c_str(), "");

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Maps/ChartedSurface.h"
 
-#include "Maps/ShapeStamp.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/BitHash.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -99,11 +99,11 @@ bool ChartedSurface::Chart::Round()
 //------------------------------------------------------------------------------
 std::uint64_t ChartedSurface::GetStamp(vtkPolyData* surface)
 {
-  ShapeStamp stamp;
-  stamp.Add({ surface->GetPoints(), surface->GetPolys(),
+  BitHash hash;
+  hash.AddObjects({ surface->GetPoints(), surface->GetPolys(),
     surface->GetPointData()->GetArray(ArrayNames::AtlasCoordinates),
     surface->GetCellData()->GetArray(ArrayNames::ChartId) });
-  return stamp.Get();
+  return hash.Get();
 }
 
 //------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ struct ChartedSurface
   /// Fails, with the remedy, for what is no surface with an atlas.
   Outcome Read(vtkPolyData* surface);
 
-  /// ShapeStamp of what Read looks at.
+  /// Another number where what Read looks at is modified or replaced.
   static std::uint64_t GetStamp(vtkPolyData* surface);
 
   std::vector<float> Corners; ///< of triangles, one after another

@@ -7,7 +7,7 @@
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceMemory.h"
 #include "Maps/SceneUniforms.h"
-#include "Maps/ShapeStamp.h"
+#include "Shared/BitHash.h"
 #include "vtkLightTransportMapsShadowFS.h"
 #include "vtkLightTransportMapsShadowVS.h"
 
@@ -72,12 +72,12 @@ void VisitSurfaces(vtkDataObject* data, const Visit& visit)
 // Of the shape alone: arrays come and go.
 std::uint64_t GetStamp(vtkDataObject* data)
 {
-  ShapeStamp stamp;
+  BitHash hash;
   VisitSurfaces(data,
     [&](vtkPolyData* surface) {
-      stamp.Add({ surface->GetPoints(), surface->GetPolys(), surface->GetStrips() });
+      hash.AddObjects({ surface->GetPoints(), surface->GetPolys(), surface->GetStrips() });
     });
-  return stamp.Get();
+  return hash.Get();
 }
 
 } // namespace

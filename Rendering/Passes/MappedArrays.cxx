@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Passes/MappedArrays.h"
 
+#include "Passes/PlainMapper.h"
 #include "Passes/RadianceShader.h"
 
 #include "vtkActor.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkRenderState.h"
 
 #include <iterator>
@@ -21,8 +21,7 @@ namespace
 /// Of the array that a mapper can hand to its shaders; 0 when it can hand none.
 int FindComponents(vtkPolyDataMapper* mapper, const std::string& arrayName)
 {
-  if (mapper->IsA("vtkCompositePolyDataMapper") || mapper->IsA("vtkCompositePolyDataMapper2") ||
-    mapper->GetNumberOfInputConnections(0) == 0)
+  if (!FindPlainMapper(mapper))
   {
     return 0;
   }

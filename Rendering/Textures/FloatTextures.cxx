@@ -219,6 +219,18 @@ void FloatTextures::Download(const Group& group, std::size_t index, int width, i
 }
 
 //------------------------------------------------------------------------------
+std::string FloatTextures::GetDefines(int groups, int outputs, int width)
+{
+  int bits = 0;
+  while ((1 << bits) < width)
+  {
+    ++bits;
+  }
+  return "#define GROUPS " + std::to_string(groups) + "\n#define OUTPUTS " +
+    std::to_string(outputs) + "\n#define WIDTH_BITS " + std::to_string(bits) + "\n";
+}
+
+//------------------------------------------------------------------------------
 Outcome FloatTextures::Use(vtkShaderProgram*& program, const std::string& name, const char* body,
   const std::string& defines)
 {

@@ -127,6 +127,8 @@ public:
    */
   Outcome Use(vtkShaderProgram*& program, const std::string& name, const char* body,
     const std::string& defines);
+  /// `defines` for groups of textures read, textures drawn into, and lines of `width` texels.
+  static std::string GetDefines(int groups, int outputs, int width);
   void SetTextures(vtkShaderProgram* program, const char* name, const Group& group);
   void Draw(const Group& target, const int region[4]);
   ///@}

@@ -24,13 +24,7 @@ constexpr int WidestVector = 1024;
 //------------------------------------------------------------------------------
 std::string FloatVectors::Layout::GetDefines(int outputs) const
 {
-  int bits = 0;
-  while ((1 << bits) < this->Width)
-  {
-    ++bits;
-  }
-  return "#define GROUPS " + std::to_string(this->Groups) + "\n#define OUTPUTS " +
-    std::to_string(outputs) + "\n#define WIDTH_BITS " + std::to_string(bits) + "\n";
+  return FloatTextures::GetDefines(this->Groups, outputs, this->Width);
 }
 
 //------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Photons/MediumImage.h"
 
+#include "Shared/BitHash.h"
 #include "Shared/InputArrays.h"
-#include "Support/BitHash.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

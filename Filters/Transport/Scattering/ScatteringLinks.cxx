@@ -13,6 +13,7 @@
 #include "Scattering/ScatteringPatches.h"
 #include "Scattering/ScatteringRefinement.h"
 #include "Scene/PatchScene.h"
+#include "Shared/BitHash.h"
 #include "Shared/TransportMemory.h"
 #include "Support/Ranks.h"
 #include "vtkSubsurfaceScattering.h"
@@ -77,23 +78,42 @@ ScatteringLinks::ScatteringLinks(int model, const ScatteringOptions& options,
 }
 
 //------------------------------------------------------------------------------
+// What does not matter to links of this method is 0.
 LinkKey ScatteringLinks::GetKey() const
 {
+  const bool isDense = this->IsOfAllPairs();
+  const bool isCounted =
+    !isDense && this->Choice.Method != vtkSubsurfaceScattering::LINK_METHOD_AUTO;
+  const bool isCoded = !isDense && this->Choice.AreCompressed;
+  BitHash light;
+  for (const double value : this->Choice.Light)
+  {
+    light.AddNumber(value);
+  }
   LinkKey key{ "ScatteringLinks",
     { static_cast<double>(this->Model), static_cast<double>(this->Options.BurleyFit),
       static_cast<double>(this->Options.NumberOfPhotons), static_cast<double>(this->Options.Seed),
       this->MillimetersPerUnit, static_cast<double>(this->Choice.Method),
-      static_cast<double>(this->Choice.Number), this->Choice.Tolerance,
-      this->Choice.DropsThroughAir ? 1.0 : 0.0, this->Choice.AreCompressed ? 1.0 : 0.0,
-      this->Choice.CompressionTolerance, this->Choice.IsKept ? 1.0 : 0.0 },
+      isCounted ? static_cast<double>(this->Choice.Number) : 0.0, this->Choice.Tolerance,
+      this->Choice.DropsThroughAir ? 1.0 : 0.0, isCoded ? 1.0 : 0.0,
+      isCoded ? this->Choice.CompressionTolerance : 0.0,
+      this->Choice.IsKept && !isDense ? 1.0 : 0.0, static_cast<double>(this->Choice.Light.size()),
+      static_cast<double>(light.Get() >> 32), static_cast<double>(light.Get() & 0xffffffffu) },
     {} };
   for (const ScatteringMedium& band : this->Bands)
   {
     key.Parameters.insert(key.Parameters.end(),
       { band.Scattering, band.Absorption, band.RefractiveIndex, band.Anisotropy });
   }
-  key.Parameters.insert(key.Parameters.end(), this->Choice.Light.begin(), this->Choice.Light.end());
   return key;
+}
+
+//------------------------------------------------------------------------------
+// What goes through the air is dropped pair by pair.
+bool ScatteringLinks::IsOfAllPairs() const
+{
+  return this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
+    this->Choice.DropsThroughAir;
 }
 
 //------------------------------------------------------------------------------
@@ -123,10 +143,7 @@ Outcome ScatteringLinks::Build(const PatchScene& scene, const Ranks& ranks, cons
   Outcome built = ScatteringModels::MakeProfiles(this->Model, options, this->Bands, task.Profiles);
   if (built)
   {
-    // What goes through the air is dropped pair by pair.
-    const bool isDense = this->Choice.Method == vtkSubsurfaceScattering::LINK_METHOD_DENSE ||
-      this->Choice.DropsThroughAir;
-    built = isDense ? this->LinkPatches(task) : this->LinkClusters(task);
+    built = this->IsOfAllPairs() ? this->LinkPatches(task) : this->LinkClusters(task);
   }
   if (!built || !links.GetExchange())
   {

@@ -47,6 +47,7 @@ public:
 private:
   struct Task;
 
+  bool IsOfAllPairs() const;
   bool IsDense(const Task& task, const ScatteringRefinement& refinement) const;
   Outcome LinkPatches(Task& task) const;
   Outcome LinkClusters(Task& task) const;

@@ -4,8 +4,8 @@
 
 #include "Scene/CoincidentFaces.h"
 #include "Scene/ScenePieces.h"
+#include "Shared/BitHash.h"
 #include "Shared/Pulse.h"
-#include "Support/BitHash.h"
 
 #include <Eigen/Geometry>
 

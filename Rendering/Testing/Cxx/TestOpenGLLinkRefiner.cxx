@@ -5,6 +5,7 @@
  * same clusters for each patch, but where a deviation is the threshold to rounding; their values,
  * and what scatters; one patch, none; aborts.
  */
+#include "AbortTesting.h"
 #include "LightTransportTesting.h"
 #include "OutcomeTesting.h"
 #include "Scattering/AirGaps.h"
@@ -34,7 +35,6 @@
 #include "vtkPLYReader.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
@@ -332,13 +332,6 @@ vtkSmartPointer<Scattering> MakeFilter(vtkDataObject* data, bool onDevice)
 }
 
 //------------------------------------------------------------------------------
-std::string GetText(vtkDataObject* data, const char* name)
-{
-  auto* text = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name));
-  return text ? text->GetValue(0) : "";
-}
-
-//------------------------------------------------------------------------------
 std::vector<double> GetScattered(Scattering* filter)
 {
   filter->Update();
@@ -493,58 +486,23 @@ void TestAuto(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-/// Tells its progress at every beat.
-class Attentive : public Scattering
-{
-public:
-  static Attentive* New()
-  {
-    auto* filter = new Attentive;
-    filter->InitializeObjectBase();
-    return filter;
-  }
-
-protected:
-  Attentive() { this->ProgressInterval = 0.0; }
-};
-
-//------------------------------------------------------------------------------
-/// Aborts a filter that tells its progress for the n-th time, n being `AbortAt`.
-class Aborter : public vtkCommand
-{
-public:
-  static Aborter* New() { return new Aborter; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
-  {
-    if (++this->Events == this->AbortAt)
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  }
-
-  int AbortAt = 0;
-  int Events = 0;
-};
-
-//------------------------------------------------------------------------------
 // Anywhere in a run; the next one of the same filter is whole.
 void TestAborts(vtkPolyData* data)
 {
-  const auto filter = vtkSmartPointer<Attentive>::New();
+  const auto filter = vtkSmartPointer<Attentive<Scattering>>::New();
   SetUp(filter, data, true);
-  vtkNew<Aborter> aborter;
-  filter->AddObserver(vtkCommand::ProgressEvent, aborter);
+  vtkNew<Listener> listener;
+  filter->AddObserver(vtkCommand::ProgressEvent, listener);
   const std::vector<double> expected = GetScattered(filter);
   Check(!expected.empty(), "a whole run");
   for (const int event : { 3, 30, 300 })
   {
-    aborter->Events = 0;
-    aborter->AbortAt = event;
+    listener->Progress.clear();
+    listener->AbortAt = event;
     // Another tolerance: links anew.
     filter->SetLinkTolerance(2e-2);
     Check(GetScattered(filter).empty(), "aborted at event " + std::to_string(event));
-    aborter->AbortAt = 0;
+    listener->AbortAt = 0;
     filter->SetAbortExecute(0);
     filter->SetLinkTolerance(0.0);
     Check(GetScattered(filter) == expected, "the next run is whole");

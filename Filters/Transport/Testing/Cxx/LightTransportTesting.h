@@ -14,7 +14,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -210,6 +212,45 @@ inline double GetSummary(vtkDataObject* data, const char* name)
   vtkDataArray* array = data->GetFieldData()->GetArray(name);
   Check(array != nullptr, std::string("field data has ") + name);
   return array ? array->GetComponent(0, 0) : vtkMath::Nan();
+}
+
+/// Of the field data; empty where there is none.
+inline std::string GetText(vtkDataObject* data, const char* name)
+{
+  auto* text = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name));
+  return text ? text->GetValue(0) : "";
+}
+
+/// Tuple by tuple; empty where there is no array.
+inline std::vector<double> GetValues(vtkDataArray* array)
+{
+  std::vector<double> values;
+  const int components = array ? array->GetNumberOfComponents() : 1;
+  for (vtkIdType k = 0; array && k < array->GetNumberOfValues(); ++k)
+  {
+    values.push_back(array->GetComponent(k / components, static_cast<int>(k % components)));
+  }
+  return values;
+}
+
+/// Root mean square of the worst of the components, relative; patches are of like size.
+inline double CompareBands(const std::vector<double>& found, const std::vector<double>& expected,
+  std::size_t components = 3)
+{
+  Check(found.size() == expected.size() && !found.empty(), "results to compare");
+  std::vector<double> errors(components, 0.0);
+  std::vector<double> squares(components, 0.0);
+  for (std::size_t k = 0; k < std::min(found.size(), expected.size()); ++k)
+  {
+    errors[k % components] += std::pow(found[k] - expected[k], 2);
+    squares[k % components] += std::pow(expected[k], 2);
+  }
+  double worst = 0.0;
+  for (std::size_t component = 0; component < components; ++component)
+  {
+    worst = std::max(worst, std::sqrt(errors[component] / squares[component]));
+  }
+  return worst;
 }
 } // namespace LightTransportTesting
 

@@ -19,7 +19,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -113,18 +112,6 @@ vtkSmartPointer<Scattering> MakeFilter(int method)
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> GetValues(vtkDataArray* array)
-{
-  std::vector<double> values;
-  Check(array != nullptr, "there is a result");
-  for (vtkIdType k = 0; array && k < array->GetNumberOfTuples() * Bands; ++k)
-  {
-    values.push_back(array->GetComponent(k / Bands, static_cast<int>(k % Bands)));
-  }
-  return values;
-}
-
-//------------------------------------------------------------------------------
 std::vector<double> Run(Scattering* filter, vtkPolyData* data)
 {
   filter->SetInputData(data);
@@ -136,26 +123,6 @@ std::vector<double> Run(Scattering* filter, vtkPolyData* data)
 double GetField(Scattering* filter, const char* name)
 {
   return GetSummary(filter->GetOutputDataObject(0), name);
-}
-
-//------------------------------------------------------------------------------
-// Root mean square of the worst band, relative; patches are of like size.
-double Compare(const std::vector<double>& found, const std::vector<double>& expected)
-{
-  Check(found.size() == expected.size() && !found.empty(), "results to compare");
-  std::array<double, Bands> errors{};
-  std::array<double, Bands> squares{};
-  for (std::size_t k = 0; k < std::min(found.size(), expected.size()); ++k)
-  {
-    errors[k % Bands] += std::pow(found[k] - expected[k], 2);
-    squares[k % Bands] += std::pow(expected[k], 2);
-  }
-  double worst = 0.0;
-  for (int band = 0; band < Bands; ++band)
-  {
-    worst = std::max(worst, std::sqrt(errors[band] / squares[band]));
-  }
-  return worst;
 }
 
 //------------------------------------------------------------------------------
@@ -235,7 +202,7 @@ void TestRigid(vtkPolyData* body, int method, bool isCompressed)
     };
     const std::vector<double> moved = Run(filter, Move(body, move));
     // Codes are whole numbers.
-    const double change = Compare(moved, rest);
+    const double change = CompareBands(moved, rest);
     Check(GetField(filter, "LinksReused") == 1.0, "a rigid movement keeps all links");
     Check(change < (isCompressed ? 1e-3 : 1e-7), "and changes nothing: " + std::to_string(change));
     CheckClose(GetField(filter, "LinkError"), error, 1e-3, "nor what is told of errors");
@@ -284,8 +251,8 @@ void TestTwist(vtkPolyData* body)
       const std::string what =
         " of method " + std::to_string(links.Method) + " in frame " + std::to_string(frame);
       auto fresh = make(links);
-      const double expected = Compare(Run(fresh, moved), pairs);
-      const double error = Compare(Run(links.Kept, moved), pairs);
+      const double expected = CompareBands(Run(fresh, moved), pairs);
+      const double error = CompareBands(Run(links.Kept, moved), pairs);
       const auto get = [&](const char* name) { return GetField(links.Kept, name); };
       std::cout << "errors" << what << ": " << error << ", of new links " << expected << ", reused "
                 << get("LinksReused") << std::endl;
@@ -323,8 +290,8 @@ void TestMeeting()
     const std::vector<double> all = Run(MakeFilter(Scattering::LINK_METHOD_DENSE), near);
     auto fresh = MakeFilter(method);
     fresh->SetNumberOfLinks(1000);
-    const double expected = Compare(Run(fresh, near), all);
-    const double error = Compare(Run(filter, near), all);
+    const double expected = CompareBands(Run(fresh, near), all);
+    const double error = CompareBands(Run(filter, near), all);
     Check(error <= std::max(1.2 * expected, 1e-2),
       "what comes near is linked: " + std::to_string(error));
   }
@@ -362,7 +329,7 @@ void TestFresh(vtkPolyData* body)
   Run(dense, body);
   const std::vector<double> pairs = Run(dense, moved);
   Check(GetField(dense, "LinksReused") == 0.0 &&
-      Compare(pairs, Run(MakeFilter(Scattering::LINK_METHOD_DENSE), moved)) < 1e-12,
+      CompareBands(pairs, Run(MakeFilter(Scattering::LINK_METHOD_DENSE), moved)) < 1e-12,
     "all pairs are new");
 }
 
@@ -377,7 +344,8 @@ void TestFew(vtkPolyData* body)
   auto filter = MakeFilter(Scattering::LINK_METHOD_ADAPTIVE);
   Run(filter, triangle);
   auto wider = Move(triangle, [](const Point& p) { return Point{ 2.0 * p[0], p[1], p[2] }; });
-  Check(Compare(Run(filter, wider), Run(MakeFilter(Scattering::LINK_METHOD_DENSE), wider)) < 1e-6,
+  Check(CompareBands(Run(filter, wider), Run(MakeFilter(Scattering::LINK_METHOD_DENSE), wider)) <
+      1e-6,
     "one patch that moves");
   vtkNew<MessageLog> errors;
   filter->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -467,8 +435,9 @@ void TestTexels()
   run(filter, toTexels(surface));
   auto texels = toTexels(Move(surface, Twist(0.2)));
   const std::vector<double> all = run(MakeFilter(Scattering::LINK_METHOD_DENSE), texels);
-  const double expected = Compare(run(MakeFilter(Scattering::LINK_METHOD_ADAPTIVE), texels), all);
-  const double error = Compare(run(filter, texels), all);
+  const double expected =
+    CompareBands(run(MakeFilter(Scattering::LINK_METHOD_ADAPTIVE), texels), all);
+  const double error = CompareBands(run(filter, texels), all);
   Check(GetField(filter, "LinksReused") > 0.8, "texels keep their links");
   Check(error <= 1.2 * expected, "and are as good: " + std::to_string(error / expected));
   const auto first =

@@ -85,35 +85,7 @@ double GetField(Scattering* filter, const char* name)
 Values GetResult(Scattering* filter)
 {
   filter->Update();
-  vtkDataArray* array = filter->GetPolyDataOutput()->GetCellData()->GetArray("ScatteredIrradiance");
-  Values values;
-  for (vtkIdType k = 0; array && k < array->GetNumberOfValues(); ++k)
-  {
-    const int components = array->GetNumberOfComponents();
-    values.push_back(array->GetComponent(k / components, static_cast<int>(k % components)));
-  }
-  return values;
-}
-
-//------------------------------------------------------------------------------
-/// Root mean square of the worst component, relative; patches are of like size.
-double Compare(const Values& found, const Values& expected, int lights = 1)
-{
-  const std::size_t components = Bands * lights;
-  Check(found.size() == expected.size() && !found.empty(), "results to compare");
-  Values errors(components, 0.0);
-  Values squares(components, 0.0);
-  for (std::size_t k = 0; k < std::min(found.size(), expected.size()); ++k)
-  {
-    errors[k % components] += std::pow(found[k] - expected[k], 2);
-    squares[k % components] += std::pow(expected[k], 2);
-  }
-  double worst = 0.0;
-  for (std::size_t component = 0; component < components; ++component)
-  {
-    worst = std::max(worst, std::sqrt(errors[component] / squares[component]));
-  }
-  return worst;
+  return GetValues(filter->GetPolyDataOutput()->GetCellData()->GetArray("ScatteredIrradiance"));
 }
 
 //------------------------------------------------------------------------------
@@ -137,8 +109,8 @@ void TestErrors()
         filter->SetNumberOfLinks(40);
         filter->SetLinkTolerance(3e-3);
       }
-      const double before = Compare(GetResult(any), all);
-      const double now = Compare(GetResult(chosen), all);
+      const double before = CompareBands(GetResult(any), all);
+      const double now = CompareBands(GetResult(chosen), all);
       const double told = GetField(chosen, "LinkError");
       std::cout << name << ": error " << before << " for any light, " << now << " for this, told "
                 << told << ", links " << GetField(chosen, "LinksPerReceiver") << " of "
@@ -161,7 +133,7 @@ void TestLinks()
     const Values all = GetResult(MakeFilter(body, Scattering::LINK_METHOD_DENSE, false));
     auto filter = MakeFilter(body, Scattering::LINK_METHOD_ADAPTIVE, refines);
     filter->SetNumberOfLinks(10000);
-    const double error = Compare(GetResult(filter), all, static_cast<int>(lights.size()));
+    const double error = CompareBands(GetResult(filter), all, Bands * lights.size());
     links = GetField(filter, "LinksPerReceiver");
     std::cout << lights.size() << " lights, " << refines << ": " << links << " links, error "
               << error << "\n";

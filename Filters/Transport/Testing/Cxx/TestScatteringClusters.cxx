@@ -9,13 +9,11 @@
 #include "vtkFieldData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkSMPTools.h"
-#include "vtkStringArray.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 using namespace LightTransportTesting;
@@ -97,48 +95,13 @@ vtkSmartPointer<Scattering> MakeFilter(vtkPolyData* data, int method, double mil
 std::vector<double> GetResult(Scattering* filter)
 {
   filter->Update();
-  vtkPolyData* output = filter->GetPolyDataOutput();
-  vtkDataArray* array = output->GetCellData()->GetArray("ScatteredIrradiance");
-  std::vector<double> values;
-  for (vtkIdType k = 0; array && k < array->GetNumberOfTuples() * Bands; ++k)
-  {
-    values.push_back(array->GetComponent(k / Bands, static_cast<int>(k % Bands)));
-  }
-  return values;
-}
-
-//------------------------------------------------------------------------------
-std::string GetText(Scattering* filter, const char* name)
-{
-  auto* text = vtkStringArray::SafeDownCast(
-    filter->GetPolyDataOutput()->GetFieldData()->GetAbstractArray(name));
-  return text ? text->GetValue(0) : "";
+  return GetValues(filter->GetPolyDataOutput()->GetCellData()->GetArray("ScatteredIrradiance"));
 }
 
 //------------------------------------------------------------------------------
 double GetField(Scattering* filter, const char* name)
 {
   return GetSummary(filter->GetPolyDataOutput(), name);
-}
-
-//------------------------------------------------------------------------------
-// Root mean square of the worst band, relative; patches are of like size.
-double Compare(const std::vector<double>& found, const std::vector<double>& expected)
-{
-  Check(found.size() == expected.size() && !found.empty(), "results to compare");
-  std::array<double, Bands> errors{};
-  std::array<double, Bands> squares{};
-  for (std::size_t k = 0; k < std::min(found.size(), expected.size()); ++k)
-  {
-    errors[k % Bands] += std::pow(found[k] - expected[k], 2);
-    squares[k % Bands] += std::pow(expected[k], 2);
-  }
-  double worst = 0.0;
-  for (int band = 0; band < Bands; ++band)
-  {
-    worst = std::max(worst, std::sqrt(errors[band] / squares[band]));
-  }
-  return worst;
 }
 
 //------------------------------------------------------------------------------
@@ -157,8 +120,9 @@ void TestErrors(vtkPolyData* data)
       auto filter = MakeFilter(data, Scattering::LINK_METHOD_ADAPTIVE, millimeters);
       filter->SetNumberOfLinks(10000);
       filter->SetLinkTolerance(tolerance);
-      const double error = Compare(GetResult(filter), all);
-      Check(GetText(filter, "LinksLimitedBy") == "LinkTolerance", "the tolerance is kept" + what);
+      const double error = CompareBands(GetResult(filter), all);
+      Check(GetText(filter->GetPolyDataOutput(), "LinksLimitedBy") == "LinkTolerance",
+        "the tolerance is kept" + what);
       Check(GetField(filter, "LinkError") <= tolerance, "estimate within the tolerance" + what);
       Check(error <= 1.5 * tolerance && error < before,
         "adaptive links of " + std::to_string(tolerance) + what + ": " + std::to_string(error));
@@ -171,8 +135,9 @@ void TestErrors(vtkPolyData* data)
     {
       auto filter = MakeFilter(data, Scattering::LINK_METHOD_UNIFORM, millimeters);
       filter->SetNumberOfLinks(number);
-      const double error = Compare(GetResult(filter), all);
-      Check(GetText(filter, "LinkMethodUsed") == "Uniform" && error < before && error < 0.15,
+      const double error = CompareBands(GetResult(filter), all);
+      Check(GetText(filter->GetPolyDataOutput(), "LinkMethodUsed") == "Uniform" && error < before &&
+          error < 0.15,
         std::to_string(number) + " uniform links" + what + ": " + std::to_string(error));
       before = error;
     }
@@ -191,7 +156,8 @@ void TestNumbers(vtkPolyData* data)
     const double links = GetField(filter, "LinksPerReceiver");
     Check(links <= number && links > 0.8 * number,
       std::to_string(number) + " links at most, there are " + std::to_string(links));
-    Check(GetText(filter, "LinksLimitedBy") == "NumberOfLinks", "and they are the limit");
+    Check(GetText(filter->GetPolyDataOutput(), "LinksLimitedBy") == "NumberOfLinks",
+      "and they are the limit");
     CheckClose(GetField(filter, "NumberOfLinks"),
       links * static_cast<double>(data->GetNumberOfCells()), 1e-12, "links of all");
     Check(GetField(filter, "LinkBytes") > 16.0 * GetField(filter, "NumberOfLinks"), "bytes");
@@ -210,7 +176,7 @@ void TestEvenLight(vtkPolyData* data)
   {
     auto filter = MakeFilter(even, method, 12.0);
     filter->SetNumberOfLinks(16);
-    const double error = Compare(GetResult(filter), all);
+    const double error = CompareBands(GetResult(filter), all);
     Check(error < 6e-3, "even light by few links: " + std::to_string(error));
   }
 }
@@ -236,7 +202,7 @@ void TestPlaces(vtkPolyData* data)
     auto moved = MakeFilter(move->GetOutput(), Scattering::LINK_METHOD_ADAPTIVE, 12.0e-3);
     moved->SetNumberOfLinks(1000);
     moved->AddObserver(vtkCommand::WarningEvent, vtkNew<MessageLog>());
-    const double error = Compare(GetResult(moved), expected);
+    const double error = CompareBands(GetResult(moved), expected);
     Check(error < 1.5e-2, "a moved body: " + std::to_string(error));
   }
 }
@@ -262,7 +228,7 @@ void TestReuse(vtkPolyData* data)
   Check(GetField(filter, "LinksReused") == 1.0, "links are kept");
   std::transform(after.begin(), after.end(), after.begin(),
     [](double value) { return 0.5 * value; });
-  Check(Compare(after, before) < 1e-14, "twice the light");
+  Check(CompareBands(after, before) < 1e-14, "twice the light");
 }
 
 //------------------------------------------------------------------------------
@@ -301,7 +267,7 @@ void TestSheets()
     auto pairs = MakeFilter(data, Scattering::LINK_METHOD_DENSE, 5.0);
     auto clusters = MakeFilter(data, Scattering::LINK_METHOD_ADAPTIVE, 5.0);
     clusters->SetNumberOfLinks(1000);
-    const double error = Compare(GetResult(clusters), GetResult(pairs));
+    const double error = CompareBands(GetResult(clusters), GetResult(pairs));
     Check(error < 1e-2, std::to_string(sides.size()) + " sides: " + std::to_string(error));
     const double leaving = GetSummary(clusters->GetPolyDataOutput(), "LeavingFlux");
     clusters->SetInputDataObject(blocks);
@@ -323,14 +289,16 @@ void TestMethods(vtkPolyData* data)
   for (const int method : { Scattering::LINK_METHOD_AUTO, Scattering::LINK_METHOD_UNIFORM,
          Scattering::LINK_METHOD_ADAPTIVE })
   {
-    Check(Compare(GetResult(MakeFilter(triangle, method, 1.0)), exact) < 1e-6, "one triangle");
+    Check(CompareBands(GetResult(MakeFilter(triangle, method, 1.0)), exact) < 1e-6, "one triangle");
   }
   auto few = MakeFilter(triangle, Scattering::LINK_METHOD_AUTO, 1.0);
   few->Update();
-  Check(GetText(few, "LinkMethodUsed") == "Dense", "few patches are linked each with each");
+  Check(GetText(few->GetPolyDataOutput(), "LinkMethodUsed") == "Dense",
+    "few patches are linked each with each");
   auto many = MakeFilter(data, Scattering::LINK_METHOD_AUTO, 120.0);
   many->Update();
-  Check(GetText(many, "LinkMethodUsed") == "Adaptive", "many patches by clusters");
+  Check(GetText(many->GetPolyDataOutput(), "LinkMethodUsed") == "Adaptive",
+    "many patches by clusters");
 
   auto photons = MakeFilter(data, Scattering::LINK_METHOD_UNIFORM, 1.0);
   vtkNew<MessageLog> errors;

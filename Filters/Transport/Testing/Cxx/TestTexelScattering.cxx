@@ -113,23 +113,17 @@ vtkSmartPointer<vtkImageData> Scatter(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> GetValues(vtkDataArray* array)
+std::vector<double> GetFound(vtkDataArray* array)
 {
-  std::vector<double> values;
   Check(array != nullptr, "there is a result");
-  for (vtkIdType k = 0; array && k < array->GetNumberOfValues(); ++k)
-  {
-    const int components = array->GetNumberOfComponents();
-    values.push_back(array->GetComponent(k / components, static_cast<int>(k % components)));
-  }
-  return values;
+  return GetValues(array);
 }
 
 //------------------------------------------------------------------------------
 std::vector<double> GetScattered(vtkImageData* image)
 {
   Check(image != nullptr, "the output is an image");
-  return GetValues(image ? image->GetPointData()->GetArray(Scattered) : nullptr);
+  return GetFound(image ? image->GetPointData()->GetArray(Scattered) : nullptr);
 }
 
 //------------------------------------------------------------------------------

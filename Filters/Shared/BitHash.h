@@ -4,8 +4,11 @@
 #ifndef BitHash_h
 #define BitHash_h
 
+#include "vtkObject.h"
+
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 
 namespace LightTransport
 {
@@ -30,6 +33,16 @@ public:
     for (const auto value : values)
     {
       this->Add(static_cast<std::uint64_t>(value));
+    }
+  }
+  /// Who they are, and when they were last changed; they may be nullptr. So one that is replaced by
+  /// an older one tells, too.
+  void AddObjects(std::initializer_list<vtkObject*> objects)
+  {
+    for (vtkObject* object : objects)
+    {
+      this->Add(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(object)));
+      this->Add(object ? object->GetMTime() : 0);
     }
   }
   std::uint64_t Get() const { return this->Value; }
