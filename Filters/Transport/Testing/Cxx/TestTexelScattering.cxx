@@ -454,7 +454,7 @@ void TestArrayErrors()
         shortened->SetNumberOfTuples(3);
       });
   }
-  ExpectOfArray("no point array \"Position\", \"Normal\":",
+  ExpectOfArray(R"(no point array "Position", "Normal":)",
     [](vtkPointData* texels)
     {
       texels->RemoveArray("Normal");
@@ -464,7 +464,7 @@ void TestArrayErrors()
     [](vtkPointData* texels) { texels->GetArray("Area")->SetComponent(5, 0, -1.0); });
   ExpectOfArray("has no texels with surface",
     [](vtkPointData* texels) { texels->GetArray("ChartId")->Fill(-1.0); });
-  ExpectOfArray("The input has no point array \"Irradiance\". There is \"Irradiance1\"",
+  ExpectOfArray(R"(The input has no point array "Irradiance". There is "Irradiance1")",
     [](vtkPointData* texels) { texels->GetArray("Irradiance")->SetName("Irradiance1"); });
   ExpectOfArray("The point array \"Irradiance\" has a value that is not finite at point 5",
     [](vtkPointData* texels)
