@@ -7,6 +7,8 @@ a class was not built, its options are left out.
 """
 
 import vtklighttransport as lt
+from vtklighttransport import filters
+from vtklighttransport.filters import find_choices
 from vtklighttransport.shell.arguments import parse_numbers, refuse_value
 from vtklighttransport.shell.stages import Failure
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -131,14 +133,10 @@ class InputArray:
 
 
 def find_class(name):
-    if not hasattr(lt, name):
-        raise Failure(f"this build has no {name}: its module was switched off in CMake")
-    return getattr(lt, name)
-
-
-def find_choices(kind, prefix):
-    return {key[len(prefix):].lower().replace("_", "-"): getattr(kind, key)
-            for key in dir(kind) if key.startswith(prefix)}
+    try:
+        return filters.find_class(name)
+    except AttributeError as error:
+        raise Failure(str(error)) from error
 
 
 def keeps_value(model, name, value):

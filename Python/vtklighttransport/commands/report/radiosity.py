@@ -3,9 +3,10 @@
 """The report of radiosity: ways to link patches, and solvers."""
 
 from vtklighttransport.commands.report.values import Count, Tolerance, Tolerances
+from vtklighttransport.filters import find_choices
 from vtklighttransport.shell.enclosure import ARRAYS, ENCLOSURE
 from vtklighttransport.shell.properties import (
-    DEVICE, add_arrays, add_properties, check_properties, choose_arrays, find_choices, find_class,
+    DEVICE, add_arrays, add_properties, check_properties, choose_arrays, find_class,
     make_filter)
 
 TITLE = "radiosity"
