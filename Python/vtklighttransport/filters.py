@@ -106,7 +106,8 @@ def suggest(name, names):
 
 
 def run_filter(algorithm, data=None, progress=False):
-    """The output of port 0. LightTransportError has what the filter reports."""
+    """The output of port 0. LightTransportError has what the filter reports. `progress` may be a
+    bar."""
     errors, doubts = [], []
     observers = [algorithm.AddObserver("ErrorEvent", make_listener(errors)),
                  algorithm.AddObserver("WarningEvent", make_listener(doubts))]
@@ -116,7 +117,9 @@ def run_filter(algorithm, data=None, progress=False):
     try:
         if data is not None:
             algorithm.SetInputDataObject(0, data)
-        update(algorithm, ProgressBar(algorithm.GetClassName()[3:]) if progress else None)
+        if progress is True:
+            progress = ProgressBar(algorithm.GetClassName()[3:])
+        update(algorithm, progress or None)
     finally:
         for observer in observers:
             algorithm.RemoveObserver(observer)

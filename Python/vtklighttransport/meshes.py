@@ -66,13 +66,13 @@ def has_meshio():
     return importlib.util.find_spec("meshio") is not None
 
 
-def read_mesh(file):
+def read_mesh(file, progress=False):
     """The surface in a file, a vtkPolyData. OSError or ValueError says what prevents it."""
     check_extension(file)
     if not os.path.isfile(file):
         raise FileNotFoundError(f"cannot read {file}: no such file")
     try:
-        data = read_data(file)
+        data = read_data(file, progress)
     except LightTransportError as error:
         raise ValueError(f"cannot read {file}: {error}") from error
     surface = extract_surface(data)
@@ -81,12 +81,12 @@ def read_mesh(file):
     return surface
 
 
-def read_data(file):
+def read_data(file, progress):
     """What VTK or meshio makes of it."""
     if get_extension(file) not in READERS:
         return read_with_meshio(file)
     reader = make_reader(file)
-    data = run_filter(reader)
+    data = run_filter(reader, progress=progress)
     if get_extension(file) == ".stl":
         name_solids(file, data)
     return data

@@ -44,8 +44,8 @@ def describe_time_left(seconds, fraction):
     return f"{hours}:{minutes:02}:{left:02} left" if hours else f"{minutes}:{left:02} left"
 
 
-def update(algorithm, bar=None, stop=True):
-    """Runs the filter. With `stop` Ctrl-C ends it in order, and then raises KeyboardInterrupt."""
+def update(algorithm, bar=None):
+    """Runs the filter. Ctrl-C ends it in order, and then raises KeyboardInterrupt."""
     def on_progress(_algorithm, _event):
         # A signal that a thread of a filter took Python does not see before it takes its lock anew.
         time.sleep(0)
@@ -54,7 +54,7 @@ def update(algorithm, bar=None, stop=True):
 
     observer = algorithm.AddObserver("ProgressEvent", on_progress)
     try:
-        with stopping(algorithm) if stop else contextlib.nullcontext():
+        with stopping(algorithm):
             algorithm.Update()
     finally:
         algorithm.RemoveObserver(observer)
@@ -64,19 +64,21 @@ def update(algorithm, bar=None, stop=True):
 
 @contextlib.contextmanager
 def stopping(algorithm):
-    """Only the main thread may say what a signal does; in another one Ctrl-C is as it was."""
+    """Only the main thread may say what a signal does; in another one Ctrl-C is as it was. And so
+    it is where it ends the process at once."""
     interrupted = []
 
     def on_interrupt(_signal, _frame):
         interrupted.append(True)
         algorithm.SetAbortExecute(1)
 
-    in_main = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGINT, on_interrupt) if in_main else None
+    listens = (threading.current_thread() is threading.main_thread()
+               and signal.getsignal(signal.SIGINT) != signal.SIG_DFL)
+    before = signal.signal(signal.SIGINT, on_interrupt) if listens else None
     try:
         yield
     finally:
-        if in_main:
+        if listens:
             # None: not Python's, and not to be restored by it.
             signal.signal(signal.SIGINT, before or signal.SIG_DFL)
     if interrupted:

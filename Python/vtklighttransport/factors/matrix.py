@@ -133,7 +133,13 @@ def view_factors(mesh, *, group=None, progress=False, **properties):
     algorithm = make_filter("vtkViewFactors", **properties)
     if group is not None:
         algorithm.SetInputArrayToProcess(0, 0, 0, 1, group)
-    result = run_filter(algorithm, surface, progress)
+    run_filter(algorithm, surface, progress)
+    return make_matrix(algorithm)
+
+
+def make_matrix(algorithm):
+    """Of a vtkViewFactors that is up to date."""
+    result = algorithm.GetOutputDataObject(0)
     sides = ("", "Back") if algorithm.GetTwoSided() else ("",)
 
     def gather(name):

@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Filters with progress, errors as plain lines."""
+"""Filters with progress, errors as plain lines, and what is told at the end."""
 
+import contextlib
+import dataclasses
 import sys
 import time
 
 from vtklighttransport.filters import plain
 from vtklighttransport.progress import ProgressBar, update
-from vtklighttransport.shell.interrupts import ends_process
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import (
     VTK_STRING, vtkLogger, vtkOutputWindow, vtkStringOutputWindow)
@@ -22,6 +23,7 @@ class Messages:
 
     def __init__(self):
         self.errors = []
+        self.warnings = []
         # Otherwise each message is on stderr a second time, with its place in the source.
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
         self.window = vtkStringOutputWindow()
@@ -37,7 +39,11 @@ class Messages:
 
     @calldata_type(VTK_STRING)
     def on_warning(self, _window, _event, text):
-        print("warning: " + plain(text), file=sys.stderr)
+        self.warn(plain(text))
+
+    def warn(self, text):
+        self.warnings.append(text)
+        print("warning: " + text, file=sys.stderr)
 
     def check(self):
         if self.errors:
@@ -50,22 +56,36 @@ class Messages:
         return text
 
 
+@dataclasses.dataclass
+class Summary:
+    """What a command has done: as text for people, as values for scripts."""
+
+    text: str
+    values: dict
+
+
+@contextlib.contextmanager
+def telling_progress(name, quiet):
+    """Gives a bar where there is a terminal, None where there is none, and a line at the end."""
+    shown = not quiet and sys.stderr.isatty()
+    begin = time.monotonic()
+    yield ProgressBar(name) if shown else None
+    if not quiet and not shown:
+        print(f"{name}: {time.monotonic() - begin:.1f} s", file=sys.stderr)
+
+
 class Stage:
     """One filter of the run, with its line of progress on stderr."""
 
     def __init__(self, name, algorithm, quiet):
         self.name = name
         self.algorithm = algorithm
-        self.bar = not quiet and sys.stderr.isatty()
-        self.line = not quiet and not self.bar
+        self.quiet = quiet
 
     def run(self, messages, data=None):
         if data is not None:
             self.algorithm.SetInputDataObject(0, data)
-        begin = time.monotonic()
-        update(self.algorithm, ProgressBar(self.name) if self.bar else None,
-               stop=not ends_process())
-        messages.check()
-        if self.line:
-            print(f"{self.name}: {time.monotonic() - begin:.1f} s", file=sys.stderr)
+        with telling_progress(self.name, self.quiet) as bar:
+            update(self.algorithm, bar)
+            messages.check()
         return self.algorithm.GetOutputDataObject(0)

@@ -7,7 +7,7 @@ from vtklighttransport.filters import find_choices
 from vtklighttransport.shell.enclosure import ARRAYS, ENCLOSURE
 from vtklighttransport.shell.properties import (
     DEVICE, add_arrays, add_properties, check_properties, choose_arrays, find_class,
-    make_filter)
+    give_values, make_filter)
 
 TITLE = "radiosity"
 CLASS = "vtkRadiosity"
@@ -58,6 +58,6 @@ def make_enclosure(options):
     return radiosity
 
 
-def light(_options, _messages, surface, _subject):
+def light(options, _messages, surface, _subject):
     """Scenes have their own light."""
-    return surface
+    return give_values(options, ARRAYS, surface)
