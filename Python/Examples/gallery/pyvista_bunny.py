@@ -9,8 +9,11 @@ import sys
 import numpy
 import pyvista
 
+import vtklighttransport as lt
 from shapes import DATA
 
+# Pictures without a display.
+lt.vtkOffScreenOpenGLRenderWindow.RegisterAsDefault()
 mesh = pyvista.read(DATA + "/bunny.ply")
 surface = mesh.light_transport.patches(n=2000).light_transport.atlas(resolution=64)
 plotter = pyvista.Plotter(off_screen=True, window_size=(480, 480), lighting="none")
