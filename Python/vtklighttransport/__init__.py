@@ -8,8 +8,14 @@ Every class of every module that was built is here:
     radiosity = lt.vtkRadiosity()
 
 A module that was switched off when the package was built is left out; one that was built and
-cannot be loaded raises ImportError. ``arrays`` (needs numpy) holds helpers for getting numbers in
-and out of data sets. ``python3 -m vtklighttransport --help`` runs the filters from the shell.
+cannot be loaded raises ImportError. Short forms for engineers, which need numpy:
+
+    matrix = lt.view_factors("part.stl")
+    matrix = lt.read_view_factors("f.npz")
+
+``arrays`` holds helpers for getting numbers in and out of data sets. ``python3 -m vtklighttransport
+--help`` runs the filters from the shell. With PyVista, its meshes have them as
+``mesh.light_transport``.
 """
 
 import importlib
@@ -45,3 +51,20 @@ for _module in _MODULES:
             globals()[_name] = _value
             __all__.append(_name)
 del _module, _name, _value
+
+# What needs numpy, and is loaded when it is asked for.
+_LATER = {
+    "LightTransportError": "filters",
+    "LightTransportWarning": "filters",
+    "ViewFactorMatrix": "factors",
+    "read_mesh": "meshes",
+    "read_view_factors": "factors",
+    "view_factors": "factors",
+}
+__all__ += _LATER
+
+
+def __getattr__(name):
+    if name not in _LATER:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(importlib.import_module("." + _LATER[name], __name__), name)

@@ -4,7 +4,8 @@
 
 from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
 from vtklighttransport.shell.properties import (
-    Choice, Color, InputArray, Number, add_arrays, choose_array, choose_arrays, make_filter)
+    Choice, Color, InputArray, Number, add_arrays, choose_array, choose_arrays, give_values,
+    make_filter)
 from vtkmodules.vtkCommonCore import reference
 
 MODEL = Choice("--model", "Model", "MODEL_",
@@ -31,9 +32,9 @@ BODY = (
            "surface"),
 )
 IRRADIANCE = InputArray(
-    "--irradiance", 0,
-    "without a light: cell array (of texels: point array) of what falls in "
-    "[Irradiance, or TransmittedIrradiance]")
+    "--irradiance", 0, "Irradiance",
+    "without a light: what falls in (of texels: point array); where none is given, "
+    "TransmittedIrradiance too")
 
 
 def add_light_that_falls_in(parser):
@@ -54,6 +55,7 @@ def make_scattering(options, table):
 
 
 def light_body(options, messages, surface, scattering):
+    surface = give_values(options, [IRRADIANCE], surface)
     return light_scene(options, messages, surface, find_material(scattering)[2])
 
 

@@ -25,13 +25,12 @@ ENCLOSURE = (
                "radiance that enters through them: a value, or one per band with commas between"),
 )
 ARRAYS = (
-    InputArray("--emission", 0, "cell array of emitted flux per area [Emission]"),
-    InputArray("--reflectance", 1, "cell array of diffuse reflectance, 0 to 1 [Reflectance]"),
-    InputArray("--temperature", 2, "cell array of temperatures in kelvin [Temperature]"),
-    InputArray("--emissivity", 3, "cell array of emissivity, 0 to 1 [Emissivity]"),
-    InputArray("--boundary-condition", 5,
-               "cell array: 0 where the temperature is given, 1 where the net flux is "
-               "[BoundaryCondition]"),
-    InputArray("--net-flux", 6,
-               "cell array of given net fluxes, W/m2; 0 without one [PrescribedNetFlux]"),
+    InputArray("--emission", 0, "Emission", "emitted flux per area"),
+    InputArray("--reflectance", 1, "Reflectance", "diffuse reflectance, 0 to 1"),
+    InputArray("--temperature", 2, "Temperature", "temperatures in kelvin"),
+    InputArray("--emissivity", 3, "Emissivity", "emissivity, 0 to 1"),
+    InputArray("--boundary-condition", 5, "BoundaryCondition",
+               "0 where the temperature is given, 1 where the net flux is"),
+    InputArray("--net-flux", 6, "PrescribedNetFlux",
+               "given net fluxes, W/m2; 0 without one"),
 )
