@@ -332,8 +332,8 @@ vtkSmartPointer<vtkAlgorithm> MakeSingleScattering(Choices& choices, const Room&
   auto scattering = vtkSmartPointer<vtkSingleScattering>::New();
   ChooseMedium(choices, scattering.Get());
   ChooseLighting(choices, scattering);
-  scattering->SetNumberOfSamples(choices.Among({ 16, 8, 1, -1 }));
-  scattering->SetMinimumContribution(ChooseTolerance(choices, { 1e-2, 1e-3, 1e9 }));
+  scattering->SetNumberOfSamples(choices.Among({ 8, 1, -1 }));
+  scattering->SetMinimumContribution(ChooseTolerance(choices, { 1e-1, 1e-2, 1e9 }));
   return scattering;
 }
 } // namespace
