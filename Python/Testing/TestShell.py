@@ -187,7 +187,7 @@ class TestShell(CommandTestCase):
         cube = make_surface(make_box((0, 0, 0), (1, 1, 1)))
         add_array(add_array(cube, "emission", [1.0] * 6), "Reflectance", [0.5] * 6)
         source = self.save("in.vtp", add_array(cube, "HeatFlux", [1.0] * 6))
-        for options, near in (((), "emission"), (("--emission", "emision"), "emission"),
+        for options, near in (((), "emission"), (("--emission", "emissn"), "emission"),
                               (("--emission", "emission", "--net-flux", "HeatFlx"), "HeatFlux")):
             result = self.run_command("radiosity", source, self.path("out.vtp"), *options)
             self.check_failure(result, 1, "did you mean")

@@ -8,10 +8,10 @@ Every class of every module that was built is here:
     radiosity = lt.vtkRadiosity()
 
 A module that was switched off when the package was built is left out; one that was built and
-cannot be loaded raises ImportError. Short forms for engineers, which need numpy:
+cannot be loaded raises ImportError. Short forms of whole jobs (`jobs`, `factors`):
 
+    surface = lt.radiosity("part.stl", temperature=300, emissivity=0.9)
     matrix = lt.view_factors("part.stl")
-    matrix = lt.read_view_factors("f.npz")
 
 ``arrays`` holds helpers for getting numbers in and out of data sets. ``python3 -m vtklighttransport
 --help`` runs the filters from the shell. With PyVista, its meshes have them as
@@ -35,6 +35,9 @@ import vtkmodules.vtkCommonExecutionModel  # noqa: F401
 
 from ._build import MODULES as _MODULES
 from ._build import VERSION as __version__
+from ._vtk import check as _check_vtk
+
+_check_vtk()
 
 _REQUIRED = {
     "vtkLightTransportFilters": ("vtkCommonMath", "vtkRenderingCore"),
@@ -52,13 +55,18 @@ for _module in _MODULES:
             __all__.append(_name)
 del _module, _name, _value
 
-# What needs numpy, and is loaded when it is asked for.
+# What is loaded when it is asked for; some of it needs numpy.
 _LATER = {
     "LightTransportError": "filters",
     "LightTransportWarning": "filters",
     "ViewFactorMatrix": "factors",
+    "atlas": "jobs",
+    "irradiance": "jobs",
+    "patches": "jobs",
+    "radiosity": "jobs",
     "read_mesh": "meshes",
     "read_view_factors": "factors",
+    "scatter": "jobs",
     "view_factors": "factors",
 }
 __all__ += _LATER

@@ -72,5 +72,10 @@ def print_json(values):
     return json.dumps(clean(values), indent=2)
 
 
-if __name__ == "__main__":
+def run_script():
+    """The command that pip makes."""
     sys.exit(main(sys.argv[1:]))
+
+
+if __name__ == "__main__":
+    run_script()

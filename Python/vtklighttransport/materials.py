@@ -25,6 +25,7 @@ def set_cell_values(surface, name, value):
     if isinstance(value, dict):
         set_by_region(surface, name, value)
     elif is_number(value) or len(value) != surface.GetNumberOfCells():
+        refuse_points(surface, name, value)
         surface.GetCellData().AddArray(make_array(surface, name, value))
     else:
         from vtklighttransport.arrays import set_cell_array
@@ -52,6 +53,14 @@ def to_row(name, value, count):
         raise ValueError(f"{name} must be a number, or one for each band, or one for each of the "
                          f"{count} cells, not {describe(value)}")
     return row
+
+
+def refuse_points(surface, name, value):
+    """One for each band, and by chance as many as there are points, is a list or tuple."""
+    count = surface.GetNumberOfPoints()
+    if hasattr(value, "shape") and value.shape and value.shape[0] == count:
+        raise ValueError(f"{name} has a value for each of the {count} points: patches are cells, "
+                         "take the means of their corners (point_data_to_cell_data)")
 
 
 def describe(value):

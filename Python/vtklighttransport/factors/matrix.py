@@ -29,12 +29,13 @@ class ViewFactorMatrix:
                 where nothing tells
     groups      columns of the table between groups by their names; empty where there is none
     summary     what the filter tells of the run: EnclosureVerdict, RaysCast, ...
+    mesh        the surface with the arrays of vtkViewFactors; None where there is none
 
     `matrix[i, j]`, `matrix @ values` and `numpy.asarray(matrix)` are those of the factors.
     """
 
     def __init__(self, factors, areas=None, *, sky=None, back_faces=None, errors=None,
-                 groups=None, summary=None):
+                 groups=None, summary=None, mesh=None):
         if hasattr(factors, "tocsr"):
             factors = factors.tocsr().astype(numpy.float64)
         else:
@@ -49,6 +50,7 @@ class ViewFactorMatrix:
         self.errors = self._check_column("errors", errors, numpy.nan)
         self.groups = groups or {}
         self.summary = summary or {}
+        self.mesh = mesh
 
     def _check_column(self, name, values, default=None):
         if values is None:
@@ -149,7 +151,8 @@ def make_matrix(algorithm):
     return ViewFactorMatrix(
         take_factors(algorithm, len(sky)), take_areas(algorithm, len(sky)), sky=sky,
         back_faces=gather("BackFaceFraction"), errors=gather("ViewFactorError"),
-        groups=take_table(algorithm.GetGroupTable()), summary=list_summaries(result))
+        groups=take_table(algorithm.GetGroupTable()), summary=list_summaries(result),
+        mesh=result)
 
 
 def read_view_factors(file, areas=None, faces=None):

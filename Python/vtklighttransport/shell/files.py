@@ -7,7 +7,7 @@ import errno
 import os
 import warnings
 
-from vtklighttransport.meshes import check_extension, get_extension, list_extensions, read_mesh
+from vtklighttransport.meshes import READERS, check_extension, get_extension, read_mesh
 from vtklighttransport.replacement import check_place, replace_file
 from vtklighttransport.shell.stages import Failure, Stage, Summary, telling_progress
 from vtklighttransport.summaries import list_summaries
@@ -18,7 +18,8 @@ from vtkmodules.vtkIOXML import (
 def add_input(parser, *others):
     """`others` are texts of what may be read besides."""
     parser.add_argument("input", help="; ".join(
-        ["surface mesh: " + ", ".join(list_extensions()), *others]))
+        ["surface mesh: " + ", ".join(READERS) + ", and what meshio reads where it is there",
+         *others]))
 
 
 def check_input(options):
