@@ -42,6 +42,8 @@ public:
 
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
+  /// Whether it made them, and did not find them kept.
+  bool WereMade() const { return this->LoadedFile.empty() && this->Cache.WereMade(); }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
