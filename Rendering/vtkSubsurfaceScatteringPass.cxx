@@ -252,10 +252,10 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSubsurfaceScatteringPass::IsMapped(vtkProp* prop)
+RadianceShader::Source vtkSubsurfaceScatteringPass::GetSource(vtkProp* prop)
 {
   Body* body = this->FindBody(prop);
-  return body && body->IsMapped;
+  return body && body->IsMapped ? RadianceShader::Source::Map : RadianceShader::Source::Array;
 }
 
 //------------------------------------------------------------------------------

@@ -121,7 +121,7 @@ protected:
   ~vtkSubsurfaceScatteringPass() override;
 
   bool UpdateMaps(const vtkRenderState* state) override;
-  bool IsMapped(vtkProp* prop) override;
+  LightTransport::RadianceShader::Source GetSource(vtkProp* prop) override;
   void SetMap(vtkShaderProgram* program, vtkProp* prop,
     LightTransport::RadianceShader::Uniforms& uniforms) override;
   void LetGoOfMaps() override;

@@ -9,6 +9,7 @@
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolver.h"
 #include "Radiosity/SampledErrors.h"
+#include "Radiosity/ShotPatches.h"
 #include "Radiosity/SolverSettings.h"
 #include "Radiosity/SolverTable.h"
 #include "Radiosity/ThermalDoubts.h"
@@ -16,6 +17,7 @@
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
 #include "Scene/SmoothPoints.h"
+#include "Shared/AbortCheck.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
 #include "Shared/TransportMemory.h"
@@ -91,11 +93,21 @@ void PrintValues(ostream& os, const std::vector<double>& values)
 }
 } // namespace
 
+/// Shots that others make.
+struct vtkRadiosity::OwnShots
+{
+  ShotProblem* Problem = nullptr; ///< to be told
+  bool UsesAmbient = false;       ///< where nothing has been shot yet
+  const std::vector<double>* Irradiance = nullptr;
+  vtkIdType NumberOfShots = 0;
+};
+
 //------------------------------------------------------------------------------
 class vtkRadiosity::Run : public TransportRun
 {
 public:
-  Run(vtkRadiosity* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner)
+  Run(vtkRadiosity* owner, const RunPorts& ports, OwnShots* ownShots = nullptr)
+    : TransportRun(ports), Owner(owner), Others(ownShots)
   {
     this->NumberOfSides = owner->TwoSided ? 2 : 1;
   }
@@ -134,6 +146,9 @@ private:
   Outcome Solve(const Monitor& monitor);
   Outcome FindErrors(const Monitor& monitor);
   Outcome Shoot(const Monitor& monitor);
+  Outcome CheckBackground() const;
+  Outcome TakeShots();
+  void AddDirectIrradiance();
   Outcome AddHint(const Outcome& solved) const;
   bool Finish();
 
@@ -143,6 +158,7 @@ private:
   void WriteSummaries() const;
 
   vtkRadiosity* Owner;
+  OwnShots* Others;                    // null but where others shoot
   const SolverEntry* Solver = nullptr; // set by Check
   RadiosityMaterials Materials;
   const LightTransport::Links* Links = nullptr; // null where the solver needs none
@@ -179,7 +195,8 @@ NumberProperties::List vtkRadiosity::Run::ListNumbers() const
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Check()
 {
-  this->Solver = SolverTable::Find(this->Owner->Solver, this->Owner->Device);
+  this->Solver = this->Others ? SolverTable::Find(SOLVER_SOUTHWELL, DEVICE_OPENGL)
+                              : SolverTable::Find(this->Owner->Solver, this->Owner->Device);
   if (!this->Solver)
   {
     return Outcome::Failed(SolverTable::ExplainUnknown(this->Owner->Solver));
@@ -335,8 +352,10 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
   const ViewFactorSettings own{ this->GetViewFactorTolerance(), this->Owner->EnforceClosure,
     this->GetLinkMethod(), linkTolerance, plan };
   this->Links = &store.GetLinks();
-  return store.Update(this->Scene, given ? given->GetSettings() : own,
+  const Outcome updated = store.Update(this->Scene, given ? given->GetSettings() : own,
     needsAll ? std::vector<bool>() : this->Materials.FindSenders(), this->AllRanks, monitor);
+  this->Owner->NumberOfLinkRuns += updated && store.WereMade() ? 1 : 0;
+  return updated;
 }
 
 //------------------------------------------------------------------------------
@@ -424,6 +443,7 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
   const HierarchicalViewFactors builder(this->GetLinkTolerance(),
     Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks));
   this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
+  ++this->Owner->NumberOfLinkRuns;
   this->Links = &this->BrightLinks;
   return builder.Build(this->Scene, this->AllRanks, second, this->BrightLinks);
 }
@@ -431,6 +451,10 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Compute()
 {
+  if (this->Others)
+  {
+    return this->TakeShots();
+  }
   const Monitor monitor = this->Progress.GetMonitor();
   Outcome solved = Outcome::Done();
   if (!this->IsSolved)
@@ -510,11 +534,9 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
   {
     return Outcome::Failed("Device is OpenGL, but " + reason + " Or set Device to Auto or CPU.");
   }
-  if (this->Materials.Settings.HasBackground())
+  if (Outcome checked = this->CheckBackground(); !checked)
   {
-    return Outcome::Failed(
-      "Southwell on OpenGL computes no sky fractions, which a background needs: set "
-      "Device to Auto or CPU, or use another solver.");
+    return checked;
   }
   const RadiosityEquation equation = this->DescribeEquation();
   const vtkIdType patches = equation.NumberOfPatches;
@@ -529,10 +551,72 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
   this->DeviceUsed = shooter->GetDeviceName();
   this->DeviceExplanation = "OpenGL: asked for";
   this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
+  this->AddDirectIrradiance();
+  return this->AddHint(solved);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::CheckBackground() const
+{
+  return this->Materials.Settings.HasBackground()
+    ? Outcome::Failed("Southwell on OpenGL computes no sky fractions, which a background needs: "
+                      "set Device to Auto or CPU, or use another solver.")
+    : Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// To what shots have brought.
+void vtkRadiosity::Run::AddDirectIrradiance()
+{
   this->Irradiance = this->Solution.Irradiance;
   std::transform(this->Irradiance.begin(), this->Irradiance.end(),
     this->Materials.DirectIrradiance.begin(), this->Irradiance.begin(), std::plus<double>());
-  return this->AddHint(solved);
+}
+
+//------------------------------------------------------------------------------
+// What others have shot, or are to shoot.
+Outcome vtkRadiosity::Run::TakeShots()
+{
+  if (Outcome checked = this->CheckBackground(); !checked)
+  {
+    return checked;
+  }
+  const RadiosityEquation equation = this->DescribeEquation();
+  const std::vector<double> ambient = equation.FindAmbientIrradiance(this->Scene.GetAreas());
+  const std::size_t size = equation.Emission.size();
+  std::vector<double>& irradiance = this->Solution.Irradiance;
+  irradiance.assign(size, 0.0);
+  for (std::size_t k = 0; k < size && this->Others->UsesAmbient; ++k)
+  {
+    irradiance[k] = ambient[k % ambient.size()];
+  }
+  if (this->Others->Irradiance)
+  {
+    if (this->Others->Irradiance->size() != size)
+    {
+      return Outcome::Failed("The irradiance of shots is that of another scene: shoot again.");
+    }
+    irradiance = *this->Others->Irradiance;
+  }
+  this->Solution.Solver = SOLVER_SOUTHWELL;
+  this->Solution.Explanation = "Southwell: by others";
+  this->Solution.Status = SolverStatus::IterationsUsedUp;
+  this->Solution.Radiosity = equation.Emission;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    this->Solution.Radiosity[k] += equation.Reflectance[k] * irradiance[k];
+  }
+  this->Shots = static_cast<int>(this->Others->NumberOfShots);
+  this->AddDirectIrradiance();
+  if (ShotProblem* problem = this->Others->Problem)
+  {
+    problem->Patches = DescribePatches(this->Scene);
+    problem->NumberOfBands = equation.NumberOfBands;
+    problem->Source = equation.Emission;
+    problem->Reflectance = equation.Reflectance;
+    problem->Ambient = ambient;
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -630,6 +714,14 @@ void vtkRadiosity::Run::Write()
   output.AddArray("Radiosity", radiosity, bands);
   output.AddArray(ArrayNames::Irradiance, this->Irradiance, bands);
   output.AddArray("NetFlux", flux, bands);
+  if (this->Others)
+  {
+    output.AddGroups(ArrayNames::SmoothGroup);
+    if (ShotProblem* problem = this->Others->Problem)
+    {
+      points.GetMembers(problem->Starts, problem->Members, problem->Parts);
+    }
+  }
   if (this->Materials.IsThermal())
   {
     this->WriteThermal(flux, output);
@@ -773,6 +865,82 @@ vtkTable* vtkRadiosity::GetConvergence()
 std::unique_ptr<TransportRun> vtkRadiosity::MakeRun(const RunPorts& ports)
 {
   return std::make_unique<Run>(this, ports);
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::CopyProperties(vtkRadiosity* source)
+{
+  if (!source || source == this)
+  {
+    return;
+  }
+  this->FeatureAngle = source->FeatureAngle;
+  this->Solver = source->Solver;
+  this->Tolerance = source->Tolerance;
+  this->MaximumNumberOfIterations = source->MaximumNumberOfIterations;
+  this->BandLimits = source->BandLimits;
+  this->BackgroundTemperature = source->BackgroundTemperature;
+  this->BackgroundRadiances = source->BackgroundRadiances;
+  this->LinkMethod = source->LinkMethod;
+  this->LinkTolerance = source->LinkTolerance;
+  this->ClusterTree = source->ClusterTree;
+  this->TwoSided = source->TwoSided;
+  this->RefineByBrightness = source->RefineByBrightness;
+  this->Device = source->Device;
+  this->ViewFactorTolerance = source->ViewFactorTolerance;
+  this->EnforceClosure = source->EnforceClosure;
+  this->SetViewFactors(source->ViewFactors);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::RunShots(vtkDataObject* scene, OwnShots& shots, vtkDataObject* output)
+{
+  if (!scene || !output)
+  {
+    vtkErrorMacro("There is no scene to shoot in, or no output to write to.");
+    return false;
+  }
+  AbortCheck::Forget(this);
+  RunPorts ports;
+  ports.Filter = this;
+  ports.Input = scene;
+  ports.Output = output;
+  ports.ProgressInterval = this->ProgressInterval;
+  Outcome outcome = Outcome::Done();
+  {
+    Run run(this, ports, &shots);
+    outcome = run.Go();
+  }
+  if (!outcome)
+  {
+    output->Initialize();
+  }
+  if (!outcome.GetMessage().empty())
+  {
+    vtkErrorMacro(<< outcome.GetMessage());
+  }
+  return static_cast<bool>(outcome);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::PrepareShots(vtkDataObject* scene, bool ambient, ShotProblem& problem,
+  vtkDataObject* output)
+{
+  OwnShots shots;
+  shots.Problem = &problem;
+  shots.UsesAmbient = ambient;
+  return this->RunShots(scene, shots, output);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::WriteShots(vtkDataObject* scene, const std::vector<double>& irradiance,
+  vtkIdType numberOfShots, vtkDataObject* output)
+{
+  OwnShots shots;
+  shots.Irradiance = &irradiance;
+  shots.NumberOfShots = numberOfShots;
+  return this->RunShots(scene, shots, output);
 }
 
 //------------------------------------------------------------------------------

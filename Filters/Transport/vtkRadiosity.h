@@ -79,6 +79,7 @@
 #define vtkRadiosity_h
 
 #include "vtkLightTransportFiltersModule.h" // for export macro
+#include "vtkDeviceShooter.h" // for ShotProblem
 #include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
@@ -327,6 +328,43 @@ public:
   /// The table of port 1.
   vtkTable* GetConvergence();
 
+  /// How often links have been made: not where kept ones served, and not by shots.
+  vtkGetMacro(NumberOfLinkRuns, vtkIdType);
+
+  /// All properties of another one, view factors that were given included; neither its input nor
+  /// its links.
+  void CopyProperties(vtkRadiosity* source);
+
+  ///@{
+  /**
+   * For those who shoot themselves, and show the solution while it comes (vtkRadiosityPass).
+   * PrepareShots tells what there is to shoot, of a scene that need not be connected; solver, links
+   * and Device do not matter. WriteShots makes the output of port 0 from the irradiance
+   * (patches x bands) that shots have brought, without the direct one; `numberOfShots` is written
+   * with it. The point array "SmoothGroup" of either output is the group of each point, -1 for
+   * none: its radiosity is the sum over the group's members of Part times that of the patch.
+   * `output` of PrepareShots has what WriteShots writes of the `ambient` irradiance: all that is
+   * unshot, as if it were spread over the scene evenly. False after an error, which has been
+   * reported, and an abort.
+   */
+  struct ShotProblem
+  {
+    vtkDeviceShooter::Patches Patches;
+    int NumberOfBands = 0;
+    std::vector<double> Source;      ///< patches x bands, the reflected direct light included
+    std::vector<double> Reflectance; ///< patches x bands
+    std::vector<double> Ambient;     ///< irradiance, one per band
+    ///@{ Those of group g are members Starts[g] to Starts[g + 1].
+    std::vector<vtkIdType> Starts;
+    std::vector<vtkIdType> Members; ///< patches
+    std::vector<double> Parts;
+    ///@}
+  };
+  bool PrepareShots(vtkDataObject* scene, bool ambient, ShotProblem& problem, vtkDataObject* output);
+  bool WriteShots(vtkDataObject* scene, const std::vector<double>& irradiance,
+    vtkIdType numberOfShots, vtkDataObject* output);
+  ///@}
+
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -341,6 +379,9 @@ private:
   void operator=(const vtkRadiosity&) = delete;
 
   class Run;
+  struct OwnShots;
+
+  bool RunShots(vtkDataObject* scene, OwnShots& shots, vtkDataObject* output);
 
   int Solver = SOLVER_AUTO;
   double Tolerance = 1e-4;
@@ -359,6 +400,7 @@ private:
   double ViewFactorTolerance = 0.0;
   bool EnforceClosure = false;
   vtkViewFactors* ViewFactors = nullptr;
+  vtkIdType NumberOfLinkRuns = 0;
   /// Where none were given.
   std::unique_ptr<LightTransport::ViewFactorStore> OwnViewFactors;
 };

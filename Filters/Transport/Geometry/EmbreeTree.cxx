@@ -148,8 +148,10 @@ void EmbreeTree::Intersect(Context& context, const int* valid, RTCRayHit16& hits
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcIntersect16(valid, this->Scene, &hits, &arguments);
 #else
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid, this->Scene, &context, &hits);
 #endif
 }

@@ -60,7 +60,7 @@ public:
   static void Initialize(Context& context);
   void Intersect(Context& context, RTCRayHit& hit) const;
   void FindOccluded(Context& context, RTCRay& ray) const;
-  /// Sixteen rays at a time, those of which `valid` is -1.
+  /// Sixteen rays that go much the same way, those of which `valid` is -1.
   void Intersect(Context& context, const int* valid, RTCRayHit16& hits) const;
 
 private:

@@ -36,7 +36,7 @@ constexpr float CertainHeight = 2e-6f;
 // worth, twice.
 constexpr float RimWidth = 16.0f * Lift;
 
-/// A triangle of a patch.
+/// A part of a patch that Embree knows.
 struct Facet
 {
   float Normal[3];
@@ -298,21 +298,24 @@ void PatchRays::Internals::AddPatches()
                : CertainHeight + static_cast<float>(plane.Rounding),
       static_cast<float>(plane.Slope), static_cast<Hit>(patch), twins[patch] };
     Copy(plane.Normal, facet.Normal);
+    // Quadrilaterals of a fan; a triangle is one with a corner that is there twice.
     const vtkIdType* points = scene.GetCorners(patch);
-    for (int corner = 2; corner < scene.GetNumberOfCorners(patch); ++corner)
+    const int count = scene.GetNumberOfCorners(patch);
+    for (int corner = 1; corner + 1 < count; corner += 2)
     {
-      for (const vtkIdType point : { points[0], points[corner - 1], points[corner] })
+      const vtkIdType last = points[std::min(corner + 2, count - 1)];
+      for (const vtkIdType point : { points[0], points[corner], points[corner + 1], last })
       {
         corners.push_back(static_cast<unsigned int>(point));
       }
       this->Facets.push_back(facet);
     }
   }
-  RTCGeometry geometry = rtcNewGeometry(this->Tree.GetDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(this->Tree.GetDevice(), RTC_GEOMETRY_TYPE_QUAD);
   auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
     RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.GetPoints().size()));
   auto* indices = static_cast<unsigned int*>(rtcSetNewGeometryBuffer(geometry,
-    RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned int), corners.size() / 3));
+    RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned int), corners.size() / 4));
   if (places && indices)
   {
     for (const Vector& point : scene.GetPoints())

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Many rays from patches, evenly over each patch and around its normal, sixteen at a time through
- * triangles in single precision. What that cannot decide (hits from behind, near the start, of
+ * polygons in single precision. What that cannot decide (hits from behind, near the start, of
  * patches that share their place with others, rays that start at the rim of a patch) SceneRayCaster
  * does: so hits are what they are everywhere. The same rays for the same scene.
  * Thread-safe after Build.

@@ -58,6 +58,8 @@ public:
 
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
+  /// Whether it made them, and did not find them kept.
+  bool WereMade() const { return this->LoadedFile.empty() && this->Cache.WereMade(); }
 
   /// What the rays of sampled links have met.
   const RayHits& GetHits() const;
@@ -65,6 +67,10 @@ public:
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j) const;
+  /// Their number, 0 after a failure.
+  vtkIdType GetNumberOfFaces() const { return this->Faces.GetNumberOfFaces(); }
+  /// In the input's unit squared.
+  double GetArea(vtkIdType face) const { return this->AreaUnit * this->Faces.GetArea(face); }
 
   ///@{ On one process: save what the last update computed; take it from a file until Forget or
   /// another file.
@@ -83,6 +89,7 @@ private:
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
   SceneFaces Faces;                    ///< of the scene of the last update
+  double AreaUnit = 1.0;               ///< and its unit
   std::string LoadedFile;
 };
 } // namespace LightTransport
