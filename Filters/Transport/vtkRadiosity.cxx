@@ -124,7 +124,7 @@ private:
   void WriteSummaries() const;
 
   vtkRadiosity* Owner;
-  OwnShots* Others; // null but where others shoot
+  OwnShots* Others;                    // null but where others shoot
   const SolverEntry* Solver = nullptr; // set by Check
   RadiosityMaterials Materials;
   const LightTransport::Links* Links = nullptr; // null where the solver needs none
