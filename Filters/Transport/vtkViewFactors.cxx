@@ -10,6 +10,7 @@
 #include "ViewFactors/ViewFactorGroups.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
@@ -117,6 +118,43 @@ ViewFactorSettings vtkViewFactors::GetSettings() const
 double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
 {
   return this->Store->GetViewFactor(i, j);
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::GetViewFactors(vtkIdType i, vtkDoubleArray* rows)
+{
+  const vtkIdType count = this->Store->GetNumberOfFaces();
+  const vtkIdType end = i + rows->GetNumberOfTuples();
+  if (rows->GetNumberOfComponents() != count || i < 0 || end > count)
+  {
+    return false;
+  }
+  double* value = rows->GetPointer(0);
+  for (vtkIdType row = i; row < end; ++row)
+  {
+    for (vtkIdType j = 0; j < count; ++j)
+    {
+      *value++ = this->Store->GetViewFactor(row, j);
+    }
+  }
+  rows->Modified();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::GetPatchAreas(vtkDoubleArray* areas)
+{
+  if (areas->GetNumberOfValues() != this->Store->GetNumberOfFaces())
+  {
+    return false;
+  }
+  double* area = areas->GetPointer(0);
+  for (vtkIdType i = 0; i < areas->GetNumberOfValues(); ++i)
+  {
+    area[i] = this->Store->GetArea(i);
+  }
+  areas->Modified();
+  return true;
 }
 
 //------------------------------------------------------------------------------

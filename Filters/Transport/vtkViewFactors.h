@@ -67,6 +67,7 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkDoubleArray;
 class vtkTable;
 
 namespace LightTransport
@@ -196,6 +197,18 @@ public:
   /// out), and with TwoSided their backs after them. 0 where out of range; on several ranks what
   /// other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j);
+
+  /**
+   * Likewise whole rows, beginning with that of patch i: as many as `rows` has tuples, of one
+   * component for each patch. They are written where the array's memory is, which may be a
+   * program's own (SetArray). False where the array has another number of components or more
+   * tuples than there are rows; it then stays as it was.
+   */
+  bool GetViewFactors(vtkIdType i, vtkDoubleArray* rows);
+
+  /// The area of each patch in the input's unit squared, counted as in GetViewFactor. 0 where
+  /// nothing is exchanged. False where the array has not one value for each patch.
+  bool GetPatchAreas(vtkDoubleArray* areas);
 
 protected:
   vtkViewFactors();

@@ -13,7 +13,7 @@ import sys
 import numpy
 
 import vtklighttransport as lt
-from vtklighttransport.shell.lights import make_light
+from vtklighttransport.lights import make_light
 
 import demo_pictures
 from demo_bunny import FROM_BEHIND, FROM_FRONT, Translucent, read_bunny

@@ -47,6 +47,7 @@ Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSetting
   if (updated)
   {
     this->Faces = scene.GetFaces();
+    this->AreaUnit = scene.GetScale() * scene.GetScale();
   }
   return updated;
 }

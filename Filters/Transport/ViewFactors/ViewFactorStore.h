@@ -48,6 +48,10 @@ public:
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j) const;
+  /// Their number, 0 after a failure.
+  vtkIdType GetNumberOfFaces() const { return this->Faces.GetNumberOfFaces(); }
+  /// In the input's unit squared.
+  double GetArea(vtkIdType face) const { return this->AreaUnit * this->Faces.GetArea(face); }
 
   ///@{ On one process: save what the last update computed; take it from a file until Forget or
   /// another file.
@@ -62,7 +66,8 @@ private:
   Outcome CheckLoaded(const PatchScene& scene, const Ranks& ranks) const;
 
   LinkCache Cache;
-  SceneFaces Faces; ///< of the scene of the last update
+  SceneFaces Faces;      ///< of the scene of the last update
+  double AreaUnit = 1.0; ///< and its unit
   std::string LoadedFile;
 };
 } // namespace LightTransport

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What radiosity and its report ask of a scene: links, bands, what is outside, arrays."""
 
+from vtklighttransport.jobs import RADIOSITY_ARRAYS
 from vtklighttransport.shell.properties import Choice, InputArray, Number, NumberList, Switch
 
 ENCLOSURE = (
@@ -24,14 +25,12 @@ ENCLOSURE = (
     NumberList("--background-radiance", "BackgroundRadiance",
                "radiance that enters through them: a value, or one per band with commas between"),
 )
-ARRAYS = (
-    InputArray("--emission", 0, "cell array of emitted flux per area [Emission]"),
-    InputArray("--reflectance", 1, "cell array of diffuse reflectance, 0 to 1 [Reflectance]"),
-    InputArray("--temperature", 2, "cell array of temperatures in kelvin [Temperature]"),
-    InputArray("--emissivity", 3, "cell array of emissivity, 0 to 1 [Emissivity]"),
-    InputArray("--boundary-condition", 5,
-               "cell array: 0 where the temperature is given, 1 where the net flux is "
-               "[BoundaryCondition]"),
-    InputArray("--net-flux", 6,
-               "cell array of given net fluxes, W/m2; 0 without one [PrescribedNetFlux]"),
-)
+ARRAYS = tuple(InputArray(flag, *RADIOSITY_ARRAYS[keyword], text) for flag, keyword, text in (
+    ("--emission", "emission", "emitted flux per area"),
+    ("--reflectance", "reflectance", "diffuse reflectance, 0 to 1"),
+    ("--temperature", "temperature", "temperatures in kelvin"),
+    ("--emissivity", "emissivity", "emissivity, 0 to 1"),
+    ("--boundary-condition", "boundary_condition",
+     "0 where the temperature is given, 1 where the net flux is"),
+    ("--net-flux", "prescribed_net_flux", "given net fluxes, W/m2; 0 without one"),
+))
