@@ -3,8 +3,8 @@
 #include "vtkRadiosityPass.h"
 
 #include "Passes/RadianceShader.h"
+#include "Passes/StandIns.h"
 #include "Solving/ProgressiveSolution.h"
-#include "Solving/StandIns.h"
 #include "vtkLightTransportPassesRadiosityFS.h"
 
 #include "vtkActor.h"

@@ -29,14 +29,14 @@
  * solved:
  *
  * - Solver Southwell with Device OpenGL: progressive refinement by vtkOpenGLShooter in the window's
- *   own context, a few eye points at a time. Values stay on the GPU: means at points are drawn there
- *   from those of the patches, with the weights of vtkRadiosity, since the estimate is another in
- *   each frame. About 1 % off; needs no links.
+ *   own context, a few eye points at a time. Values stay on the GPU: means at points are drawn
+ * there from those of the patches, with the weights of vtkRadiosity, since the estimate is another
+ * in each frame. About 1 % off; needs no links.
  * - else the filter itself, with its links, solver and tolerance, on the CPU: links are kept, and
  *   serve other lights and materials. Links come whole, before which the first estimate is shown;
  *   then the solution is the filter's, and its point arrays are drawn.
  *
- * The first estimate is what shines and is lit directly, and an ambient term (AmbientTerm). Before
+ * The first estimate is what shines and is lit directly (AmbientTerm adds to it). Before
  * it, and where the solution fails (an error tells why, once), actors are drawn as usual.
  *
  * What is computed again: nothing where the camera moves; direct light and solution where a light
@@ -82,7 +82,8 @@ public:
 
   ///@{
   /// Whether estimates have an ambient term: what is still to be reflected, as if it were spread
-  /// over the scene evenly. What has converged has none. Default on.
+  /// over the scene evenly and none of it left through openings. What has converged has none.
+  /// Better in closed rooms, far too bright in the open. Default off.
   vtkSetMacro(AmbientTerm, bool);
   vtkGetMacro(AmbientTerm, bool);
   vtkBooleanMacro(AmbientTerm, bool);
@@ -149,7 +150,7 @@ private:
   Scene* Drawn = nullptr; ///< in this frame
   vtkSmartPointer<vtkRadiosity> Radiosity;
   double FrameBudget = 0.05;
-  bool AmbientTerm = true;
+  bool AmbientTerm = false;
   bool Shadows = true;
   double SolvingSeconds = 0.0;
 };

@@ -30,6 +30,8 @@ constexpr int Bands = 3;
 constexpr double Interval = 1e-3;
 /// However small the budget is, something is done.
 constexpr double LeastSeconds = 1e-3;
+/// As many as the filter makes between two looks at what is left.
+constexpr vtkIdType ShotsPerCheck = 16;
 ///@{ vtkRadiosity's arrays.
 constexpr int EmissionArray = 0;
 constexpr int ReflectanceArray = 1;
@@ -153,10 +155,9 @@ std::vector<std::string> ProgressiveSolution::TakeWarnings()
 Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& settings, double seconds)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
-  const SceneActors::Names names = {
-    InputArrays::GetChosenName(settings.Radiosity, EmissionArray, "Emission"),
-    InputArrays::GetChosenName(settings.Radiosity, ReflectanceArray, "Reflectance")
-  };
+  const SceneActors::Names names = { InputArrays::GetChosenName(settings.Radiosity, EmissionArray,
+                                       "Emission"),
+    InputArrays::GetChosenName(settings.Radiosity, ReflectanceArray, "Reflectance") };
   SceneActors found;
   std::vector<std::string> refusals;
   found.Find(renderer, names, refusals);
@@ -205,13 +206,11 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
 void ProgressiveSolution::Restart(const Keys& keys, const Settings& settings)
 {
   const bool needsLight = !this->Lit || keys.Shape != this->Known.Shape ||
-    keys.Light != this->Known.Light || keys.Shadows != this->Known.Shadows ||
-    settings.Radiosity->GetTwoSided() != this->Filter->GetTwoSided();
+    keys.Light != this->Known.Light || keys.Shadows != this->Known.Shadows;
   this->Known = keys;
   this->IsKnown = true;
   this->Errors.clear();
   this->Warnings.clear();
-  this->ToldWarnings.clear();
   this->Estimate = nullptr;
   this->Solution = nullptr;
   this->ReadBack = nullptr;
@@ -231,14 +230,15 @@ void ProgressiveSolution::Restart(const Keys& keys, const Settings& settings)
   // Contexts belong to the thread that draws.
   this->Filter->SetDeviceToCPU();
   this->Direct->SetShadows(settings.Shadows);
-  this->Direct->SetTwoSided(settings.Radiosity->GetTwoSided());
   this->State = Progress::Computing;
-  std::string problem;
-  this->Scene = this->Actors.MakeScene(problem);
+  std::string problem = settings.Radiosity->GetTwoSided()
+    ? "TwoSided of the vtkRadiosity is on, and a vtkRadiosityPass shows both sides of a surface "
+      "alike: switch it off and give each side an actor, or run the filter and draw its arrays."
+    : "";
+  this->Scene = problem.empty() ? this->Actors.MakeScene(problem) : nullptr;
   this->Lit = needsLight ? nullptr : this->Lit;
   this->Work.Begin(
-    [this, problem, needsLight, usesAmbient = settings.UsesAmbient]()
-    {
+    [this, problem, needsLight, usesAmbient = settings.UsesAmbient]() {
       return problem.empty() ? this->Compute(needsLight, usesAmbient) : Outcome::Failed(problem);
     });
 }
@@ -301,16 +301,12 @@ bool ProgressiveSolution::Light()
 //------------------------------------------------------------------------------
 void ProgressiveSolution::AddLight()
 {
-  const std::string front = ArrayNames::DirectIrradiance;
   for (std::size_t index = 0; index < this->Lit->GetNumberOfBlocks(); ++index)
   {
-    for (const std::string& name : { front, front + ArrayNames::BackSuffix })
-    {
-      if (vtkDataArray* light = GetBlock(this->Lit, index)->GetCellData()->GetArray(name.c_str()))
-      {
-        GetBlock(this->Scene, index)->GetCellData()->AddArray(light);
-      }
-    }
+    vtkCellData* lit = GetBlock(this->Lit, index)->GetCellData();
+    GetBlock(this->Scene, index)
+      ->GetCellData()
+      ->AddArray(lit->GetArray(ArrayNames::DirectIrradiance));
   }
 }
 
@@ -372,6 +368,7 @@ Outcome ProgressiveSolution::BeginShots(vtkRenderer* renderer)
   this->Shooter->SetRenderWindow(renderer->GetRenderWindow());
   this->BytesRead += this->Shooter->GetNumberOfBytesRead();
   this->Shots = 0;
+  this->UncheckedShots = 0;
   if (!this->Shooter->Initialize(this->Problem.Patches, this->Problem.NumberOfBands,
         this->Problem.Source.data(), this->Problem.Reflectance.data()))
   {
@@ -382,8 +379,8 @@ Outcome ProgressiveSolution::BeginShots(vtkRenderer* renderer)
   {
     return Outcome::FailedAsReported();
   }
-  this->Means = std::make_unique<GroupMeans>(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
+  this->Means =
+    std::make_unique<GroupMeans>(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
   return this->Means->Upload(this->Problem.Starts, this->Problem.Members, this->Problem.Parts,
     static_cast<int>(radiosity->GetWidth()));
 }
@@ -399,18 +396,32 @@ Outcome ProgressiveSolution::Shoot(vtkRenderer* renderer, double seconds, bool u
       return this->Fail(begun.GetMessage());
     }
   }
-  bool isOver = false;
-  const vtkIdType shots = this->Shooter->ShootFor(
-    std::max(seconds - (vtkTimerLog::GetUniversalTime() - begin), LeastSeconds), isOver);
-  if (shots < 0)
+  const double left = seconds - (vtkTimerLog::GetUniversalTime() - begin);
+  if (left <= 0.0)
   {
-    return this->Fail({});
+    // Taking the scene has cost the whole frame.
+    return this->ShowShots(usesAmbient);
   }
-  this->Shots += shots;
-  this->AllShots += shots;
-  if (isOver || (shots > 0 && this->IsEnough()))
+  const double end = begin + seconds;
+  for (double now = begin; now < end && this->State == Progress::Shooting;)
   {
-    this->State = Progress::Done;
+    bool isOver = false;
+    const vtkIdType shots = this->Shooter->ShootFor(end - now, isOver);
+    if (shots < 0)
+    {
+      return this->Fail({});
+    }
+    this->Shots += shots;
+    this->AllShots += shots;
+    this->UncheckedShots += shots;
+    if (isOver || (this->UncheckedShots >= ShotsPerCheck && this->IsEnough()))
+    {
+      this->State = Progress::Done;
+    }
+    const double before = now;
+    now = vtkTimerLog::GetUniversalTime();
+    // What comes next takes about as long as what has been.
+    now = shots > 0 && now + (now - before) > end ? end : now;
   }
   return this->ShowShots(usesAmbient && this->State != Progress::Done);
 }
@@ -434,6 +445,7 @@ Outcome ProgressiveSolution::ShowShots(bool usesAmbient)
 // unshot radiosity over 1 - rho, for the largest rho.
 bool ProgressiveSolution::IsEnough()
 {
+  this->UncheckedShots = 0;
   double unshot[Bands] = {};
   if (!this->Shooter->GetLargestUnshot(unshot))
   {

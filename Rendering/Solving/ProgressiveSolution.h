@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The radiosity of the actors of a renderer, solved a while at a time. A vtkRadiosity of its own
- * does what it does as a filter: on the CPU as SlicedWork with all its links; or it tells what there
- * is to shoot, and a vtkOpenGLShooter does that in the renderer's context. What is worked on is a
- * copy of the actors; what has changed since decides what is computed again.
+ * does what it does as a filter: on the CPU as SlicedWork with all its links; or it tells what
+ * there is to shoot, and a vtkOpenGLShooter does that in the renderer's context. What is worked on
+ * is a copy of the actors; what has changed since decides what is computed again.
  */
 #ifndef ProgressiveSolution_h
 #define ProgressiveSolution_h
@@ -74,7 +74,10 @@ public:
   vtkIdType GetNumberOfLightRuns() const { return this->LightRuns; }
   vtkIdType GetNumberOfSolverRuns() const { return this->SolverRuns; }
   vtkIdType GetNumberOfShots() const { return this->AllShots; }
-  vtkTypeInt64 GetNumberOfBytesRead() { return this->BytesRead + this->Shooter->GetNumberOfBytesRead(); }
+  vtkTypeInt64 GetNumberOfBytesRead()
+  {
+    return this->BytesRead + this->Shooter->GetNumberOfBytesRead();
+  }
   ///@}
 
   /// What has been shot is lost.
@@ -138,6 +141,7 @@ private:
   vtkSmartPointer<vtkMultiBlockDataSet> ReadBack;
   vtkIdType ReadShots = -1; ///< that it is of
   vtkIdType Shots = 0;      ///< of this solution
+  vtkIdType UncheckedShots = 0;
 
   /// What is shown, and what it is of.
   vtkSmartPointer<vtkMultiBlockDataSet> ShownScene;

@@ -60,8 +60,9 @@ vtkSmartPointer<vtkDoubleArray> MakeArray(vtkPolyData* surface, const std::strin
   values->SetName(newName);
   values->SetNumberOfComponents(Bands);
   values->SetNumberOfTuples(polygons);
-  if (array && ((components != 1 && components != Bands) ||
-                 array->GetNumberOfTuples() != surface->GetNumberOfCells()))
+  if (array &&
+    ((components != 1 && components != Bands) ||
+      array->GetNumberOfTuples() != surface->GetNumberOfCells()))
   {
     problem = "the cell array \"" + name +
       "\" has not 1 or 3 components, or not one tuple for each cell: correct it";
