@@ -105,13 +105,14 @@ std::unique_ptr<TransportRun> vtkViewFactors::MakeRun(const RunPorts& ports)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::LinksClusters() const
 {
-  return this->Hierarchical && this->Store->GetLoadedFile().empty();
+  return this->LinkMethod == LINK_METHOD_HIERARCHICAL && this->Store->GetLoadedFile().empty();
 }
 
 //------------------------------------------------------------------------------
 ViewFactorSettings vtkViewFactors::GetSettings() const
 {
-  return { this->Tolerance, this->EnforceClosure, this->Hierarchical, this->LinkTolerance };
+  return { this->Tolerance, this->EnforceClosure,
+    static_cast<LightTransport::LinkMethod>(this->LinkMethod), this->LinkTolerance };
 }
 
 //------------------------------------------------------------------------------
@@ -205,7 +206,7 @@ void vtkViewFactors::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
   os << indent << "TwoSided: " << this->TwoSided << "\n";
-  os << indent << "Hierarchical: " << this->Hierarchical << "\n";
+  os << indent << "LinkMethod: " << this->LinkMethod << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "ClusterTree: " << this->ClusterTree << "\n";
   os << indent << "LoadedFile: " << this->Store->GetLoadedFile() << "\n";

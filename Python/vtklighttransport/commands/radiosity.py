@@ -25,7 +25,7 @@ PROPERTIES = (
            "error bound to stop at, as a fraction of the largest radiosity"),
     Number("--iterations", "MaximumNumberOfIterations", int, "iterations at most"),
     Number("--view-factor-tolerance", "ViewFactorTolerance", float,
-           "bound on the absolute error of each row of view factors"),
+           "bound on the absolute error of each row of view factors; 0 as the accuracy asks"),
     Number("--feature-angle", "FeatureAngle", float,
            "edges sharper than this keep their own point values, in degrees"),
     DEVICE,

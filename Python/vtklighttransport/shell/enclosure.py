@@ -7,10 +7,14 @@ from vtklighttransport.shell.properties import Choice, InputArray, Number, Numbe
 
 ENCLOSURE = (
     Choice("--links", "LinkMethod", "LINK_METHOD_",
-           "a link for each pair of patches, or between clusters; auto is dense up to 8,192 "
-           "patches"),
+           "a link for each pair of patches, between clusters, or from rays (sampled); auto is "
+           "dense up to 8,192 patches"),
+    Number("--accuracy", "Accuracy", float,
+           "relative error of the radiosity by its links, without what is emitted"),
     Number("--link-tolerance", "LinkTolerance", float,
-           "relative error of the irradiance that hierarchical links are allowed"),
+           "relative error of the irradiance that hierarchical or sampled links are allowed; 0 as "
+           "the accuracy asks"),
+    Switch("--errors", "ComputeErrors", True, "arrays of standard errors, with sampled links"),
     Switch("--by-brightness", "RefineByBrightness", True,
            "refine hierarchical links where light is"),
     Switch("--two-sided", "TwoSided", True,
