@@ -13,7 +13,6 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 using namespace LightTransport;
@@ -233,7 +232,7 @@ vtkIdType vtkOpenGLShooter::Shoot(vtkIdType numberOfShots)
 }
 
 //------------------------------------------------------------------------------
-// Single eye points at first; then as many as there is time for. Drawing is waited for: what has
+// A single eye point at first; then as many as there is time for. Drawing is waited for: what has
 // been begun would make the frame late.
 vtkIdType vtkOpenGLShooter::ShootFor(double seconds, bool& isOver)
 {
@@ -244,46 +243,35 @@ vtkIdType vtkOpenGLShooter::ShootFor(double seconds, bool& isOver)
   }
   const DeviceSession session(this->Window->Get());
   const double begin = vtkTimerLog::GetUniversalTime();
-  const double end = begin + seconds;
-  vtkIdType shots = 0;
   double now = begin;
-  const auto hasTime = [&](double step) { return now == begin || now + step <= end; };
-  while (hasTime(this->SecondsPerChoice))
+  if (!this->Progress->IsShooting())
   {
-    if (!this->Progress->IsShooting())
+    if (!this->AimAtNext(AllShots))
     {
-      if (!this->AimAtNext(AllShots))
-      {
-        return -1;
-      }
-      if (!this->Progress->IsShooting())
-      {
-        isOver = true;
-        return shots;
-      }
-      glFinish();
-      this->SecondsPerChoice = vtkTimerLog::GetUniversalTime() - now;
+      return -1;
     }
-    while (this->Progress->IsShooting() && hasTime(this->SecondsPerEye))
-    {
-      const double begun = vtkTimerLog::GetUniversalTime();
-      const double room = this->SecondsPerEye > 0.0 ? (end - begun) / this->SecondsPerEye : 1.0;
-      const double eyes = std::min(std::max(room, 1.0), double(HemisphereItems::MostEyes));
-      if (!Finish(this, this->Progress->ShootNext(static_cast<std::size_t>(eyes)), "shooting"))
-      {
-        return -1;
-      }
-      glFinish();
-      now = vtkTimerLog::GetUniversalTime();
-      this->SecondsPerEye = (now - begun) / std::floor(eyes);
-      shots += this->Progress->IsShooting() ? 0 : this->Aimed;
-    }
-    if (this->Progress->IsShooting())
-    {
-      break;
-    }
+    isOver = !this->Progress->IsShooting();
+    glFinish();
+    now = vtkTimerLog::GetUniversalTime();
   }
-  return shots;
+  bool isFirst = true;
+  while (this->Progress->IsShooting() && (isFirst || now + this->SecondsPerEye <= begin + seconds))
+  {
+    const double left = begin + seconds - now;
+    const double room = this->SecondsPerEye > 0.0 ? left / this->SecondsPerEye : 1.0;
+    const auto eyes =
+      static_cast<std::size_t>(std::min(std::max(room, 1.0), double(HemisphereItems::MostEyes)));
+    if (!Finish(this, this->Progress->ShootNext(eyes), "shooting"))
+    {
+      return -1;
+    }
+    glFinish();
+    const double before = now;
+    now = vtkTimerLog::GetUniversalTime();
+    this->SecondsPerEye = (now - before) / static_cast<double>(eyes);
+    isFirst = false;
+  }
+  return isOver || this->Progress->IsShooting() ? 0 : this->Aimed;
 }
 
 //------------------------------------------------------------------------------
@@ -302,8 +290,8 @@ vtkTextureObject* vtkOpenGLShooter::ComputeRadiosity(bool ambient)
 //------------------------------------------------------------------------------
 double vtkOpenGLShooter::GetBandScale(int band)
 {
-  const bool isThere = this->Progress && band >= 0 &&
-    band < static_cast<int>(this->Progress->GetScales().size());
+  const bool isThere =
+    this->Progress && band >= 0 && band < static_cast<int>(this->Progress->GetScales().size());
   return isThere ? this->Progress->GetScales()[band] : 0.0;
 }
 

@@ -75,10 +75,10 @@ public:
     const double* reflectance) override;
   vtkIdType Shoot(vtkIdType numberOfShots) override;
   /**
-   * Shoot for this long, and go on with a shot that is not over at the next call. Eye points are
-   * drawn in steps, and one that would not be over in time waits, but for the first. Returns the
-   * number of shots that are over, or -1 after an error, which has been reported; `isOver` tells
-   * that nothing is left to shoot.
+   * Shoot for this long at most, or until shots are over that are made together; a call goes on
+   * with those that the last one has left. Eye points are drawn in steps, and one that would not be
+   * over in time waits, but for the first. Returns the number of shots that are over now, or -1
+   * after an error, which has been reported; `isOver` tells that nothing is left to shoot.
    */
   vtkIdType ShootFor(double seconds, bool& isOver);
 
@@ -152,8 +152,7 @@ private:
   double EyePointDensity = 1000.0;
   bool Overshooting = true;
   double SecondsPerEye = 0.0; ///< of the last step of ShootFor
-  double SecondsPerChoice = 0.0;
-  vtkIdType Aimed = 0; ///< shots under way
+  vtkIdType Aimed = 0;        ///< shots under way
 
   const std::unique_ptr<LightTransport::DeviceWindow> Window;
   std::unique_ptr<LightTransport::ProgressiveShooter> Progress;

@@ -10,9 +10,9 @@
  * Without SetRadiosity actors are drawn that have the point array "Radiosity" of vtkRadiosity; the
  * pass solves nothing. With it the actors of the renderer are one scene, which is solved while it
  * is drawn. All take part that are visible, opaque, drawn as surfaces, and lit (vtkProperty::
- * Lighting), wherever the camera looks; a warning names actors whose mapper keeps them from it
- * (composite data). Others, and parts of assemblies, are drawn as usual and cost nothing. Of three
- * bands (red, green, blue)
+ * Lighting), wherever the camera looks, also blocks of composite data with what their mapper says
+ * of them (visibility, color); a warning names actors whose mapper keeps them from it. Others, and
+ * parts of assemblies, are drawn as usual and cost nothing. Of three bands (red, green, blue)
  *
  *   reflectance = the cell array "Reflectance" where there is one, else the property's Diffuse x
  *                 DiffuseColor;
@@ -29,14 +29,14 @@
  * solved:
  *
  * - Solver Southwell with Device OpenGL: progressive refinement by vtkOpenGLShooter in the window's
- *   own context, a few eye points at a time. Values stay on the GPU: means at points are drawn there
- *   from those of the patches, with the weights of vtkRadiosity, since the estimate is another in
- *   each frame. About 1 % off; needs no links.
+ *   own context, a few eye points at a time. Values stay on the GPU: means at points are drawn
+ * there from those of the patches, with the weights of vtkRadiosity, since the estimate is another
+ * in each frame. About 1 % off; needs no links.
  * - else the filter itself, with its links, solver and tolerance, on the CPU: links are kept, and
  *   serve other lights and materials. Links come whole, before which the first estimate is shown;
  *   then the solution is the filter's, and its point arrays are drawn.
  *
- * The first estimate is what shines and is lit directly, and an ambient term (AmbientTerm). Before
+ * The first estimate is what shines and is lit directly (AmbientTerm adds to it). Before
  * it, and where the solution fails (an error tells why, once), actors are drawn as usual.
  *
  * What is computed again: nothing where the camera moves; direct light and solution where a light
@@ -47,6 +47,7 @@
 #define vtkRadiosityPass_h
 
 #include "vtkTransportPass.h"
+#include "vtkWeakPointer.h" // for members
 
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
@@ -82,7 +83,8 @@ public:
 
   ///@{
   /// Whether estimates have an ambient term: what is still to be reflected, as if it were spread
-  /// over the scene evenly. What has converged has none. Default on.
+  /// over the scene evenly and none of it left through openings. What has converged has none.
+  /// Better in closed rooms, far too bright in the open. Default off.
   vtkSetMacro(AmbientTerm, bool);
   vtkGetMacro(AmbientTerm, bool);
   vtkBooleanMacro(AmbientTerm, bool);
@@ -95,16 +97,24 @@ public:
   vtkBooleanMacro(Shadows, bool);
   ///@}
 
+  ///@{
+  /// Whether an actor that takes part is drawn as radiosity; else as usual, or as DelegatePass
+  /// does: a vtkSubsurfaceScatteringPass there draws what is translucent. Default for all: on.
+  void SetShown(vtkActor* actor, bool shown);
+  bool IsShown(vtkActor* actor);
+  ///@}
+
   /// Whether the last frame of each renderer shows a solution that has converged (or none where no
-  /// actor takes part).
+  /// actor takes part). False before the first frame; what changes is known in the next one.
   bool IsConverged();
 
   /**
    * All arrays of vtkRadiosity on the surface of an actor, in world coordinates, of the estimate so
-   * far ("Irradiance" can light what is translucent). What shots have brought is read back once for
-   * each estimate. nullptr where there is no estimate yet, or the actor takes no part.
+   * far ("Irradiance" can light what is translucent), or of one of its visible blocks that have
+   * polygons. What shots have brought is read back once for each estimate. nullptr where there is
+   * no estimate yet, or the actor takes no part.
    */
-  vtkPolyData* GetOutput(vtkActor* actor);
+  vtkPolyData* GetOutput(vtkActor* actor, int block = 0);
 
   ///@{
   /// How often links and direct light have been computed, solutions have been begun (with links:
@@ -146,10 +156,11 @@ private:
   Scene& FindScene(vtkRenderer* renderer);
 
   std::vector<std::unique_ptr<Scene>> Scenes;
-  Scene* Drawn = nullptr; ///< in this frame
+  Scene* Drawn = nullptr;                       ///< in this frame
+  std::vector<vtkWeakPointer<vtkActor>> Others; ///< that are not shown
   vtkSmartPointer<vtkRadiosity> Radiosity;
   double FrameBudget = 0.05;
-  bool AmbientTerm = true;
+  bool AmbientTerm = false;
   bool Shadows = true;
   double SolvingSeconds = 0.0;
 };

@@ -5,9 +5,10 @@
  * @brief what the render passes for transport results share: draws a point array as radiance
  *
  * The passes draw arrays that a filter has computed (vtkRadiosity, vtkSubsurfaceScattering), and
- * what they compute themselves for the actors of the scene. An array may have one component (grey) or three (red, green, blue; a
- * fourth is ignored), float or double, radiant exitance per unit area, and is divided by pi: the
- * surface is diffuse. Values are interpolated linearly over triangles.
+ * what they compute themselves for the actors of the scene. An array may have one component (grey)
+ * or three (red, green, blue; a fourth is ignored), float or double, radiant exitance per unit
+ * area, and is divided by pi: the surface is diffuse. Values are interpolated linearly over
+ * triangles.
  *
  * Every visible actor whose mapper is a plain vtkPolyDataMapper with that point array in its input
  * is drawn so; all others are drawn as usual, also those with composite data, whose mappers take no

@@ -78,8 +78,8 @@
 #ifndef vtkRadiosity_h
 #define vtkRadiosity_h
 
+#include "vtkDeviceShooter.h"               // for ShotProblem
 #include "vtkLightTransportFiltersModule.h" // for export macro
-#include "vtkDeviceShooter.h" // for ShotProblem
 #include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
@@ -360,7 +360,8 @@ public:
     std::vector<double> Parts;
     ///@}
   };
-  bool PrepareShots(vtkDataObject* scene, bool ambient, ShotProblem& problem, vtkDataObject* output);
+  bool PrepareShots(vtkDataObject* scene, bool ambient, ShotProblem& problem,
+    vtkDataObject* output);
   bool WriteShots(vtkDataObject* scene, const std::vector<double>& irradiance,
     vtkIdType numberOfShots, vtkDataObject* output);
   ///@}

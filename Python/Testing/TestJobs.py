@@ -20,6 +20,7 @@ from TestingTools import add_array, get_tuples, make_box, make_surface
 
 HAS_NUMPY = importlib.util.find_spec("numpy") is not None
 HAS_PYVISTA = importlib.util.find_spec("pyvista") is not None
+SOURCE = pathlib.Path(os.environ["LIGHT_TRANSPORT_SOURCE"])
 STEFAN_BOLTZMANN = 5.670374419e-8
 
 
@@ -191,6 +192,29 @@ class TestMetadata(unittest.TestCase):
         self.assertEqual(
             result.stdout, "vtklighttransport.accessor wrapped 6 wrapped The surface\n",
             result.stderr)
+
+    def test_wheels(self):
+        """Both wheels say the same, but for what CGAL changes."""
+        try:
+            import tomllib
+        except ImportError:
+            self.skipTest("Python 3.11 reads TOML")
+        both = []
+        for folder in (SOURCE, SOURCE / "Python" / "gpl"):
+            told = tomllib.loads((folder / "pyproject.toml").read_text())
+            project, build = told["project"], told["tool"]["scikit-build"]
+            both.append({**project, "build": {**build["cmake"]["define"]},
+                         "exclude": build["wheel"]["exclude"]})
+        self.assertEqual([told.pop("name") for told in both],
+                         ["vtklighttransport", "vtklighttransport-gpl"])
+        self.assertEqual([told.pop("license") for told in both],
+                         ["BSD-3-Clause", "GPL-3.0-or-later"])
+        self.assertEqual([told.pop("build")["VTKLIGHTTRANSPORT_ENABLE_MESHING"] for told in both],
+                         ["OFF", "ON"])
+        for told in both:
+            for name in ("description", "readme", "license-files"):
+                told.pop(name, None)
+        self.assertEqual(*both)
 
     def test_types(self):
         """Editors know every class."""

@@ -31,7 +31,8 @@ class LightTransportWarning(UserWarning):
 def find_class(name):
     """AttributeError where the build left its module out."""
     if not hasattr(lt, name):
-        raise AttributeError(f"this build has no {name}: its module was switched off in CMake")
+        raise AttributeError(f"this build has no {name}: its module was switched off in CMake (of "
+                             "pip's wheels vtklighttransport-gpl has the mesher and the atlas)")
     return getattr(lt, name)
 
 

@@ -30,8 +30,8 @@ public:
   void operator=(const MappedArrays&) = delete;
 
   /// Asks the mappers of all props that have the point array `getName`(actor) with 1, 3 or 4
-  /// components, and takes back what others were asked for; no name leaves an actor out. False where
-  /// no prop has it.
+  /// components, and takes back what others were asked for; no name leaves an actor out. False
+  /// where no prop has it.
   bool Map(const vtkRenderState* state, const std::function<std::string(vtkActor*)>& getName);
 
   /// Takes back what all mappers have been asked for.

@@ -106,9 +106,9 @@ Outcome ProgressiveShooter::SetMaterials(const double* source)
   }
   const std::vector<double> nothing(size, 0.0);
   const std::pair<Slot, const double*> vectors[] = { { Unshot, unshot.data() },
-    { Source, unshot.data() },
-    { OwnReflectance, this->Reflectance.data() }, { ReflectancePerArea, perArea.data() },
-    { Area, areas.data() }, { Power, nothing.data() }, { Received, nothing.data() } };
+    { Source, unshot.data() }, { OwnReflectance, this->Reflectance.data() },
+    { ReflectancePerArea, perArea.data() }, { Area, areas.data() }, { Power, nothing.data() },
+    { Received, nothing.data() } };
   for (const auto& vector : vectors)
   {
     if (Outcome set = this->Vectors.Set(vector.first, vector.second); !set)
@@ -199,9 +199,9 @@ Outcome ProgressiveShooter::ShootNext(std::size_t mostEyes)
   while (this->NextEye < end)
   {
     const std::size_t last = std::min(this->NextEye + HemisphereItems::MostEyes, end);
-    if (Outcome drawn = this->Items.Shoot({ this->Eyes.data() + this->NextEye,
-          this->Eyes.data() + last }, this->Vectors.GetLayout(), this->Vectors.Get(Shot),
-          this->Vectors.Get(Received));
+    if (Outcome drawn =
+          this->Items.Shoot({ this->Eyes.data() + this->NextEye, this->Eyes.data() + last },
+            this->Vectors.GetLayout(), this->Vectors.Get(Shot), this->Vectors.Get(Received));
         !drawn)
     {
       return drawn;

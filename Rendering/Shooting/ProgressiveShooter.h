@@ -86,7 +86,7 @@ private:
   const std::vector<double> Reflectance; ///< patches x bands
   const int Bands;
   Overshooting Ambient;
-  std::vector<double> Scales; ///< of each band: its largest source
+  std::vector<double> Scales;          ///< of each band: its largest source
   std::vector<double> MeanReflectance; ///< of each band
   double FirstPower = 0.0;
   ///@{ Of the shots under way.

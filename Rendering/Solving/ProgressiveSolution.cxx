@@ -30,6 +30,8 @@ constexpr int Bands = 3;
 constexpr double Interval = 1e-3;
 /// However small the budget is, something is done.
 constexpr double LeastSeconds = 1e-3;
+/// As many as the filter makes between two looks at what is left.
+constexpr vtkIdType ShotsPerCheck = 16;
 ///@{ vtkRadiosity's arrays.
 constexpr int EmissionArray = 0;
 constexpr int ReflectanceArray = 1;
@@ -83,10 +85,11 @@ vtkSmartPointer<vtkMultiBlockDataSet> Copy(vtkDataObject* blocks)
 }
 
 //------------------------------------------------------------------------------
-std::size_t FindMember(const std::vector<SceneActors::Member>& members, vtkActor* actor)
+std::size_t FindMember(const std::vector<SceneActors::Member>& members, vtkActor* actor, int block)
 {
   const auto found = std::find_if(members.begin(), members.end(),
-    [actor](const SceneActors::Member& member) { return member.Actor.Get() == actor; });
+    [actor, block](const SceneActors::Member& member)
+    { return member.Actor.Get() == actor && member.Block == block; });
   return static_cast<std::size_t>(found - members.begin());
 }
 } // namespace
@@ -153,10 +156,9 @@ std::vector<std::string> ProgressiveSolution::TakeWarnings()
 Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& settings, double seconds)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
-  const SceneActors::Names names = {
-    InputArrays::GetChosenName(settings.Radiosity, EmissionArray, "Emission"),
-    InputArrays::GetChosenName(settings.Radiosity, ReflectanceArray, "Reflectance")
-  };
+  const SceneActors::Names names = { InputArrays::GetChosenName(settings.Radiosity, EmissionArray,
+                                       "Emission"),
+    InputArrays::GetChosenName(settings.Radiosity, ReflectanceArray, "Reflectance") };
   SceneActors found;
   std::vector<std::string> refusals;
   found.Find(renderer, names, refusals);
@@ -205,13 +207,11 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
 void ProgressiveSolution::Restart(const Keys& keys, const Settings& settings)
 {
   const bool needsLight = !this->Lit || keys.Shape != this->Known.Shape ||
-    keys.Light != this->Known.Light || keys.Shadows != this->Known.Shadows ||
-    settings.Radiosity->GetTwoSided() != this->Filter->GetTwoSided();
+    keys.Light != this->Known.Light || keys.Shadows != this->Known.Shadows;
   this->Known = keys;
   this->IsKnown = true;
   this->Errors.clear();
   this->Warnings.clear();
-  this->ToldWarnings.clear();
   this->Estimate = nullptr;
   this->Solution = nullptr;
   this->ReadBack = nullptr;
@@ -231,14 +231,15 @@ void ProgressiveSolution::Restart(const Keys& keys, const Settings& settings)
   // Contexts belong to the thread that draws.
   this->Filter->SetDeviceToCPU();
   this->Direct->SetShadows(settings.Shadows);
-  this->Direct->SetTwoSided(settings.Radiosity->GetTwoSided());
   this->State = Progress::Computing;
-  std::string problem;
-  this->Scene = this->Actors.MakeScene(problem);
+  std::string problem = settings.Radiosity->GetTwoSided()
+    ? "TwoSided of the vtkRadiosity is on, and a vtkRadiosityPass shows both sides of a surface "
+      "alike: switch it off and give each side an actor, or run the filter and draw its arrays."
+    : "";
+  this->Scene = problem.empty() ? this->Actors.MakeScene(problem) : nullptr;
   this->Lit = needsLight ? nullptr : this->Lit;
   this->Work.Begin(
-    [this, problem, needsLight, usesAmbient = settings.UsesAmbient]()
-    {
+    [this, problem, needsLight, usesAmbient = settings.UsesAmbient]() {
       return problem.empty() ? this->Compute(needsLight, usesAmbient) : Outcome::Failed(problem);
     });
 }
@@ -301,16 +302,12 @@ bool ProgressiveSolution::Light()
 //------------------------------------------------------------------------------
 void ProgressiveSolution::AddLight()
 {
-  const std::string front = ArrayNames::DirectIrradiance;
   for (std::size_t index = 0; index < this->Lit->GetNumberOfBlocks(); ++index)
   {
-    for (const std::string& name : { front, front + ArrayNames::BackSuffix })
-    {
-      if (vtkDataArray* light = GetBlock(this->Lit, index)->GetCellData()->GetArray(name.c_str()))
-      {
-        GetBlock(this->Scene, index)->GetCellData()->AddArray(light);
-      }
-    }
+    vtkCellData* lit = GetBlock(this->Lit, index)->GetCellData();
+    GetBlock(this->Scene, index)
+      ->GetCellData()
+      ->AddArray(lit->GetArray(ArrayNames::DirectIrradiance));
   }
 }
 
@@ -372,6 +369,7 @@ Outcome ProgressiveSolution::BeginShots(vtkRenderer* renderer)
   this->Shooter->SetRenderWindow(renderer->GetRenderWindow());
   this->BytesRead += this->Shooter->GetNumberOfBytesRead();
   this->Shots = 0;
+  this->UncheckedShots = 0;
   if (!this->Shooter->Initialize(this->Problem.Patches, this->Problem.NumberOfBands,
         this->Problem.Source.data(), this->Problem.Reflectance.data()))
   {
@@ -382,8 +380,8 @@ Outcome ProgressiveSolution::BeginShots(vtkRenderer* renderer)
   {
     return Outcome::FailedAsReported();
   }
-  this->Means = std::make_unique<GroupMeans>(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
+  this->Means =
+    std::make_unique<GroupMeans>(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
   return this->Means->Upload(this->Problem.Starts, this->Problem.Members, this->Problem.Parts,
     static_cast<int>(radiosity->GetWidth()));
 }
@@ -399,18 +397,32 @@ Outcome ProgressiveSolution::Shoot(vtkRenderer* renderer, double seconds, bool u
       return this->Fail(begun.GetMessage());
     }
   }
-  bool isOver = false;
-  const vtkIdType shots = this->Shooter->ShootFor(
-    std::max(seconds - (vtkTimerLog::GetUniversalTime() - begin), LeastSeconds), isOver);
-  if (shots < 0)
+  const double left = seconds - (vtkTimerLog::GetUniversalTime() - begin);
+  if (left <= 0.0)
   {
-    return this->Fail({});
+    // Taking the scene has cost the whole frame.
+    return this->ShowShots(usesAmbient);
   }
-  this->Shots += shots;
-  this->AllShots += shots;
-  if (isOver || (shots > 0 && this->IsEnough()))
+  const double end = begin + seconds;
+  for (double now = begin; now < end && this->State == Progress::Shooting;)
   {
-    this->State = Progress::Done;
+    bool isOver = false;
+    const vtkIdType shots = this->Shooter->ShootFor(end - now, isOver);
+    if (shots < 0)
+    {
+      return this->Fail({});
+    }
+    this->Shots += shots;
+    this->AllShots += shots;
+    this->UncheckedShots += shots;
+    if (isOver || (this->UncheckedShots >= ShotsPerCheck && this->IsEnough()))
+    {
+      this->State = Progress::Done;
+    }
+    const double before = now;
+    now = vtkTimerLog::GetUniversalTime();
+    // What comes next takes about as long as what has been.
+    now = shots > 0 && now + (now - before) > end ? end : now;
   }
   return this->ShowShots(usesAmbient && this->State != Progress::Done);
 }
@@ -434,6 +446,7 @@ Outcome ProgressiveSolution::ShowShots(bool usesAmbient)
 // unshot radiosity over 1 - rho, for the largest rho.
 bool ProgressiveSolution::IsEnough()
 {
+  this->UncheckedShots = 0;
   double unshot[Bands] = {};
   if (!this->Shooter->GetLargestUnshot(unshot))
   {
@@ -458,25 +471,24 @@ bool ProgressiveSolution::IsEnough()
 }
 
 //------------------------------------------------------------------------------
-ProgressiveSolution::Shown ProgressiveSolution::FindShown(vtkActor* actor) const
+std::vector<ProgressiveSolution::Shown> ProgressiveSolution::FindShown(vtkActor* actor) const
 {
-  Shown shown;
-  const std::size_t index = FindMember(this->ShownMembers, actor);
-  if (index < this->ShownMembers.size())
+  std::vector<Shown> all;
+  for (const SceneActors::Member& member : this->Actors.GetMembers())
   {
-    shown.Surface = GetBlock(this->ShownScene, index);
-    shown.Shape = this->ShownMembers[index].Shape;
-    shown.Matrix = this->ShownMembers[index].Matrix;
+    if (member.Actor.Get() != actor)
+    {
+      continue;
+    }
+    const std::size_t index = FindMember(this->ShownMembers, actor, member.Block);
+    vtkPolyData* surface = GetBlock(this->ShownScene, index);
+    if (!surface || this->ShownMembers[index].Shape != member.Shape)
+    {
+      return {};
+    }
+    all.push_back({ surface, this->ShownMembers[index].Matrix });
   }
-  return shown;
-}
-
-//------------------------------------------------------------------------------
-std::uint64_t ProgressiveSolution::GetShape(vtkActor* actor) const
-{
-  const auto& members = this->Actors.GetMembers();
-  const std::size_t index = FindMember(members, actor);
-  return index < members.size() ? members[index].Shape : 0;
+  return all;
 }
 
 //------------------------------------------------------------------------------
@@ -486,9 +498,9 @@ vtkTextureObject* ProgressiveSolution::GetGroups() const
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* ProgressiveSolution::GetOutput(vtkActor* actor)
+vtkPolyData* ProgressiveSolution::GetOutput(vtkActor* actor, int block)
 {
-  const std::size_t index = FindMember(this->Actors.GetMembers(), actor);
+  const std::size_t index = FindMember(this->Actors.GetMembers(), actor, block);
   vtkMultiBlockDataSet* output = this->Solution ? this->Solution : this->Estimate;
   const bool isShot = this->State == Progress::Shooting || this->State == Progress::Done;
   if (this->IsByShots && isShot && this->GetGroups())

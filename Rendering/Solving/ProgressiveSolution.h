@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The radiosity of the actors of a renderer, solved a while at a time. A vtkRadiosity of its own
- * does what it does as a filter: on the CPU as SlicedWork with all its links; or it tells what there
- * is to shoot, and a vtkOpenGLShooter does that in the renderer's context. What is worked on is a
- * copy of the actors; what has changed since decides what is computed again.
+ * does what it does as a filter: on the CPU as SlicedWork with all its links; or it tells what
+ * there is to shoot, and a vtkOpenGLShooter does that in the renderer's context. What is worked on
+ * is a copy of the actors; what has changed since decides what is computed again.
  */
 #ifndef ProgressiveSolution_h
 #define ProgressiveSolution_h
@@ -51,30 +51,32 @@ public:
   /// Whether there is nothing left to do.
   bool IsConverged() const { return this->State == Progress::Done; }
 
-  /// A surface in world coordinates, of the estimate so far or of an earlier scene; nullptr where
-  /// there is none.
+  /// What is drawn of an actor: a surface in world coordinates of when the actor had that matrix.
   struct Shown
   {
     vtkPolyData* Surface = nullptr;
-    std::uint64_t Shape = 0; ///< of the actor's surface
     std::array<double, 16> Matrix = {};
   };
-  Shown FindShown(vtkActor* actor) const;
-  std::uint64_t GetShape(vtkActor* actor) const;
+  /// For all blocks of an actor, of the estimate so far or of an earlier scene; none where there is
+  /// none of one of them, or only of another shape.
+  std::vector<Shown> FindShown(vtkActor* actor) const;
 
   /// Radiosity of the groups "SmoothGroup" of what is shown; nullptr where it is the array
   /// "Radiosity" instead.
   vtkTextureObject* GetGroups() const;
 
   /// All arrays of what has been computed so far; reads back what shots have brought.
-  vtkPolyData* GetOutput(vtkActor* actor);
+  vtkPolyData* GetOutput(vtkActor* actor, int block);
 
   ///@{ Since the beginning.
   vtkIdType GetNumberOfLinkRuns() const { return this->Filter->GetNumberOfLinkRuns(); }
   vtkIdType GetNumberOfLightRuns() const { return this->LightRuns; }
   vtkIdType GetNumberOfSolverRuns() const { return this->SolverRuns; }
   vtkIdType GetNumberOfShots() const { return this->AllShots; }
-  vtkTypeInt64 GetNumberOfBytesRead() { return this->BytesRead + this->Shooter->GetNumberOfBytesRead(); }
+  vtkTypeInt64 GetNumberOfBytesRead()
+  {
+    return this->BytesRead + this->Shooter->GetNumberOfBytesRead();
+  }
   ///@}
 
   /// What has been shot is lost.
@@ -138,6 +140,7 @@ private:
   vtkSmartPointer<vtkMultiBlockDataSet> ReadBack;
   vtkIdType ReadShots = -1; ///< that it is of
   vtkIdType Shots = 0;      ///< of this solution
+  vtkIdType UncheckedShots = 0;
 
   /// What is shown, and what it is of.
   vtkSmartPointer<vtkMultiBlockDataSet> ShownScene;

@@ -11,8 +11,8 @@
  */
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiositySolution.h"
-#include "Radiosity/SolverEntry.h"
 #include "Radiosity/ShotPatches.h"
+#include "Radiosity/SolverEntry.h"
 #include "Radiosity/SolverSettings.h"
 #include "Scene/PatchScene.h"
 #include "vtkDeviceShooter.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solving/StandIns.h"
+#include "Passes/StandIns.h"
 
 #include "vtkActor.h"
 #include "vtkInformation.h"
@@ -15,19 +15,20 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
-StandIns::Pair& StandIns::Find(vtkActor* actor)
+StandIns::Pair& StandIns::Find(vtkActor* actor, int block)
 {
   this->Pairs.erase(std::remove_if(this->Pairs.begin(), this->Pairs.end(),
                       [](const Pair& pair) { return !pair.Actor; }),
     this->Pairs.end());
   const auto found = std::find_if(this->Pairs.begin(), this->Pairs.end(),
-    [actor](const Pair& pair) { return pair.Actor.Get() == actor; });
+    [actor, block](const Pair& pair) { return pair.Actor.Get() == actor && pair.Block == block; });
   if (found != this->Pairs.end())
   {
     return *found;
   }
   Pair pair;
   pair.Actor = actor;
+  pair.Block = block;
   pair.StandIn = vtkSmartPointer<vtkActor>::New();
   pair.Mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
   pair.Mapper->ScalarVisibilityOff();
@@ -40,9 +41,10 @@ StandIns::Pair& StandIns::Find(vtkActor* actor)
 
 //------------------------------------------------------------------------------
 // Keys are those of the actor: passes around leave theirs there.
-vtkActor* StandIns::Get(vtkActor* actor, vtkPolyData* surface, const std::array<double, 16>& matrix)
+vtkActor* StandIns::Get(vtkActor* actor, vtkPolyData* surface, const std::array<double, 16>& matrix,
+  int block)
 {
-  Pair& pair = this->Find(actor);
+  Pair& pair = this->Find(actor, block);
   if (pair.Mapper->GetInput() != surface)
   {
     pair.Mapper->SetInputData(surface);
