@@ -505,7 +505,7 @@ vtkPolyData* ProgressiveSolution::GetOutput(vtkActor* actor, int block)
   const bool isShot = this->State == Progress::Shooting || this->State == Progress::Done;
   if (this->IsByShots && isShot && this->GetGroups())
   {
-    if (this->ReadShots != this->Shots)
+    if (this->ReadShots != this->Shots || this->State == Progress::Shooting)
     {
       std::vector<double> irradiance(this->Problem.Source.size());
       this->ReadBack = vtkSmartPointer<vtkMultiBlockDataSet>::New();
