@@ -73,12 +73,20 @@ void vtkTransportPass::Render(const vtkRenderState* state)
     return;
   }
   this->Parallel = state->GetRenderer()->GetActiveCamera()->GetParallelProjection() != 0;
-  this->MapArrays(state, this->UpdateMaps(state));
-  this->PreRender(state);
-  this->DelegatePass->Render(state);
+  const bool areMapsUsed = this->UpdateMaps(state);
+  std::vector<vtkProp*> props(state->GetPropArray(),
+    state->GetPropArray() + state->GetPropArrayCount());
+  this->ReplaceProps(state, props);
+  vtkRenderState drawn(state->GetRenderer());
+  drawn.SetFrameBuffer(state->GetFrameBuffer());
+  drawn.SetRequiredKeys(state->GetRequiredKeys());
+  drawn.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
+  this->MapArrays(&drawn, areMapsUsed);
+  this->PreRender(&drawn);
+  this->DelegatePass->Render(&drawn);
   this->LetGoOfMaps();
   this->NumberOfRenderedProps = this->DelegatePass->GetNumberOfRenderedProps();
-  this->PostRender(state);
+  this->PostRender(&drawn);
 }
 
 //------------------------------------------------------------------------------

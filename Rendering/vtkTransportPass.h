@@ -26,6 +26,7 @@
 
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 namespace LightTransport
 {
@@ -108,10 +109,15 @@ protected:
   /**
    * For a pass whose actors may be drawn from maps of their atlases instead: bring the maps of a
    * frame up to date before it is drawn, and return whether any actor has one, or an error has told
-   * why not; whether an actor has one; let a program of that actor's mapper use it, and say which
-   * material it is; let go of it when the frame is drawn.
+   * why not; put others in the place of the props that are drawn; whether an actor has one; let a
+   * program of that actor's mapper use it, and say which material it is; let go of it when the
+   * frame is drawn.
    */
   virtual bool UpdateMaps(const vtkRenderState* vtkNotUsed(state)) { return false; }
+  virtual void ReplaceProps(const vtkRenderState* vtkNotUsed(state),
+    std::vector<vtkProp*>& vtkNotUsed(props))
+  {
+  }
   virtual bool IsMapped(vtkProp* vtkNotUsed(prop)) { return false; }
   virtual void SetMap(vtkShaderProgram* vtkNotUsed(program), vtkProp* vtkNotUsed(prop),
     LightTransport::RadianceShader::Uniforms& vtkNotUsed(uniforms))
