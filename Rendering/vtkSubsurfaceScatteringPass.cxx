@@ -13,6 +13,7 @@
 #include "vtkOpenGLAtlasTexture.h"
 #include "vtkOpenGLScatteredMap.h"
 #include "vtkOpenGLTransmittedMap.h"
+#include "vtkSurfaceLighting.h"
 
 #include "vtkActor.h"
 #include "vtkObjectFactory.h"
@@ -78,7 +79,8 @@ struct vtkSubsurfaceScatteringPass::Body
 
 //------------------------------------------------------------------------------
 vtkSubsurfaceScatteringPass::vtkSubsurfaceScatteringPass()
-  : vtkTransportPass(ArrayNames::ScatteredIrradiance), Blocks(new StandIns)
+  : vtkTransportPass(ArrayNames::ScatteredIrradiance),
+    Lighting(vtkSmartPointer<vtkSurfaceLighting>::New()), Blocks(new StandIns)
 {
   this->SetRefractiveIndex(1.3);
 }
@@ -96,6 +98,22 @@ void vtkSubsurfaceScatteringPass::SetRefractiveIndex(double index)
     this->MeanTransmittance = GetMeanTransmittanceAt(clamped);
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::SetLighting(vtkSurfaceLighting* lighting)
+{
+  if (lighting && this->Lighting != lighting)
+  {
+    this->Lighting = lighting;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceLighting* vtkSubsurfaceScatteringPass::GetLighting()
+{
+  return this->Lighting;
 }
 
 //------------------------------------------------------------------------------
@@ -119,6 +137,7 @@ void vtkSubsurfaceScatteringPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
+  os << indent << "Lighting: " << this->Lighting.Get() << "\n";
   os << indent << "IrradianceMapSize: " << this->IrradianceMapSize << "\n";
   os << indent << "IrradianceSamples: " << this->IrradianceSamples << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
@@ -155,6 +174,7 @@ vtkSubsurfaceScatteringPass::Body& vtkSubsurfaceScatteringPass::AddBody(vtkActor
     body = this->Bodies.back().get();
     body->Actor = actor;
     body->Block = block;
+    body->Transmitted->ShareShadows(this->Bodies.front()->Transmitted);
   }
   body->Scattered->SetMaterial(material);
   return *body;
@@ -340,6 +360,7 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
     body.RefractiveIndex = index;
     body.MeanTransmittance = GetMeanTransmittanceAt(index);
   }
+  body.Transmitted->SetLighting(this->Lighting);
   body.Transmitted->SetResolution(this->IrradianceMapSize);
   body.Transmitted->SetSamples(this->IrradianceSamples);
   body.Transmitted->SetShadows(this->Shadows);
@@ -350,10 +371,10 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSubsurfaceScatteringPass::IsMapped(vtkProp* prop)
+RadianceShader::Source vtkSubsurfaceScatteringPass::GetSource(vtkProp* prop)
 {
   Body* body = this->FindBody(prop);
-  return body && body->IsMapped;
+  return body && body->IsMapped ? RadianceShader::Source::Map : RadianceShader::Source::Array;
 }
 
 //------------------------------------------------------------------------------
@@ -377,7 +398,7 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
   vtkTextureObject* points = drawing->GetPoints();
   points->Activate();
   program->SetUniformi("lightTransportPoints", points->GetTextureUnit());
-  program->SetUniformi("lightTransportPointWidthBits", AtlasDrawing::PointWidthBits);
+  program->SetUniformi("lightTransportPointWidthBits", TupleTable::WidthBits);
   body->Scattered->GetTexture()->Activate(program, "lightTransportMap");
 }
 

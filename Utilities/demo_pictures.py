@@ -50,14 +50,19 @@ def render_bunny(file, surface, refractive_index, light, size=512):
     draw_bunny(file, make_smooth_actor(surface), scattered, light, size)
 
 
-def render_bunny_while_scattering(file, surface, material, light, size=512):
+def render_bunny_while_scattering(file, surface, material, light, size=512, exposure=20.0,
+                                  lighting=None, bumps=None):
     """The same, scattered while it is drawn: the surface has an atlas."""
     actor = make_smooth_actor(surface)
+    if bumps:
+        actor.GetProperty().SetNormalTexture(bumps)
     scattered = lt.vtkSubsurfaceScatteringPass()
     scattered.SetMaterial(actor, material)
+    if lighting:
+        scattered.SetLighting(lighting)
     scattered.SetIrradianceMapSize(128)
     scattered.SetScatteredMapSize(64)
-    scattered.SetExposure(20.0)
+    scattered.SetExposure(exposure)
     draw_bunny(file, actor, scattered, light, size)
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The representation "Subsurface": a bunny that is picked translucent, turned, changed and put back.
+"""The representation "Subsurface": a bunny that is made translucent, turned, changed, put back.
 
 Without a display: the project's own off-screen window is ParaView's before the first view.
 """

@@ -7,8 +7,8 @@
 
 The mouse turns the view. Left, Right, Up and Down move the light; + and - make it brighter and
 darker; sliders change the mean free path of light inside, and the albedo, for which links are made
-again when they are let go. With --frames nothing is shown: the same keys and sliders are pressed and
-moved by the program, and pictures go to the folder.
+again when they are let go. With --frames nothing is shown: the program presses the same keys and
+moves the sliders, and pictures go to the folder.
 """
 
 import argparse

@@ -134,8 +134,8 @@ def run(name, surface, material, size, tolerances):
                 links = fields.GetArray("LinksPerReceiver").GetValue(0)
                 limit = fields.GetAbstractArray("LinksLimitedBy").GetValue(0)
                 print(f"  {'this' if is_lit else 'any '} light: {links:6.1f} links, "
-                      f"{100 * error:.2f} % (told {100 * told:.2f} %), by {limit}, {seconds:.2f} CPU s; "
-                      f"{error / told:.2f}", flush=True)
+                      f"{100 * error:.2f} % (told {100 * told:.2f} %), by {limit}, "
+                      f"{seconds:.2f} CPU s; {error / told:.2f}", flush=True)
 
 
 def main():

@@ -345,6 +345,99 @@ void TestTwoSidedSheet()
   Check(front > 0.05, "a sheet is dark");
   CheckClose(behind, front, 0.02, "a sheet from behind");
 }
+/// What enters, in texels of the map of what leaves, and what leaves; over the area.
+struct Maps
+{
+  std::vector<double> Entering;
+  std::vector<double> Leaving;
+
+  explicit Maps(Scene& scene)
+  {
+    int level = 0;
+    while ((scene.Pass->GetIrradianceMapSize() >> level) > scene.Pass->GetScatteredMapSize())
+    {
+      ++level;
+    }
+    this->Entering = Divide(Read(scene.Pass->GetTransmittedMap(scene.Actor)->GetTexture(), level));
+    this->Leaving = Divide(Read(scene.Pass->GetScatteredMap(scene.Actor)->GetTexture()));
+  }
+
+  static std::vector<double> Divide(const std::vector<double>& texels)
+  {
+    std::vector<double> values;
+    for (std::size_t texel = 0; texel < texels.size(); texel += 4)
+    {
+      values.push_back(texels[texel + 3] > 0.0 ? texels[texel] / texels[texel + 3] : -1.0);
+    }
+    return values;
+  }
+};
+
+/// No light enters on the dark side, and some leaves there; from behind that is what is seen.
+/// Through a body of many free paths there comes none.
+void TestDarkSide()
+{
+  for (const bool isSmall : { true, false })
+  {
+    Scene scene;
+    scene.Material->SetMillimetersPerUnit(isSmall ? 2.0 : 500.0);
+    scene.Actor->GetProperty()->SetSpecular(0.0);
+    scene.Light->SetPosition(0.0, 0.0, -10.0);
+    scene.Pass->SetExposure(6.0);
+    const double origin[3] = { 0.0, 0.0, 0.0 };
+    LookAt(scene.Renderer, origin, 0.7);
+    scene.Renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 5.0);
+    const double seen = GetMean(Draw(scene.Window));
+    const Maps maps(scene);
+    double enters = 0.0;
+    double least = 1.0;
+    double most = 0.0;
+    // The face that looks along z is the fifth chart: the first of the second line of four.
+    const int side = scene.Pass->GetScatteredMapSize() / ChartsPerSide;
+    for (int texel = 0; texel < side * side; ++texel)
+    {
+      const int line = side + texel / side;
+      const std::size_t place =
+        static_cast<std::size_t>(line) * ChartsPerSide * side + texel % side;
+      enters = std::max(enters, maps.Entering[place]);
+      least = std::min(least, maps.Leaving[place]);
+      most = std::max(most, maps.Leaving[place]);
+    }
+    std::cout << "dark side: " << enters << " enters, " << least << " to " << most
+              << " leaves, mean of the picture " << seen << "\n";
+    Check(enters == 0.0, "light enters on the dark side");
+    Check(isSmall ? least > 1e-3 && seen > 1e-3 : most < 1e-3 && seen < 1e-6,
+      "what comes through to the dark side");
+  }
+}
+
+/// Where light goes no further than a texel, what leaves is what enters there, times what the
+/// material gives back: a diffuse body.
+void TestDiffuseBody()
+{
+  double spread[2] = {};
+  for (const bool isLarge : { false, true })
+  {
+    Scene scene;
+    scene.Material->SetMillimetersPerUnit(isLarge ? 3000.0 : 3.0);
+    Draw(scene.Window);
+    const Maps maps(scene);
+    double low = 1e9;
+    double high = 0.0;
+    for (std::size_t texel = 0; texel < maps.Leaving.size(); ++texel)
+    {
+      if (maps.Entering[texel] > 0.3)
+      {
+        low = std::min(low, maps.Leaving[texel] / maps.Entering[texel]);
+        high = std::max(high, maps.Leaving[texel] / maps.Entering[texel]);
+      }
+    }
+    spread[isLarge ? 1 : 0] = high / low - 1.0;
+  }
+  std::cout << "a body of many free paths is diffuse within " << spread[1] << ", a small one "
+            << spread[0] << "\n";
+  Check(spread[1] < 0.05 && spread[0] > 0.2, "a body of many free paths is not diffuse");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -355,5 +448,7 @@ int TestScatteringScenes(int, char*[])
   TestNestedPasses();
   TestWindows();
   TestTwoSidedSheet();
+  TestDarkSide();
+  TestDiffuseBody();
   return Result();
 }
