@@ -114,18 +114,27 @@ bool vtkRadiosityPass::UpdateMaps(const vtkRenderState* state)
 // An actor whose points have moved is drawn as usual until there is an estimate for it.
 void vtkRadiosityPass::ReplaceProps(const vtkRenderState*, std::vector<vtkProp*>& props)
 {
-  for (vtkProp*& prop : props)
+  if (!this->Drawn)
   {
-    auto* actor = this->Drawn ? vtkActor::SafeDownCast(prop) : nullptr;
-    if (actor)
+    return;
+  }
+  std::vector<vtkProp*> drawn;
+  for (vtkProp* prop : props)
+  {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    const auto shown = actor && this->IsShown(actor) ? this->Drawn->Solution.FindShown(actor)
+                                                     : std::vector<ProgressiveSolution::Shown>();
+    if (shown.empty())
     {
-      const ProgressiveSolution::Shown shown = this->Drawn->Solution.FindShown(actor);
-      if (shown.Surface && shown.Shape == this->Drawn->Solution.GetShape(actor))
-      {
-        prop = this->Drawn->StandIns.Get(actor, shown.Surface, shown.Matrix);
-      }
+      drawn.push_back(prop);
+    }
+    for (std::size_t block = 0; block < shown.size(); ++block)
+    {
+      drawn.push_back(this->Drawn->StandIns.Get(actor, shown[block].Surface, shown[block].Matrix,
+        static_cast<int>(block)));
     }
   }
+  props.swap(drawn);
 }
 
 //------------------------------------------------------------------------------
@@ -169,18 +178,44 @@ void vtkRadiosityPass::LetGoOfMaps()
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosityPass::IsConverged()
+void vtkRadiosityPass::SetShown(vtkActor* actor, bool shown)
 {
-  return std::all_of(this->Scenes.begin(), this->Scenes.end(),
-    [](const std::unique_ptr<Scene>& scene) { return scene->Solution.IsConverged(); });
+  if (actor && this->IsShown(actor) != shown)
+  {
+    this->Others.erase(std::remove_if(this->Others.begin(), this->Others.end(),
+                         [actor](const vtkWeakPointer<vtkActor>& other)
+                         { return !other || other.Get() == actor; }),
+      this->Others.end());
+    if (!shown)
+    {
+      this->Others.emplace_back(actor);
+    }
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkRadiosityPass::GetOutput(vtkActor* actor)
+bool vtkRadiosityPass::IsShown(vtkActor* actor)
+{
+  return std::none_of(this->Others.begin(), this->Others.end(),
+    [actor](const vtkWeakPointer<vtkActor>& other) { return other.Get() == actor; });
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosityPass::IsConverged()
+{
+  return !this->Radiosity ||
+    (!this->Scenes.empty() &&
+      std::all_of(this->Scenes.begin(), this->Scenes.end(),
+        [](const std::unique_ptr<Scene>& scene) { return scene->Solution.IsConverged(); }));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkRadiosityPass::GetOutput(vtkActor* actor, int block)
 {
   for (const auto& scene : this->Scenes)
   {
-    if (vtkPolyData* output = scene->Solution.GetOutput(actor))
+    if (vtkPolyData* output = scene->Solution.GetOutput(actor, block))
     {
       return output;
     }

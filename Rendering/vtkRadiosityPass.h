@@ -10,9 +10,9 @@
  * Without SetRadiosity actors are drawn that have the point array "Radiosity" of vtkRadiosity; the
  * pass solves nothing. With it the actors of the renderer are one scene, which is solved while it
  * is drawn. All take part that are visible, opaque, drawn as surfaces, and lit (vtkProperty::
- * Lighting), wherever the camera looks; a warning names actors whose mapper keeps them from it
- * (composite data). Others, and parts of assemblies, are drawn as usual and cost nothing. Of three
- * bands (red, green, blue)
+ * Lighting), wherever the camera looks, also blocks of composite data with what their mapper says
+ * of them (visibility, color); a warning names actors whose mapper keeps them from it. Others, and
+ * parts of assemblies, are drawn as usual and cost nothing. Of three bands (red, green, blue)
  *
  *   reflectance = the cell array "Reflectance" where there is one, else the property's Diffuse x
  *                 DiffuseColor;
@@ -47,6 +47,7 @@
 #define vtkRadiosityPass_h
 
 #include "vtkTransportPass.h"
+#include "vtkWeakPointer.h" // for members
 
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
@@ -96,16 +97,24 @@ public:
   vtkBooleanMacro(Shadows, bool);
   ///@}
 
+  ///@{
+  /// Whether an actor that takes part is drawn as radiosity; else as usual, or as DelegatePass
+  /// does: a vtkSubsurfaceScatteringPass there draws what is translucent. Default for all: on.
+  void SetShown(vtkActor* actor, bool shown);
+  bool IsShown(vtkActor* actor);
+  ///@}
+
   /// Whether the last frame of each renderer shows a solution that has converged (or none where no
-  /// actor takes part).
+  /// actor takes part). False before the first frame; what changes is known in the next one.
   bool IsConverged();
 
   /**
    * All arrays of vtkRadiosity on the surface of an actor, in world coordinates, of the estimate so
-   * far ("Irradiance" can light what is translucent). What shots have brought is read back once for
-   * each estimate. nullptr where there is no estimate yet, or the actor takes no part.
+   * far ("Irradiance" can light what is translucent), or of one of its visible blocks that have
+   * polygons. What shots have brought is read back once for each estimate. nullptr where there is
+   * no estimate yet, or the actor takes no part.
    */
-  vtkPolyData* GetOutput(vtkActor* actor);
+  vtkPolyData* GetOutput(vtkActor* actor, int block = 0);
 
   ///@{
   /// How often links and direct light have been computed, solutions have been begun (with links:
@@ -147,7 +156,8 @@ private:
   Scene& FindScene(vtkRenderer* renderer);
 
   std::vector<std::unique_ptr<Scene>> Scenes;
-  Scene* Drawn = nullptr; ///< in this frame
+  Scene* Drawn = nullptr;                       ///< in this frame
+  std::vector<vtkWeakPointer<vtkActor>> Others; ///< that are not shown
   vtkSmartPointer<vtkRadiosity> Radiosity;
   double FrameBudget = 0.05;
   bool AmbientTerm = false;

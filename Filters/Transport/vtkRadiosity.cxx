@@ -883,6 +883,8 @@ void vtkRadiosity::CopyProperties(vtkRadiosity* source)
   this->BackgroundRadiances = source->BackgroundRadiances;
   this->LinkMethod = source->LinkMethod;
   this->LinkTolerance = source->LinkTolerance;
+  this->Accuracy = source->Accuracy;
+  this->ComputeErrors = source->ComputeErrors;
   this->ClusterTree = source->ClusterTree;
   this->TwoSided = source->TwoSided;
   this->RefineByBrightness = source->RefineByBrightness;

@@ -125,13 +125,13 @@ double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
 bool vtkViewFactors::GetViewFactors(vtkIdType i, vtkDoubleArray* rows)
 {
   const vtkIdType count = this->Store->GetNumberOfFaces();
-  const vtkIdType end = i + rows->GetNumberOfTuples();
-  if (rows->GetNumberOfComponents() != count || i < 0 || end > count)
+  if (!rows || rows->GetNumberOfComponents() != count || i < 0 ||
+    i > count - rows->GetNumberOfTuples())
   {
     return false;
   }
   double* value = rows->GetPointer(0);
-  for (vtkIdType row = i; row < end; ++row)
+  for (vtkIdType row = i; row < i + rows->GetNumberOfTuples(); ++row)
   {
     for (vtkIdType j = 0; j < count; ++j)
     {
@@ -145,7 +145,7 @@ bool vtkViewFactors::GetViewFactors(vtkIdType i, vtkDoubleArray* rows)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::GetPatchAreas(vtkDoubleArray* areas)
 {
-  if (areas->GetNumberOfValues() != this->Store->GetNumberOfFaces())
+  if (!areas || areas->GetNumberOfValues() != this->Store->GetNumberOfFaces())
   {
     return false;
   }

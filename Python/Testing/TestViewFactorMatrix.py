@@ -11,6 +11,7 @@ import warnings
 import numpy
 
 import vtklighttransport as lt
+from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 from TestingTools import FolderTestCase, add_array, make_box, make_surface
@@ -86,6 +87,29 @@ class TestViewFactorMatrix(FolderTestCase):
         self.assertTrue(verdict.ok and verdict.closed, verdict)
         self.assertLess(verdict.reciprocity, 1e-15)
         self.assertFalse(matrix.is_sparse)
+
+    def test_memory(self):
+        """Rows go where the array's memory is, and nowhere else."""
+        factors = lt.vtkViewFactors()
+        rows, areas = vtkDoubleArray(), vtkDoubleArray()
+        rows.SetNumberOfComponents(6)
+        rows.SetNumberOfTuples(2)
+        rows.Fill(7.0)
+        self.assertFalse(factors.GetViewFactors(0, rows))
+        factors.SetInputData(make_cube())
+        factors.Update()
+        for first in (-1, 5, 6, (1 << 63) - 1):
+            self.assertFalse(factors.GetViewFactors(first, rows))
+        self.assertEqual(rows.GetTuple(1), (7.0,) * 6)
+        self.assertTrue(factors.GetViewFactors(4, rows))
+        self.assertAlmostEqual(rows.GetComponent(0, 5), OPPOSITE, delta=1e-3)
+        self.assertFalse(factors.GetPatchAreas(areas))
+        areas.SetNumberOfTuples(6)
+        self.assertTrue(factors.GetPatchAreas(areas))
+        self.assertAlmostEqual(areas.GetRange()[1], 1.0, delta=1e-12)
+        rows.SetNumberOfComponents(5)
+        self.assertFalse(factors.GetViewFactors(0, rows))
+        self.assertFalse(factors.GetViewFactors(0, None) or factors.GetPatchAreas(None))
 
     def test_kinds_of_scenes(self):
         """Blocks, backs, none at all, one patch, coordinates of maps."""

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -288,11 +289,23 @@ Outcome ProgressiveShooter::ComputeRadiosity(bool ambient)
       [](double power, double reflectance)
       { return reflectance < 1.0 ? std::max(power, 0.0) / (1.0 - reflectance) : 0.0; });
   }
-  if (Outcome reflected = this->Vectors.Scale(Scratch, ReflectancePerArea, Power); !reflected)
+  const std::vector<double> ones(static_cast<std::size_t>(this->Bands), 1.0);
+  if (this->IsShooting())
+  {
+    // The part of the shots under way that has been handed out.
+    const Outcome summed =
+      this->Vectors.Combine(Radiosity, ones.data(), Power, ones.data(), Received);
+    if (!summed)
+    {
+      return summed;
+    }
+  }
+  if (Outcome reflected =
+        this->Vectors.Scale(Scratch, ReflectancePerArea, this->IsShooting() ? Radiosity : Power);
+      !reflected)
   {
     return reflected;
   }
-  const std::vector<double> ones(static_cast<std::size_t>(this->Bands), 1.0);
   const Outcome added =
     this->Vectors.Combine(Scratch, ones.data(), Scratch, irradiance.data(), OwnReflectance);
   return added ? this->Vectors.Combine(Radiosity, ones.data(), Scratch, ones.data(), Source)
@@ -317,6 +330,12 @@ Outcome ProgressiveShooter::GetLargestUnshot(double* perBand)
 void ProgressiveShooter::GetIrradiance(double* values)
 {
   this->Vectors.Read(Power, values);
+  if (this->IsShooting())
+  {
+    std::vector<double> underWay(this->Reflectance.size());
+    this->Vectors.Read(Received, underWay.data());
+    std::transform(underWay.begin(), underWay.end(), values, values, std::plus<double>());
+  }
   this->Unscale(values, this->GetSize());
   for (vtkIdType k = 0; k < this->GetSize(); ++k)
   {

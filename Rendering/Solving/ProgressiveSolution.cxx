@@ -85,10 +85,11 @@ vtkSmartPointer<vtkMultiBlockDataSet> Copy(vtkDataObject* blocks)
 }
 
 //------------------------------------------------------------------------------
-std::size_t FindMember(const std::vector<SceneActors::Member>& members, vtkActor* actor)
+std::size_t FindMember(const std::vector<SceneActors::Member>& members, vtkActor* actor, int block)
 {
   const auto found = std::find_if(members.begin(), members.end(),
-    [actor](const SceneActors::Member& member) { return member.Actor.Get() == actor; });
+    [actor, block](const SceneActors::Member& member)
+    { return member.Actor.Get() == actor && member.Block == block; });
   return static_cast<std::size_t>(found - members.begin());
 }
 } // namespace
@@ -470,25 +471,24 @@ bool ProgressiveSolution::IsEnough()
 }
 
 //------------------------------------------------------------------------------
-ProgressiveSolution::Shown ProgressiveSolution::FindShown(vtkActor* actor) const
+std::vector<ProgressiveSolution::Shown> ProgressiveSolution::FindShown(vtkActor* actor) const
 {
-  Shown shown;
-  const std::size_t index = FindMember(this->ShownMembers, actor);
-  if (index < this->ShownMembers.size())
+  std::vector<Shown> all;
+  for (const SceneActors::Member& member : this->Actors.GetMembers())
   {
-    shown.Surface = GetBlock(this->ShownScene, index);
-    shown.Shape = this->ShownMembers[index].Shape;
-    shown.Matrix = this->ShownMembers[index].Matrix;
+    if (member.Actor.Get() != actor)
+    {
+      continue;
+    }
+    const std::size_t index = FindMember(this->ShownMembers, actor, member.Block);
+    vtkPolyData* surface = GetBlock(this->ShownScene, index);
+    if (!surface || this->ShownMembers[index].Shape != member.Shape)
+    {
+      return {};
+    }
+    all.push_back({ surface, this->ShownMembers[index].Matrix });
   }
-  return shown;
-}
-
-//------------------------------------------------------------------------------
-std::uint64_t ProgressiveSolution::GetShape(vtkActor* actor) const
-{
-  const auto& members = this->Actors.GetMembers();
-  const std::size_t index = FindMember(members, actor);
-  return index < members.size() ? members[index].Shape : 0;
+  return all;
 }
 
 //------------------------------------------------------------------------------
@@ -498,14 +498,14 @@ vtkTextureObject* ProgressiveSolution::GetGroups() const
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* ProgressiveSolution::GetOutput(vtkActor* actor)
+vtkPolyData* ProgressiveSolution::GetOutput(vtkActor* actor, int block)
 {
-  const std::size_t index = FindMember(this->Actors.GetMembers(), actor);
+  const std::size_t index = FindMember(this->Actors.GetMembers(), actor, block);
   vtkMultiBlockDataSet* output = this->Solution ? this->Solution : this->Estimate;
   const bool isShot = this->State == Progress::Shooting || this->State == Progress::Done;
   if (this->IsByShots && isShot && this->GetGroups())
   {
-    if (this->ReadShots != this->Shots)
+    if (this->ReadShots != this->Shots || this->State == Progress::Shooting)
     {
       std::vector<double> irradiance(this->Problem.Source.size());
       this->ReadBack = vtkSmartPointer<vtkMultiBlockDataSet>::New();

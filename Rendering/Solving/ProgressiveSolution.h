@@ -51,23 +51,22 @@ public:
   /// Whether there is nothing left to do.
   bool IsConverged() const { return this->State == Progress::Done; }
 
-  /// A surface in world coordinates, of the estimate so far or of an earlier scene; nullptr where
-  /// there is none.
+  /// What is drawn of an actor: a surface in world coordinates of when the actor had that matrix.
   struct Shown
   {
     vtkPolyData* Surface = nullptr;
-    std::uint64_t Shape = 0; ///< of the actor's surface
     std::array<double, 16> Matrix = {};
   };
-  Shown FindShown(vtkActor* actor) const;
-  std::uint64_t GetShape(vtkActor* actor) const;
+  /// For all blocks of an actor, of the estimate so far or of an earlier scene; none where there is
+  /// none of one of them, or only of another shape.
+  std::vector<Shown> FindShown(vtkActor* actor) const;
 
   /// Radiosity of the groups "SmoothGroup" of what is shown; nullptr where it is the array
   /// "Radiosity" instead.
   vtkTextureObject* GetGroups() const;
 
   /// All arrays of what has been computed so far; reads back what shots have brought.
-  vtkPolyData* GetOutput(vtkActor* actor);
+  vtkPolyData* GetOutput(vtkActor* actor, int block);
 
   ///@{ Since the beginning.
   vtkIdType GetNumberOfLinkRuns() const { return this->Filter->GetNumberOfLinkRuns(); }

@@ -43,9 +43,31 @@ std::string Describe(vtkActor* actor, int number)
 {
   return "Actor " + std::to_string(number) + " of the renderer takes no part in its radiosity: a " +
     std::string(actor->GetMapper()->GetClassName()) +
-    " draws it. Give each of its surfaces an actor with a vtkPolyDataMapper, or switch off its "
-    "property's Lighting.";
+    " draws it, which has no polygons, or blocks of an opacity below 1. Give each of its surfaces "
+    "an actor with a vtkPolyDataMapper, or switch off its property's Lighting.";
 }
+
+//------------------------------------------------------------------------------
+std::array<double, Bands> Scale(const double color[3], double factor)
+{
+  return { factor * color[0], factor * color[1], factor * color[2] };
+}
+
+///@{
+/// What a member shines with, and what it reflects.
+std::array<double, Bands> GetEmission(const SceneActors::Member& member)
+{
+  vtkProperty* property = member.Actor->GetProperty();
+  return Scale(member.HasColor ? member.Color.data() : property->GetAmbientColor(),
+    property->GetAmbient());
+}
+std::array<double, Bands> GetReflectance(const SceneActors::Member& member)
+{
+  vtkProperty* property = member.Actor->GetProperty();
+  return Scale(member.HasColor ? member.Color.data() : property->GetDiffuseColor(),
+    property->GetDiffuse());
+}
+///@}
 
 //------------------------------------------------------------------------------
 /// Of the array where there is one, else the color for all.
@@ -78,12 +100,6 @@ vtkSmartPointer<vtkDoubleArray> MakeArray(vtkPolyData* surface, const std::strin
   }
   return values;
 }
-
-//------------------------------------------------------------------------------
-std::array<double, Bands> Scale(const double color[3], double factor)
-{
-  return { factor * color[0], factor * color[1], factor * color[2] };
-}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -106,17 +122,9 @@ void SceneActors::Find(vtkRenderer* renderer, const Names& names,
     {
       continue;
     }
-    vtkPolyDataMapper* mapper = FindPlainMapper(actor->GetMapper());
-    if (!mapper)
+    if (!this->AddBlocks(actor))
     {
       refusals.push_back(Describe(actor, number));
-      continue;
-    }
-    mapper->Update();
-    vtkPolyData* surface = mapper->GetInput();
-    if (surface && surface->GetNumberOfPolys() > 0)
-    {
-      this->Add(actor, surface);
     }
   }
   BitHash lights;
@@ -134,10 +142,49 @@ void SceneActors::Find(vtkRenderer* renderer, const Names& names,
 }
 
 //------------------------------------------------------------------------------
-void SceneActors::Add(vtkActor* actor, vtkPolyData* surface)
+// False where it is kept from taking part.
+bool SceneActors::AddBlocks(vtkActor* actor)
 {
+  if (vtkPolyDataMapper* mapper = FindPlainMapper(actor->GetMapper()))
+  {
+    mapper->Update();
+    BlockSurface all;
+    all.Surface = mapper->GetInput();
+    if (all.Surface && all.Surface->GetNumberOfPolys() > 0)
+    {
+      this->Add(actor, all, 0);
+    }
+    return true;
+  }
+  std::vector<BlockSurface> blocks;
+  FindBlockSurfaces(actor->GetMapper(), blocks);
+  const bool isOpaque = std::all_of(blocks.begin(), blocks.end(),
+    [](const BlockSurface& block)
+    { return !block.IsVisible || !block.HasOpacity || block.Opacity >= 1.0; });
+  if (blocks.empty() || !isOpaque)
+  {
+    return false;
+  }
+  int number = 0;
+  for (const BlockSurface& block : blocks)
+  {
+    if (block.IsVisible)
+    {
+      this->Add(actor, block, number++);
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void SceneActors::Add(vtkActor* actor, const BlockSurface& block, int number)
+{
+  vtkPolyData* surface = block.Surface;
   Member member;
   member.Actor = actor;
+  member.Block = number;
+  member.HasColor = block.HasColor;
+  member.Color = block.Color;
   member.Surface = surface;
   actor->ComputeMatrix();
   std::copy_n(actor->GetMatrix()->GetData(), member.Matrix.size(), member.Matrix.begin());
@@ -154,11 +201,10 @@ void SceneActors::Add(vtkActor* actor, vtkPolyData* surface)
 
   BitHash material;
   material.Add(this->MaterialKey);
-  vtkProperty* property = actor->GetProperty();
   for (int band = 0; band < Bands; ++band)
   {
-    material.AddNumber(property->GetDiffuse() * property->GetDiffuseColor()[band]);
-    material.AddNumber(property->GetAmbient() * property->GetAmbientColor()[band]);
+    material.AddNumber(GetReflectance(member)[band]);
+    material.AddNumber(GetEmission(member)[band]);
   }
   vtkCellData* cells = surface->GetCellData();
   material.AddObjects({ cells->GetArray(this->ArrayNames.Emission.c_str()),
@@ -177,8 +223,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> SceneActors::MakeScene(std::string& proble
     scene->SetBlock(index, this->MakeBlock(member, problem));
     if (!problem.empty())
     {
-      problem = "Of surface " + std::to_string(index) + " of those that take part in the " +
-        "radiosity of the renderer, " + problem + ".";
+      problem.insert(0,
+        "Of surface " + std::to_string(index) +
+          " of those that take part in the radiosity of the renderer, ");
+      problem += '.';
       return nullptr;
     }
   }
@@ -221,11 +269,10 @@ vtkSmartPointer<vtkPolyData> SceneActors::MakeBlock(const Member& member,
   }
   block->SetPoints(points);
   block->SetPolys(polygons);
-  vtkProperty* property = member.Actor->GetProperty();
-  block->GetCellData()->AddArray(MakeArray(surface, this->ArrayNames.Emission, "Emission",
-    Scale(property->GetAmbientColor(), property->GetAmbient()), problem));
+  block->GetCellData()->AddArray(
+    MakeArray(surface, this->ArrayNames.Emission, "Emission", GetEmission(member), problem));
   block->GetCellData()->AddArray(MakeArray(surface, this->ArrayNames.Reflectance, "Reflectance",
-    Scale(property->GetDiffuseColor(), property->GetDiffuse()), problem));
+    GetReflectance(member), problem));
   return block;
 }
 

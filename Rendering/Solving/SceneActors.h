@@ -7,6 +7,8 @@
 #ifndef SceneActors_h
 #define SceneActors_h
 
+#include "Passes/BlockSurfaces.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -26,9 +28,13 @@ namespace LightTransport
 class SceneActors
 {
 public:
+  /// A surface of an actor: one, or a block of composite data.
   struct Member
   {
     vtkWeakPointer<vtkActor> Actor;
+    int Block = 0;
+    bool HasColor = false; ///< of its own, in place of the property's
+    std::array<double, 3> Color = {};
     vtkSmartPointer<vtkPolyData> Surface; ///< what its mapper draws
     std::uint64_t Shape = 0;              ///< another number when points or polygons change
     std::array<double, 16> Matrix = {};
@@ -41,8 +47,8 @@ public:
     std::string Reflectance;
   };
 
-  /// Looks for those that take part: visible, opaque, lit, drawn as surfaces, with polygons, by a
-  /// mapper of one surface. `refusals` gets a line for each that is kept from it by its mapper.
+  /// Looks for those that take part: visible, opaque, lit, drawn as surfaces, with polygons, also
+  /// in blocks. `refusals` gets a line for each that is kept from it by its mapper or its blocks.
   void Find(vtkRenderer* renderer, const Names& names, std::vector<std::string>& refusals);
 
   const std::vector<Member>& GetMembers() const { return this->Members; }
@@ -62,7 +68,8 @@ public:
   std::vector<vtkSmartPointer<vtkLight>> CopyLights() const;
 
 private:
-  void Add(vtkActor* actor, vtkPolyData* surface);
+  bool AddBlocks(vtkActor* actor);
+  void Add(vtkActor* actor, const BlockSurface& block, int number);
   vtkSmartPointer<vtkPolyData> MakeBlock(const Member& member, std::string& problem) const;
 
   Names ArrayNames;

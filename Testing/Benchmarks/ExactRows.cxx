@@ -40,7 +40,7 @@ struct ExactRows::Worker
     vtkIdType Patch;
     int Leaf;
     PairVisibility Visibility;
-    std::vector<vtkIdType> Between;
+    std::vector<ShaftCuller::Occluder> Between;
   };
 
   void operator()(vtkIdType begin, vtkIdType end)
@@ -101,7 +101,7 @@ struct ExactRows::Worker
     {
       return {};
     }
-    if (!row.Visibility.SetPair(scene, row.Patch, j, row.Between,
+    if (!row.Visibility.SetPair(scene, row.Patch, j, this->Culler.GetWalls(), row.Between,
           PairVisibility::GetKey(row.Patch, j), open))
     {
       return {};

@@ -42,6 +42,16 @@ def draw_cornell_box(file):
     demo_pictures.render_cornell_box(file, solve_cornell_box(), SIZE)
 
 
+def draw_cornell_box_solving(file):
+    """By shots on the GPU, whole in the first frame."""
+    scene = RadiosityScene(500)
+    radiosity = lt.vtkRadiosity()
+    radiosity.SetSolverToSouthwell()
+    radiosity.SetDeviceToOpenGL()
+    radiosity.SetTolerance(1e-2)
+    demo_pictures.render_cornell_box_while_solving(file, scene.surface, radiosity, SIZE // 2)
+
+
 def draw_colored_by_array(file):
     demo_pictures.render_colored_by_array(
         file,
@@ -190,6 +200,7 @@ def draw_bumps(file):
 
 CASES = {
     "CornellBox": draw_cornell_box,
+    "CornellBoxWhileSolving": draw_cornell_box_solving,
     "ColoredByArray": draw_colored_by_array,
     "BunnyDirectAndScattered": draw_bunny,
     "BunnyScatteredWhileDrawn": draw_bunny_scattering,

@@ -25,7 +25,7 @@ constexpr float Least = 1e-20f;
 // other, in loops over all candidates that become vector instructions.
 LT_CLONES void MarkAll(const ShaftCuller::Shaft& shaft, ShaftCuller::Candidates& candidates)
 {
-  const std::size_t count = candidates.Patches.size();
+  const std::size_t count = candidates.Walls.size();
   float* const first = candidates.First.data();
   float* const last = candidates.Last.data();
   std::fill_n(first, count, 0.0f);
@@ -45,6 +45,38 @@ LT_CLONES void MarkAll(const ShaftCuller::Shaft& shaft, ShaftCuller::Candidates&
       limits[c] = sign * (t > limit ? t : limit);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+std::vector<ShaftCuller::Bounds> FindBounds(const PatchGeometry& geometry)
+{
+  std::vector<ShaftCuller::Bounds> bounds(geometry.GetNumberOfPatches());
+  for (vtkIdType polygon = 0; polygon < geometry.GetNumberOfPatches(); ++polygon)
+  {
+    Pulse::Beat(polygon);
+    for (int corner = 0; corner < geometry.GetNumberOfCorners(polygon); ++corner)
+    {
+      bounds[polygon].Add(geometry.GetCorner(polygon, corner));
+    }
+  }
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
+// The bits of a node's patches.
+unsigned int GetBits(const PatchTree::Node& node, vtkIdType first)
+{
+  return ((1u << node.GetSize()) - 1u) << (node.First - first);
+}
+
+//------------------------------------------------------------------------------
+// Whether a wall may be between any of these patches: in front of one of each, with one of them
+// over its plane and one of the others under it.
+bool ArePartedBy(const SideMasks& i, unsigned int bitsI, const SideMasks& j, unsigned int bitsJ)
+{
+  return (i.Front & bitsI) != 0 && (j.Front & bitsJ) != 0 &&
+    (((i.Above & bitsI) != 0 && (j.Below & bitsJ) != 0) ||
+      ((i.Below & bitsI) != 0 && (j.Above & bitsJ) != 0));
 }
 } // namespace
 
@@ -81,7 +113,7 @@ void ShaftCuller::Bounds::Add(const Bounds& other)
 //------------------------------------------------------------------------------
 void ShaftCuller::Candidates::Resize()
 {
-  const std::size_t size = this->Patches.size();
+  const std::size_t size = this->Walls.size();
   for (int k = 0; k < Directions; ++k)
   {
     this->Lower[k].resize(size);
@@ -92,22 +124,20 @@ void ShaftCuller::Candidates::Resize()
 }
 
 //------------------------------------------------------------------------------
-ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
+ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene), Walls(scene)
 {
-  const vtkIdType patches = scene.GetNumberOfPatches();
-  this->PatchBounds.resize(patches);
-  this->Occluders.resize(patches);
-  for (vtkIdType patch = 0; patch < patches; ++patch)
-  {
-    Pulse::Beat(patch);
-    for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
-    {
-      this->PatchBounds[patch].Add(scene.GetCorner(patch, corner));
-    }
-    this->Occluders[patch] = IsAnyBehind(scene, scene.GetPlane(patch));
-    this->NumberOfOccluders += this->Occluders[patch] ? 1 : 0;
-  }
+  this->PatchBounds = FindBounds(scene);
+  this->WallBounds = FindBounds(this->Walls);
   const auto& nodes = scene.GetTree().GetNodes();
+  std::vector<std::vector<vtkIdType>> occluders(nodes.size());
+  for (vtkIdType wall = 0; wall < this->Walls.GetNumberOfPatches(); ++wall)
+  {
+    Pulse::Beat(wall);
+    if (IsAnyBehind(scene, this->Walls.GetPlane(wall)))
+    {
+      occluders[this->Walls.GetNode(wall)].push_back(wall);
+    }
+  }
   this->NodeBounds.resize(nodes.size());
   this->OccluderBounds.resize(nodes.size());
   // Children stand behind their parents.
@@ -117,10 +147,10 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
     for (vtkIdType patch = node.First; node.IsLeaf() && patch < node.Last; ++patch)
     {
       this->NodeBounds[k].Add(this->PatchBounds[patch]);
-      if (this->Occluders[patch])
-      {
-        this->OccluderBounds[k].Add(this->PatchBounds[patch]);
-      }
+    }
+    for (const vtkIdType wall : occluders[k])
+    {
+      this->OccluderBounds[k].Add(this->WallBounds[wall]);
     }
     for (int child = 0; !node.IsLeaf() && child < 2; ++child)
     {
@@ -128,6 +158,13 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene)
       this->OccluderBounds[k].Add(this->OccluderBounds[node.Left + child]);
     }
   }
+  this->OccluderBegins.assign(1, 0);
+  for (const std::vector<vtkIdType>& own : occluders)
+  {
+    this->Occluders.insert(this->Occluders.end(), own.begin(), own.end());
+    this->OccluderBegins.push_back(static_cast<vtkIdType>(this->Occluders.size()));
+  }
+  this->NumberOfOccluders = static_cast<vtkIdType>(this->Occluders.size());
 }
 
 //------------------------------------------------------------------------------
@@ -185,11 +222,11 @@ void ShaftCuller::Search(const Shaft& shaft, const Visit& visit) const
     {
       open.push_back(node.Left + 1);
       open.push_back(node.Left);
-      continue;
     }
-    for (vtkIdType patch = node.First; patch < node.Last; ++patch)
+    for (vtkIdType k = this->OccluderBegins[index]; k < this->OccluderBegins[index + 1]; ++k)
     {
-      if (this->Occluders[patch] && shaft.Meets(this->PatchBounds[patch]) && !visit(patch))
+      const vtkIdType wall = this->Occluders[k];
+      if (shaft.Meets(this->WallBounds[wall]) && !visit(wall))
       {
         return;
       }
@@ -198,15 +235,22 @@ void ShaftCuller::Search(const Shaft& shaft, const Visit& visit) const
 }
 
 //------------------------------------------------------------------------------
-void ShaftCuller::Search(const Shaft& shaft, std::vector<vtkIdType>& found) const
+// Whether the boxes of two nodes are not certainly on the same side of a wall.
+bool ShaftCuller::MayPart(vtkIdType wall, int nodeI, int nodeJ) const
 {
-  found.clear();
-  this->Search(shaft,
-    [&](vtkIdType patch)
-    {
-      found.push_back(patch);
-      return true;
-    });
+  const PatchPlane plane = this->Walls.GetPlane(wall);
+  const Vector size = plane.Normal.cwiseAbs();
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const int index : { nodeI, nodeJ })
+  {
+    const PatchTree::Node& node = this->Scene.GetTree().GetNode(index);
+    const double middle = plane.GetHeight(0.5 * (node.Lower + node.Upper));
+    const double reach = 0.5 * size.dot(node.Upper - node.Lower);
+    lowest = std::min(lowest, middle - reach);
+    highest = std::max(highest, middle + reach);
+  }
+  return lowest < -plane.Rounding && highest > plane.Rounding;
 }
 
 //------------------------------------------------------------------------------
@@ -214,10 +258,10 @@ bool ShaftCuller::MayBlock(int nodeI, int nodeJ) const
 {
   bool blocks = false;
   this->Search(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]),
-    [&](vtkIdType)
+    [&](vtkIdType wall)
     {
-      blocks = true;
-      return false;
+      blocks = this->MayPart(wall, nodeI, nodeJ);
+      return !blocks;
     });
   return blocks;
 }
@@ -225,11 +269,28 @@ bool ShaftCuller::MayBlock(int nodeI, int nodeJ) const
 //------------------------------------------------------------------------------
 void ShaftCuller::Find(int nodeI, int nodeJ, Candidates& found) const
 {
-  this->Search(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), found.Patches);
+  found.HasSides = false;
+  found.Walls.clear();
+  this->Search(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]),
+    [&](vtkIdType wall)
+    {
+      if (this->MayPart(wall, nodeI, nodeJ))
+      {
+        found.Walls.push_back(wall);
+      }
+      return true;
+    });
+  this->FindSidesOf(nodeI, nodeJ, found);
+  this->SetBounds(found);
+}
+
+//------------------------------------------------------------------------------
+void ShaftCuller::SetBounds(Candidates& found) const
+{
   found.Resize();
-  for (std::size_t c = 0; c < found.Patches.size(); ++c)
+  for (std::size_t c = 0; c < found.Walls.size(); ++c)
   {
-    const Bounds& bounds = this->PatchBounds[found.Patches[c]];
+    const Bounds& bounds = this->WallBounds[found.Walls[c]];
     for (int k = 0; k < Directions; ++k)
     {
       found.Lower[k][c] = bounds.Lower[k];
@@ -239,54 +300,170 @@ void ShaftCuller::Find(int nodeI, int nodeJ, Candidates& found) const
 }
 
 //------------------------------------------------------------------------------
-void ShaftCuller::Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const
+// Of walls without bounds yet: where the nodes have few patches, keep those that part any of them.
+void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
 {
-  MarkAll(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), candidates);
-  found.Patches.clear();
-  for (std::size_t c = 0; c < candidates.Patches.size(); ++c)
+  const PatchTree::Node& i = this->Scene.GetTree().GetNode(nodeI);
+  const PatchTree::Node& j = this->Scene.GetTree().GetNode(nodeJ);
+  if (std::max(i.GetSize(), j.GetSize()) > SideFinder::MaximumPatches)
   {
-    if (candidates.IsBetween(c))
+    return;
+  }
+  SideFinder finderI(this->Walls, this->Scene), finderJ(this->Walls, this->Scene);
+  finderI.SetPatches(i.First, i.Last);
+  finderJ.SetPatches(j.First, j.Last);
+  found.HasSides = true;
+  found.FirstI = i.First;
+  found.FirstJ = j.First;
+  found.SidesI.clear();
+  found.SidesJ.clear();
+  std::size_t kept = 0;
+  for (const vtkIdType wall : found.Walls)
+  {
+    const SideMasks sidesI = finderI.Find(wall);
+    const SideMasks sidesJ = sidesI.Front != 0 ? finderJ.Find(wall) : SideMasks();
+    if (ArePartedBy(sidesI, GetBits(i, i.First), sidesJ, GetBits(j, j.First)))
     {
-      found.Patches.push_back(candidates.Patches[c]);
+      found.Walls[kept++] = wall;
+      found.SidesI.push_back(sidesI);
+      found.SidesJ.push_back(sidesJ);
     }
   }
-  found.Resize();
-  for (int k = 0; k < Directions; ++k)
+  found.Walls.resize(kept);
+}
+
+//------------------------------------------------------------------------------
+void ShaftCuller::Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const
+{
+  const PatchTree& tree = this->Scene.GetTree();
+  MarkAll(Shaft(this->NodeBounds[nodeI], this->NodeBounds[nodeJ]), candidates);
+  found.Kept.clear();
+  if (candidates.HasSides)
   {
-    std::size_t next = 0;
-    for (std::size_t c = 0; c < candidates.Patches.size(); ++c)
+    const unsigned int bitsI = GetBits(tree.GetNode(nodeI), candidates.FirstI);
+    const unsigned int bitsJ = GetBits(tree.GetNode(nodeJ), candidates.FirstJ);
+    for (std::size_t c = 0; c < candidates.Walls.size(); ++c)
     {
-      if (candidates.IsBetween(c))
+      if (candidates.First[c] <= candidates.Last[c] &&
+        ArePartedBy(candidates.SidesI[c], bitsI, candidates.SidesJ[c], bitsJ))
       {
-        found.Lower[k][next] = candidates.Lower[k][c];
-        found.Upper[k][next++] = candidates.Upper[k][c];
+        found.Kept.push_back(c);
       }
+    }
+    Keep(candidates, found);
+    return;
+  }
+  found.HasSides = false;
+  found.Walls.clear();
+  for (std::size_t c = 0; c < candidates.Walls.size(); ++c)
+  {
+    if (candidates.First[c] <= candidates.Last[c] &&
+      this->MayPart(candidates.Walls[c], nodeI, nodeJ))
+    {
+      found.Walls.push_back(candidates.Walls[c]);
+    }
+  }
+  this->FindSidesOf(nodeI, nodeJ, found);
+  this->SetBounds(found);
+}
+
+//------------------------------------------------------------------------------
+// Those of the candidates that found.Kept names.
+void ShaftCuller::Keep(const Candidates& candidates, Candidates& found)
+{
+  const std::size_t count = found.Kept.size();
+  found.HasSides = true;
+  found.FirstI = candidates.FirstI;
+  found.FirstJ = candidates.FirstJ;
+  found.Walls.resize(count);
+  found.SidesI.resize(count);
+  found.SidesJ.resize(count);
+  found.Resize();
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    found.Walls[k] = candidates.Walls[found.Kept[k]];
+    found.SidesI[k] = candidates.SidesI[found.Kept[k]];
+    found.SidesJ[k] = candidates.SidesJ[found.Kept[k]];
+  }
+  for (int direction = 0; direction < Directions; ++direction)
+  {
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      found.Lower[direction][k] = candidates.Lower[direction][found.Kept[k]];
+      found.Upper[direction][k] = candidates.Upper[direction][found.Kept[k]];
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void ShaftCuller::FindBetween(vtkIdType i, vtkIdType j, std::vector<vtkIdType>& found) const
+void ShaftCuller::FindBetween(vtkIdType i, vtkIdType j, std::vector<Occluder>& found) const
 {
-  this->Search(Shaft(this->PatchBounds[i], this->PatchBounds[j]), found);
-  found.erase(std::remove_if(found.begin(), found.end(),
-                [=](vtkIdType patch) { return patch == i || patch == j; }),
-    found.end());
+  found.clear();
+  this->Search(Shaft(this->PatchBounds[i], this->PatchBounds[j]),
+    [&](vtkIdType wall)
+    {
+      const SideMasks sidesI = FindSides(this->Walls, wall, this->Scene, i);
+      const SideMasks sidesJ =
+        sidesI.Front ? FindSides(this->Walls, wall, this->Scene, j) : SideMasks();
+      if (ArePartedBy(sidesI, 1, sidesJ, 1) && !this->IsOf(wall, i, j))
+      {
+        found.push_back({ wall, (sidesI.Cut | sidesJ.Cut) != 0 });
+      }
+      return true;
+    });
 }
 
 //------------------------------------------------------------------------------
 void ShaftCuller::NarrowBetween(vtkIdType i, vtkIdType j, Candidates& candidates,
-  std::vector<vtkIdType>& found) const
+  std::vector<Occluder>& found) const
 {
   MarkAll(Shaft(this->PatchBounds[i], this->PatchBounds[j]), candidates);
+  const unsigned int bitI = 1u << (i - candidates.FirstI);
+  const unsigned int bitJ = 1u << (j - candidates.FirstJ);
   found.clear();
-  for (std::size_t k = 0; k < candidates.Patches.size(); ++k)
+  for (std::size_t k = 0; k < candidates.Walls.size(); ++k)
   {
-    const vtkIdType patch = candidates.Patches[k];
-    if (candidates.IsBetween(k) && patch != i && patch != j)
+    const SideMasks& sidesI = candidates.SidesI[k];
+    const SideMasks& sidesJ = candidates.SidesJ[k];
+    const vtkIdType wall = candidates.Walls[k];
+    if (candidates.First[k] <= candidates.Last[k] && ArePartedBy(sidesI, bitI, sidesJ, bitJ) &&
+      !this->IsOf(wall, i, j))
     {
-      found.push_back(patch);
+      found.push_back({ wall, (sidesI.Cut & bitI) != 0 || (sidesJ.Cut & bitJ) != 0 });
     }
   }
+}
+
+//------------------------------------------------------------------------------
+std::vector<ShaftCuller::Vector> ShaftCuller::GetBox(int node) const
+{
+  const Vector& lower = this->Scene.GetTree().GetNode(node).Lower;
+  const Vector& upper = this->Scene.GetTree().GetNode(node).Upper;
+  std::vector<Vector> corners;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    corners.emplace_back(corner & 1 ? upper.x() : lower.x(), corner & 2 ? upper.y() : lower.y(),
+      corner & 4 ? upper.z() : lower.z());
+  }
+  return corners;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType ShaftCuller::FindHiding(int nodeI, int nodeJ, const Candidates& candidates,
+  vtkIdType guess) const
+{
+  if (nodeI == nodeJ)
+  {
+    return -1;
+  }
+  const std::vector<Vector> from = this->GetBox(nodeI);
+  const std::vector<Vector> to = this->GetBox(nodeJ);
+  if (guess >= 0 && this->Walls.HidesAll(guess, from, to, true))
+  {
+    return guess;
+  }
+  const auto found = std::find_if(candidates.Walls.begin(), candidates.Walls.end(),
+    [&](vtkIdType wall) { return this->Walls.HidesAll(wall, from, to, true); });
+  return found != candidates.Walls.end() ? *found : -1;
 }
 } // namespace LightTransport

@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Finds the patches that may come between two patches, or between any two patches of two nodes of
- * the scene's tree: those that reach into the shaft, the convex hull of both (Haines and Wallace
- * 1991). Conservative: where nothing is found, nothing is between.
+ * Finds the walls (OccluderWalls) that may come between two patches, or between any two patches of
+ * two nodes of the scene's tree: those that reach into the shaft, the convex hull of both (Haines
+ * and Wallace 1991), in front of both, with the two on different sides of their plane.
+ * Conservative: where nothing is found, nothing is between.
  *
  * A shaft is tested as the family of its cross-sections: bounds along a few fixed directions, which
- * go linearly from those of the one end to those of the other.
+ * go linearly from those of the one end to those of the other. Sides are those of boxes as long as
+ * nodes are large, then of patches: once for each wall and patch of two nodes, not for each pair
+ * (SideFinder).
  */
 #ifndef ShaftCuller_h
 #define ShaftCuller_h
 
+#include "Geometry/OccluderWalls.h"
+#include "Geometry/SideMasks.h"
 #include "Scene/PatchScene.h"
 
 #include <array>
@@ -23,20 +28,35 @@ class ShaftCuller
 public:
   static constexpr int Directions = 9;
 
-  /// Patches, with their bounds side by side.
+  /// What may be between two patches.
+  struct Occluder
+  {
+    vtkIdType Wall;
+    bool IsCut; ///< by the plane of one of the two, which it reaches at least
+  };
+
+  /// Walls, with their bounds side by side.
   struct Candidates
   {
-    std::vector<vtkIdType> Patches;
-    std::vector<float> Lower[Directions];
-    std::vector<float> Upper[Directions];
+    std::vector<vtkIdType> Walls;
+    std::array<std::vector<float>, Directions> Lower;
+    std::array<std::vector<float>, Directions> Upper;
     ///@{ Which cross-sections of the shaft looked at last meet the bounds.
     std::vector<float> First;
     std::vector<float> Last;
-    bool IsBetween(std::size_t index) const { return this->First[index] <= this->Last[index]; }
     ///@}
+    ///@{ Sides of the patches of two nodes with few of them, from FirstI and FirstJ on; while nodes
+    /// are larger there are none.
+    bool HasSides = false;
+    std::vector<SideMasks> SidesI;
+    std::vector<SideMasks> SidesJ;
+    vtkIdType FirstI = 0;
+    vtkIdType FirstJ = 0;
+    ///@}
+    std::vector<std::size_t> Kept; ///< which these were of those they were chosen from
 
-    bool IsEmpty() const { return this->Patches.empty(); }
-    /// Make room for the bounds of all patches.
+    bool IsEmpty() const { return this->Walls.empty(); }
+    /// Make room for the bounds of all walls.
     void Resize();
   };
 
@@ -64,34 +84,56 @@ public:
 
   explicit ShaftCuller(const PatchScene& scene);
 
-  /// Whether any patch can come between two points of the scene: a patch with the whole scene in
+  const OccluderWalls& GetWalls() const { return this->Walls; }
+
+  /// Whether anything can come between two points of the scene: a wall with the whole scene in
   /// front of its plane cannot. In a convex room none can.
   bool HasOccluders() const { return this->NumberOfOccluders > 0; }
 
   /// Whether anything may be between two nodes; false is certain.
   bool MayBlock(int nodeI, int nodeJ) const;
 
-  ///@{ Replace `found` by what may be between two nodes: of the whole scene, or of `candidates`.
+  ///@{ Replace `found` by what may be between two nodes: of the whole scene, or of `candidates`
+  /// that
+  /// were found for nodes above them.
   void Find(int nodeI, int nodeJ, Candidates& found) const;
   void Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const;
   ///@}
-  ///@{ The same for two patches.
-  void FindBetween(vtkIdType i, vtkIdType j, std::vector<vtkIdType>& found) const;
+  ///@{ The same for two patches; candidates are those of two leaves.
+  void FindBetween(vtkIdType i, vtkIdType j, std::vector<Occluder>& found) const;
   void NarrowBetween(vtkIdType i, vtkIdType j, Candidates& candidates,
-    std::vector<vtkIdType>& found) const;
+    std::vector<Occluder>& found) const;
   ///@}
+
+  /// A wall that certainly hides all of one node from all of the other; -1 where none is known.
+  /// `guess`: the wall to try first, or -1.
+  vtkIdType FindHiding(int nodeI, int nodeJ, const Candidates& candidates, vtkIdType guess) const;
 
 private:
   using Vector = PatchScene::Vector;
   template <typename Visit>
   void Search(const Shaft& shaft, const Visit& visit) const;
-  void Search(const Shaft& shaft, std::vector<vtkIdType>& found) const;
+  bool MayPart(vtkIdType wall, int nodeI, int nodeJ) const;
+  void FindSidesOf(int nodeI, int nodeJ, Candidates& found) const;
+  void SetBounds(Candidates& found) const;
+  static void Keep(const Candidates& candidates, Candidates& found);
+  std::vector<Vector> GetBox(int node) const;
+  bool IsOf(vtkIdType wall, vtkIdType i, vtkIdType j) const
+  {
+    return wall == this->Walls.GetWall(i) || wall == this->Walls.GetWall(j);
+  }
 
   const PatchScene& Scene;
+  const OccluderWalls Walls;
   std::vector<Bounds> PatchBounds;
+  std::vector<Bounds> WallBounds;
   std::vector<Bounds> NodeBounds;     ///< of all patches
   std::vector<Bounds> OccluderBounds; ///< of the occluders of each node; empty where it has none
-  std::vector<bool> Occluders;
+  ///@{ The occluders that belong to node k and to none of its children: from OccluderBegins[k] to
+  /// OccluderBegins[k + 1].
+  std::vector<vtkIdType> Occluders;
+  std::vector<vtkIdType> OccluderBegins;
+  ///@}
   vtkIdType NumberOfOccluders = 0;
 };
 } // namespace LightTransport

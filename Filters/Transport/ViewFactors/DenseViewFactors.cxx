@@ -96,7 +96,7 @@ void Summarize(const ViewFactorAssembly& assembly, const Ranks& ranks, Links& li
     { "PairsBackFacing", count.Open.BackFacing }, { "PairsNotSending", count.NotSending },
     { "PairsFacing", count.Open.Facing }, { "PairsUnobstructed", count.Free },
     { "PairsHidden", count.Hidden }, { "PairsPartlyVisible", count.PartlyVisible },
-    { "MatrixBytes", links.Matrix->GetNumberOfBytes() } };
+    { "PairsLookedAt", count.Rastered }, { "MatrixBytes", links.Matrix->GetNumberOfBytes() } };
   std::vector<double> totals = assembly.GetRowErrors();
   const std::size_t rows = totals.size();
   for (const auto& summary : links.Summaries)

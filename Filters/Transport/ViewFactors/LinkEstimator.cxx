@@ -165,13 +165,14 @@ LinkEstimator::Estimate LinkEstimator::Integrate(const Pair& pair, double thresh
   {
     return estimate;
   }
-  std::vector<vtkIdType> between;
+  std::vector<ShaftCuller::Occluder> between;
   this->Culler.FindBetween(i, j, between);
   if (between.empty())
   {
     return estimate;
   }
-  if (!visibility.SetPair(this->Scene, i, j, between, PairVisibility::GetKey(i, j), open))
+  if (!visibility.SetPair(this->Scene, i, j, this->Culler.GetWalls(), between,
+        PairVisibility::GetKey(i, j), open))
   {
     return estimate;
   }

@@ -70,43 +70,13 @@ bool AreCloseTogether(const Polygon& a, const Polygon& b)
 }
 
 //------------------------------------------------------------------------------
-enum class Side
-{
-  Front,
-  Behind,
-  Both
-};
-Side FindSide(const PatchScene& scene, vtkIdType patch, const PatchPlane& plane)
-{
-  const Vector& centroid = scene.GetCentroid(patch);
-  const double middle = plane.GetHeight(centroid);
-  const double radius = scene.GetRadius(patch);
-  if (middle < -radius)
-  {
-    return Side::Behind;
-  }
-  if (middle > radius + plane.GetTolerance((centroid - plane.Origin).norm() + radius))
-  {
-    return Side::Front;
-  }
-  bool front = false;
-  bool behind = false;
-  for (int corner = 0; corner < scene.GetNumberOfCorners(patch); ++corner)
-  {
-    const double height = plane.GetCertainHeight(scene.GetCorner(patch, corner));
-    front = front || height > 0.0;
-    behind = behind || height <= 0.0;
-  }
-  return front && behind ? Side::Both : (front ? Side::Front : Side::Behind);
-}
-
-//------------------------------------------------------------------------------
 // Points of a grid of similar triangles, three of each: those that turn into each other by a third
 // of a turn and are on a certain circle (degree 2, whatever the angle at which they begin). Rows of
 // points would lie along the edges of shadows, which often run along the polygon's own, and be
-// wrong all alike: each grid begins at another angle.
+// wrong all alike: each grid begins at another angle. Stops where visit returns false.
 template <typename Visit>
-void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts, const Visit& visit)
+bool VisitTriangle(const Vector& origin, const Vector& u, const Vector& v, int cuts,
+  const Visit& visit)
 {
   const double turns = GoldenRatio * cuts;
   const double angle = LargestTurn * (2.0 * (turns - std::floor(turns)) - 1.0);
@@ -124,20 +94,22 @@ void VisitGrid(const Vector& origin, const Vector& u, const Vector& v, int cuts,
       {
         const double alongU = shares[(point + 1) % 3];
         const double alongV = shares[(point + 2) % 3];
-        visit(Vector(corner + alongU * u + alongV * v));
-        if (i + j + 1 < cuts)
+        if (!visit(Vector(corner + alongU * u + alongV * v)) ||
+          (i + j + 1 < cuts && !visit(Vector(corner + (1.0 - alongU) * u + (1.0 - alongV) * v))))
         {
-          visit(Vector(corner + (1.0 - alongU) * u + (1.0 - alongV) * v));
+          return false;
         }
       }
     }
   }
+  return true;
 }
 } // namespace
 
 //------------------------------------------------------------------------------
 bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
-  const std::vector<vtkIdType>& occluders, std::uint64_t key, double open)
+  const OccluderWalls& walls, const std::vector<ShaftCuller::Occluder>& occluders,
+  std::uint64_t key, double open)
 {
   this->Open = open;
   Polygon::SetToClippedPair(scene, i, j, this->Outer, this->Inner);
@@ -147,44 +119,63 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   this->HullRounding =
     HeightRounding + std::max(scene.GetEdgeRounding(i), scene.GetEdgeRounding(j));
   this->NumberOfPoints = 0;
-  if (!this->SelectOccluders(scene, occluders))
+  this->Walls = &walls;
+  this->SelectOccluders(occluders);
+  this->WalledOff = this->FindHidingWall();
+  if (this->Occluders.empty() || this->WalledOff)
   {
-    return false;
+    return this->WalledOff;
   }
   this->AreClose = open > 0.0 && AreCloseTogether(this->Outer, this->Inner);
   this->IsExactReady = false;
-  this->Scene = &scene;
-  this->ChooseOuter(scene);
+  this->ChooseOuter();
   this->SetFrame();
   this->AddTarget();
-  this->AddTriangles(scene);
+  this->AddTriangles();
   return this->Triangles.Count > 0;
 }
 
 //------------------------------------------------------------------------------
-bool PairVisibility::SelectOccluders(const PatchScene& scene,
-  const std::vector<vtkIdType>& occluders)
+void PairVisibility::SelectOccluders(const std::vector<ShaftCuller::Occluder>& occluders)
 {
   this->Occluders.clear();
-  this->Hull.Set(this->Outer, this->Inner, this->HullRounding);
-  for (const vtkIdType patch : occluders)
+  if (occluders.empty())
   {
-    const Side outer = FindSide(scene, patch, this->OuterPlane);
-    const Side inner = outer == Side::Behind ? outer : FindSide(scene, patch, this->InnerPlane);
-    if (inner != Side::Behind &&
-      !this->Hull.IsBeyond(scene.GetNumberOfCorners(patch),
-        [&](int corner) { return scene.GetCorner(patch, corner); }))
+    return;
+  }
+  this->Hull.Set(this->Outer, this->Inner, this->HullRounding);
+  for (const ShaftCuller::Occluder& occluder : occluders)
+  {
+    if (!this->Hull.IsBeyond(this->Walls->GetNumberOfCorners(occluder.Wall),
+          [&](int corner) { return this->Walls->GetCorner(occluder.Wall, corner); }))
     {
-      this->Occluders.push_back({ patch, outer == Side::Both || inner == Side::Both, 0.0 });
+      this->Occluders.push_back({ occluder.Wall, occluder.IsCut, 0.0 });
     }
   }
-  return !this->Occluders.empty();
+}
+
+//------------------------------------------------------------------------------
+bool PairVisibility::FindHidingWall()
+{
+  if (this->Occluders.empty())
+  {
+    return false;
+  }
+  const Polygon* const polygons[2] = { &this->Outer, &this->Inner };
+  for (int end = 0; end < 2; ++end)
+  {
+    const auto first = polygons[end]->Corners.begin();
+    this->Ends[end].assign(first, first + polygons[end]->Count);
+  }
+  return std::any_of(this->Occluders.begin(), this->Occluders.end(),
+    [this](const Occluder& occluder)
+    { return this->Walls->HidesAll(occluder.Wall, this->Ends[0], this->Ends[1], false); });
 }
 
 //------------------------------------------------------------------------------
 // Seen from the outer polygon, occluders at the fraction t of the way to the inner one let shadows
 // move (1 - t) / t times as far as the point.
-void PairVisibility::ChooseOuter(const PatchScene& scene)
+void PairVisibility::ChooseOuter()
 {
   const Vector middle = this->Outer.GetMiddle();
   const Vector axis = this->Inner.GetMiddle() - middle;
@@ -192,7 +183,7 @@ void PairVisibility::ChooseOuter(const PatchScene& scene)
   for (const Occluder& occluder : this->Occluders)
   {
     const double position =
-      (scene.GetCentroid(occluder.Patch) - middle).dot(axis) / axis.squaredNorm();
+      (this->Walls->GetCentroid(occluder.Wall) - middle).dot(axis) / axis.squaredNorm();
     sum += std::min(1.0, std::max(0.0, position));
   }
   const double position = sum / static_cast<double>(this->Occluders.size());
@@ -278,30 +269,30 @@ void PairVisibility::AddTriangles(int count, const GetCorner& getCorner)
 }
 
 //------------------------------------------------------------------------------
-void PairVisibility::AddTriangles(const PatchScene& scene)
+void PairVisibility::AddTriangles()
 {
   const Vector middle = this->Outer.GetMiddle();
   const Vector axis = (this->Origin - middle).normalized();
   for (Occluder& occluder : this->Occluders)
   {
-    const Vector offset = scene.GetCentroid(occluder.Patch) - middle;
+    const Vector offset = this->Walls->GetCentroid(occluder.Wall) - middle;
     const double length = std::max(offset.norm(), std::numeric_limits<double>::min());
-    const double radius = std::sqrt(scene.GetAreas()[occluder.Patch] *
-      std::abs(offset.dot(scene.GetNormal(occluder.Patch))) / length);
+    const double radius = std::sqrt(this->Walls->GetAreas()[occluder.Wall] *
+      std::abs(offset.dot(this->Walls->GetNormal(occluder.Wall))) / length);
     const double along = std::max(offset.dot(axis), 1e-3 * length);
     occluder.Rank = (offset.cross(axis).norm() - radius) / along;
   }
   std::sort(this->Occluders.begin(), this->Occluders.end(),
     [](const Occluder& a, const Occluder& b)
-    { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Patch < b.Patch); });
+    { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Wall < b.Wall); });
   this->Triangles.Clear();
   Polygon cut;
   for (const Occluder& occluder : this->Occluders)
   {
     if (!occluder.IsCut)
     {
-      this->AddTriangles(scene.GetNumberOfCorners(occluder.Patch),
-        [&](int corner) { return scene.GetCorner(occluder.Patch, corner); });
+      this->AddTriangles(this->Walls->GetNumberOfCorners(occluder.Wall),
+        [&](int corner) { return this->Walls->GetCorner(occluder.Wall, corner); });
       continue;
     }
     if (this->ShapeOccluder(occluder, cut))
@@ -315,22 +306,80 @@ void PairVisibility::AddTriangles(const PatchScene& scene)
 // What of an occluder is between the two polygons; false where nothing is.
 bool PairVisibility::ShapeOccluder(const Occluder& occluder, Polygon& shape) const
 {
-  shape.Set(*this->Scene, occluder.Patch);
+  shape.Set(*this->Walls, occluder.Wall);
   return !occluder.IsCut ||
     (shape.Clip(this->OuterPlane) && shape.Clip(this->InnerPlane) &&
       !this->Hull.IsBeyond(shape.Count, [&](int corner) { return shape.Corners[corner]; }));
 }
 
 //------------------------------------------------------------------------------
-Flux PairVisibility::See(const Vector& place)
+PairVisibility::RasterPoint PairVisibility::GetNextPoint(const Vector& place)
 {
   const PatchSampler sampler(this->Key);
   const int index = this->NumberOfPoints++;
   const Vector offset = place - this->Origin;
-  const double point[3] = { offset.dot(this->AxisU), offset.dot(this->AxisW),
-    offset.dot(this->AxisH) };
-  const double shift[2] = { sampler.Get(index, 0), sampler.Get(index, 1) };
-  return ShadowRaster::See(this->Target, this->Triangles, point, this->Normal, shift);
+  return { { offset.dot(this->AxisU), offset.dot(this->AxisW), offset.dot(this->AxisH) },
+    { sampler.Get(index, 0), sampler.Get(index, 1) } };
+}
+
+//------------------------------------------------------------------------------
+Flux PairVisibility::See(const Vector& place)
+{
+  const RasterPoint point = this->GetNextPoint(place);
+  return ShadowRaster::See(this->Target, this->Triangles, point.Place, this->Normal, point.Shift);
+}
+
+//------------------------------------------------------------------------------
+// Calls visit(place, area) for the points of one grid until it returns false.
+template <typename Visit>
+bool PairVisibility::VisitGrid(int cuts, const Visit& visit) const
+{
+  bool goesOn = true;
+  for (int corner = 1; corner + 1 < this->Outer.Count && goesOn; ++corner)
+  {
+    const Vector& origin = this->Outer.Corners[0];
+    const Vector u = (this->Outer.Corners[corner] - origin) / cuts;
+    const Vector v = (this->Outer.Corners[corner + 1] - origin) / cuts;
+    // Three points for each triangle, which is half of a parallelogram.
+    const double area = u.cross(v).norm() / 6.0;
+    goesOn =
+      VisitTriangle(origin, u, v, cuts, [&](const Vector& place) { return visit(place, area); });
+  }
+  return goesOn;
+}
+
+//------------------------------------------------------------------------------
+// Calls visit(place) for the corners and the middles of the edges until it returns false.
+template <typename Visit>
+bool PairVisibility::VisitRim(const Visit& visit) const
+{
+  for (int corner = 0; corner < this->Outer.Count; ++corner)
+  {
+    const Vector& begin = this->Outer.Corners[corner];
+    const Vector& end = this->Outer.Corners[(corner + 1) % this->Outer.Count];
+    if (!visit(begin) || !visit(Vector(0.5 * (begin + end))))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Whether no point of the first grid and of the rim sees anything. Most pairs with something in
+// between are hidden: their points need not be weighed.
+bool PairVisibility::IsHidden()
+{
+  const auto isHidden = [this](const Vector& place)
+  {
+    const RasterPoint point = this->GetNextPoint(place);
+    return ShadowRaster::IsHidden(this->Target, this->Triangles, point.Place, point.Shift);
+  };
+  const bool hidden =
+    this->VisitGrid(Cuts[0], [&](const Vector& place, double) { return isHidden(place); }) &&
+    this->VisitRim(isHidden);
+  this->NumberOfPoints = 0;
+  return hidden;
 }
 
 //------------------------------------------------------------------------------
@@ -338,21 +387,14 @@ Flux PairVisibility::See(const Vector& place)
 double PairVisibility::SeeFromGrid(int cuts)
 {
   Flux total;
-  for (int corner = 1; corner + 1 < this->Outer.Count; ++corner)
-  {
-    const Vector& origin = this->Outer.Corners[0];
-    const Vector u = (this->Outer.Corners[corner] - origin) / cuts;
-    const Vector v = (this->Outer.Corners[corner + 1] - origin) / cuts;
-    // Three points for each triangle, which is half of a parallelogram.
-    const double area = u.cross(v).norm() / 6.0;
-    VisitGrid(origin, u, v, cuts,
-      [&](const Vector& place)
-      {
-        const Flux flux = this->See(place);
-        total.Visible += area * flux.Visible;
-        total.Open += area * flux.Open;
-      });
-  }
+  this->VisitGrid(cuts,
+    [&](const Vector& place, double area)
+    {
+      const Flux flux = this->See(place);
+      total.Visible += area * flux.Visible;
+      total.Open += area * flux.Open;
+      return true;
+    });
   return total.GetShare();
 }
 
@@ -361,21 +403,22 @@ double PairVisibility::SeeFromGrid(int cuts)
 double PairVisibility::GetRimDifference(double share)
 {
   double sum = 0.0;
-  for (int corner = 0; corner < this->Outer.Count; ++corner)
-  {
-    const Vector& begin = this->Outer.Corners[corner];
-    const Vector& end = this->Outer.Corners[(corner + 1) % this->Outer.Count];
-    for (const Vector& place : { begin, Vector(0.5 * (begin + end)) })
+  this->VisitRim(
+    [&](const Vector& place)
     {
       sum += std::abs(this->See(place).GetShare(share) - share);
-    }
-  }
+      return true;
+    });
   return sum / (2.0 * this->Outer.Count);
 }
 
 //------------------------------------------------------------------------------
 PairVisibility::Share PairVisibility::Look()
 {
+  if (this->WalledOff || this->IsHidden())
+  {
+    return { 0.0, 0.0 };
+  }
   Share share;
   share.Value = this->SeeFromGrid(Cuts[0]);
   if (this->AreClose && share.Value > 0.0)
@@ -383,8 +426,9 @@ PairVisibility::Share PairVisibility::Look()
     return this->IntegrateExactly(1.0);
   }
   const double rim = share.Value > 0.0 ? 0.0 : this->GetRimDifference(share.Value);
-  const bool isHidden = share.Value <= 0.0 && rim <= 0.0;
-  share.Error = isHidden ? 0.0 : std::max(FirstError, RimPart * rim);
+  // What is seen at a grazing angle alone is worth nothing.
+  const bool isDark = share.Value <= 0.0 && rim <= 0.0;
+  share.Error = isDark ? 0.0 : std::max(FirstError, RimPart * rim);
   return share;
 }
 
@@ -413,6 +457,10 @@ PairVisibility::Share PairVisibility::IntegrateExactly(double tolerance)
 // before, which the new one has reduced.
 PairVisibility::Share PairVisibility::Integrate(double tolerance)
 {
+  if (this->WalledOff)
+  {
+    return { 0.0, 0.0 };
+  }
   if (this->AreClose)
   {
     return this->IntegrateExactly(tolerance);

@@ -17,6 +17,7 @@
 #define PairVisibility_h
 
 #include "Geometry/PairHull.h"
+#include "Geometry/ShaftCuller.h"
 #include "ViewFactors/ExactVisibility.h"
 #include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/ShadowRaster.h"
@@ -42,13 +43,16 @@ public:
   };
 
   /**
-   * Begin with a pair of patches and those that may come between them. Returns false where none of
-   * these has a part in front of both planes: nothing is between. Equal keys give equal samples.
-   * `open` is the exchange with nothing in between; with it what the raster does not resolve is
-   * found by ExactVisibility. The scene must outlive the pair.
+   * Begin with a pair of patches and the walls that may come between them. Returns false where none
+   * of these is: nothing is between. Equal keys give equal samples. `open` is the exchange with
+   * nothing in between; with it what the raster does not resolve is found by ExactVisibility. The
+   * walls must outlive the pair.
    */
-  bool SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
-    const std::vector<vtkIdType>& occluders, std::uint64_t key, double open = 0.0);
+  bool SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j, const OccluderWalls& walls,
+    const std::vector<ShaftCuller::Occluder>& occluders, std::uint64_t key, double open = 0.0);
+
+  /// Whether one wall hides the whole pair, for certain: what there is to see costs nothing then.
+  bool IsWalledOff() const { return this->WalledOff; }
 
   /// A key of a pair's own.
   static std::uint64_t GetKey(vtkIdType i, vtkIdType j)
@@ -65,23 +69,36 @@ public:
   Share Integrate(double tolerance);
 
 private:
-  /// What is between: a patch, whether a plane cuts it, and where it comes in the order (first what
-  /// hides much, so that a hidden polygon is soon known to be hidden).
+  /// What is between, and where it comes in the order (first what hides much, so that a hidden
+  /// polygon is soon known to be hidden).
   struct Occluder
   {
-    vtkIdType Patch;
+    vtkIdType Wall;
     bool IsCut;
     double Rank;
   };
 
-  bool SelectOccluders(const PatchScene& scene, const std::vector<vtkIdType>& occluders);
-  void ChooseOuter(const PatchScene& scene);
+  void SelectOccluders(const std::vector<ShaftCuller::Occluder>& occluders);
+  bool FindHidingWall();
+  void ChooseOuter();
   void SetFrame();
   void AddTarget();
-  void AddTriangles(const PatchScene& scene);
+  void AddTriangles();
   template <typename GetCorner>
   void AddTriangles(int count, const GetCorner& getCorner);
-  ShadowRaster::Flux See(const Vector& point);
+  /// A place in the inner polygon's frame, and how the raster is shifted for it.
+  struct RasterPoint
+  {
+    double Place[3];
+    double Shift[2];
+  };
+  RasterPoint GetNextPoint(const Vector& place);
+  ShadowRaster::Flux See(const Vector& place);
+  template <typename Visit>
+  bool VisitGrid(int cuts, const Visit& visit) const;
+  template <typename Visit>
+  bool VisitRim(const Visit& visit) const;
+  bool IsHidden();
   double SeeFromGrid(int cuts);
   bool ShapeOccluder(const Occluder& occluder, Polygon& shape) const;
   Share IntegrateExactly(double tolerance);
@@ -92,10 +109,12 @@ private:
   std::uint64_t Key = 0;
   double Open = 0.0;
   bool AreClose = false;
-  const PatchScene* Scene = nullptr;
+  bool WalledOff = false;
+  const OccluderWalls* Walls = nullptr;
   int NumberOfPoints = 0;
 
   std::vector<Occluder> Occluders;
+  std::vector<Vector> Ends[2]; ///< corners of the two polygons
   PairHull Hull;
   double HullRounding = 0.0;
 

@@ -168,6 +168,30 @@ LT_INLINE void Cover(const Bounds& bounds, int triangle, const Grid& grid, std::
 }
 
 //------------------------------------------------------------------------------
+// Take away what the triangles hide; false where nothing is left.
+LT_INLINE bool CoverAll(const Triangles& triangles, const double point[3], const Grid& grid,
+  std::uint32_t* visible)
+{
+  std::uint32_t any = ~0u;
+  for (int first = 0; first < triangles.Count && any != 0; first += Batch)
+  {
+    Bounds bounds;
+    MakeBounds(triangles, first, point, bounds);
+    const int count = std::min(Batch, triangles.Count - first);
+    for (int k = 0; k < count; ++k)
+    {
+      Cover(bounds, k, grid, visible);
+    }
+    any = 0;
+    for (int k = 0; k < Lines; ++k)
+    {
+      any |= visible[k];
+    }
+  }
+  return any != 0;
+}
+
+//------------------------------------------------------------------------------
 LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const double point[3],
   const double normal[3])
 {
@@ -218,7 +242,7 @@ namespace ShadowRaster
 void Triangles::Add(const double* a, const double* b, const double* c)
 {
   const double* const corners[3] = { a, b, c };
-  const auto size = static_cast<std::size_t>(this->Count + Batch);
+  const std::size_t size = static_cast<std::size_t>(this->Count) + Batch;
   for (int corner = 0; corner < 3; ++corner)
   {
     for (int axis = 0; axis < 3; ++axis)
@@ -242,26 +266,18 @@ LT_CLONES Flux See(const Target& target, const Triangles& triangles, const doubl
   Grid grid;
   std::uint32_t visible[Lines];
   MakeGrid(target, shift, grid, visible);
-  for (int first = 0; first < triangles.Count; first += Batch)
-  {
-    Bounds bounds;
-    MakeBounds(triangles, first, point, bounds);
-    const int count = std::min(Batch, triangles.Count - first);
-    for (int k = 0; k < count; ++k)
-    {
-      Cover(bounds, k, grid, visible);
-    }
-    std::uint32_t any = 0;
-    for (int k = 0; k < Lines; ++k)
-    {
-      any |= visible[k];
-    }
-    if (any == 0)
-    {
-      break;
-    }
-  }
+  CoverAll(triangles, point, grid, visible);
   return Weigh(grid, visible, point, normal);
+}
+
+//------------------------------------------------------------------------------
+LT_CLONES bool IsHidden(const Target& target, const Triangles& triangles, const double point[3],
+  const double shift[2])
+{
+  Grid grid;
+  std::uint32_t visible[Lines];
+  MakeGrid(target, shift, grid, visible);
+  return !CoverAll(triangles, point, grid, visible);
 }
 } // namespace ShadowRaster
 } // namespace LightTransport

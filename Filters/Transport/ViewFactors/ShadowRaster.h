@@ -63,6 +63,10 @@ struct Flux
  */
 Flux See(const Target& target, const Triangles& triangles, const double point[3],
   const double normal[3], const double shift[2]);
+
+/// Whether the point sees no sample at all: what See would find, without weighing the samples.
+bool IsHidden(const Target& target, const Triangles& triangles, const double point[3],
+  const double shift[2]);
 } // namespace ShadowRaster
 } // namespace LightTransport
 

@@ -31,6 +31,7 @@ void ViewFactorAssembly::Counters::Add(const Counters& other)
   this->Free += other.Free;
   this->Hidden += other.Hidden;
   this->PartlyVisible += other.PartlyVisible;
+  this->Rastered += other.Rastered;
 }
 
 //------------------------------------------------------------------------------
@@ -59,8 +60,9 @@ struct ViewFactorAssembly::Looker
     float* Values; ///< of the pair (FirstI, FirstJ)
     UnitResult& Result;
     std::vector<ShaftCuller::Candidates> Lists;
-    std::vector<vtkIdType> Between;
+    std::vector<ShaftCuller::Occluder> Between;
     PairVisibility Visibility;
+    vtkIdType HidingWall; ///< the latest one that hid two nodes from each other
 
     float& GetValue(vtkIdType i, vtkIdType j) const
     {
@@ -89,7 +91,7 @@ struct ViewFactorAssembly::Looker
       const vtkIdType firstJ = tree.GetNode(unit.J).First;
       Work work{ tree, firstI, firstJ,
         tile.Values + (firstI - tile.Row * N) * N + (firstJ - tile.Column * N),
-        this->Results[index - this->First], {}, {}, {} };
+        this->Results[index - this->First], {}, {}, {}, -1 };
       this->Fill(unit.I, unit.J, work);
       if (this->Outer.Culler.HasOccluders())
       {
@@ -133,7 +135,7 @@ struct ViewFactorAssembly::Looker
         work.Result.ErrorsJ + (j.First - work.FirstJ), work.Result.Count.Open);
       return;
     }
-    this->VisitChildren(nodeI, nodeJ, work.Tree,
+    VisitChildren(nodeI, nodeJ, work.Tree,
       [&](int childI, int childJ) { this->Fill(childI, childJ, work); });
   }
 
@@ -201,21 +203,25 @@ struct ViewFactorAssembly::Looker
     const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
     if (work.GetList(depth).IsEmpty())
     {
-      this->CountFree(nodeI, nodeJ, work);
+      work.Result.Count.Free += this->CountFacing(nodeI, nodeJ, work);
+      return;
+    }
+    const vtkIdType wall =
+      this->Outer.Culler.FindHiding(nodeI, nodeJ, work.GetList(depth), work.HidingWall);
+    if (wall >= 0)
+    {
+      work.HidingWall = wall;
+      work.Result.Count.Hidden += this->CountFacing(nodeI, nodeJ, work);
+      this->Hide(nodeI, nodeJ, work);
       return;
     }
     if (i.IsLeaf() && j.IsLeaf())
     {
-      for (vtkIdType row = i.First; row < i.Last; ++row)
-      {
-        for (vtkIdType column = nodeI == nodeJ ? row + 1 : j.First; column < j.Last; ++column)
-        {
-          this->LookAtPair(row, column, depth, work);
-        }
-      }
+      VisitPairs(nodeI, nodeJ, work.Tree,
+        [&](vtkIdType row, vtkIdType column) { this->LookAtPair(row, column, depth, work); });
       return;
     }
-    this->VisitChildren(nodeI, nodeJ, work.Tree,
+    VisitChildren(nodeI, nodeJ, work.Tree,
       [&](int childI, int childJ)
       {
         work.GetList(depth + 1);
@@ -224,15 +230,31 @@ struct ViewFactorAssembly::Looker
       });
   }
 
-  void CountFree(int nodeI, int nodeJ, Work& work) const
+  double CountFacing(int nodeI, int nodeJ, const Work& work) const
   {
-    const PatchTree::Node& i = work.Tree.GetNode(nodeI);
-    const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
+    double count = 0.0;
+    VisitPairs(nodeI, nodeJ, work.Tree,
+      [&](vtkIdType i, vtkIdType j) { count += work.GetValue(i, j) > 0.0f ? 1.0 : 0.0; });
+    return count;
+  }
+
+  void Hide(int nodeI, int nodeJ, Work& work) const
+  {
+    VisitPairs(nodeI, nodeJ, work.Tree,
+      [&](vtkIdType i, vtkIdType j) { work.GetValue(i, j) = 0.0f; });
+  }
+
+  // Calls visit for the pairs of patches of two nodes.
+  template <typename Visit>
+  static void VisitPairs(int nodeI, int nodeJ, const PatchTree& tree, const Visit& visit)
+  {
+    const PatchTree::Node& i = tree.GetNode(nodeI);
+    const PatchTree::Node& j = tree.GetNode(nodeJ);
     for (vtkIdType row = i.First; row < i.Last; ++row)
     {
       for (vtkIdType column = nodeI == nodeJ ? row + 1 : j.First; column < j.Last; ++column)
       {
-        work.Result.Count.Free += work.GetValue(row, column) > 0.0f ? 1.0 : 0.0;
+        visit(row, column);
       }
     }
   }
@@ -245,15 +267,16 @@ struct ViewFactorAssembly::Looker
       return;
     }
     Counters& count = work.Result.Count;
-    std::vector<vtkIdType>& between = work.Between;
+    std::vector<ShaftCuller::Occluder>& between = work.Between;
     this->Outer.Culler.NarrowBetween(i, j, work.GetList(depth), between);
     if (between.empty() ||
-      !work.Visibility.SetPair(this->Outer.Scene, i, j, between, PairVisibility::GetKey(i, j),
-        value))
+      !work.Visibility.SetPair(this->Outer.Scene, i, j, this->Outer.Culler.GetWalls(), between,
+        PairVisibility::GetKey(i, j), value))
     {
       ++count.Free;
       return;
     }
+    count.Rastered += work.Visibility.IsWalledOff() ? 0.0 : 1.0;
     const PairVisibility::Share share = work.Visibility.Look();
     if (share.Error > 0.0)
     {
@@ -296,7 +319,7 @@ struct ViewFactorAssembly::Refiner
   {
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
     PairVisibility visibility;
-    std::vector<vtkIdType> between;
+    std::vector<ShaftCuller::Occluder> between;
     for (vtkIdType index = begin; index < end; ++index)
     {
       Pulse::Beat();
@@ -307,8 +330,8 @@ struct ViewFactorAssembly::Refiner
         continue;
       }
       this->Outer.Culler.FindBetween(pair.I, pair.J, between);
-      if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, between,
-            PairVisibility::GetKey(pair.I, pair.J), pair.Open))
+      if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, this->Outer.Culler.GetWalls(),
+            between, PairVisibility::GetKey(pair.I, pair.J), pair.Open))
       {
         const PairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
         pair.Value = share.Value * pair.Open;

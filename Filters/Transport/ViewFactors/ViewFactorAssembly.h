@@ -5,10 +5,10 @@
  * two stages:
  *
  *   1. *Look*: for each pair of blocks the exchange with nothing in between (UnoccludedPairs); then
- *      down both nodes of the tree with the list of patches that reach into the shaft between them
- *      (ShaftCuller): where it becomes empty all pairs below are visible, whatever remains at a
- *      pair is looked past from a few points (PairVisibility). Pairs that are then neither
- *      visible nor hidden for certain are put down.
+ *      down both nodes of the tree with the list of walls that may be between them (ShaftCuller):
+ *      where it becomes empty all pairs below are visible, where one of them stands in all ways
+ *      they are hidden, and whatever remains at a pair is looked past from a few points
+ *      (PairVisibility). Pairs that are then neither visible nor hidden for certain are put down.
  *   2. *Refine*: how many such pairs a row has, and how large, says how exact each of them must be;
  *      those that are not yet are integrated until they are.
  */
@@ -44,6 +44,7 @@ public:
     double Free = 0.0;          ///< nothing reaches into the shaft between them
     double Hidden = 0.0;        ///< completely
     double PartlyVisible = 0.0; ///< or not certain
+    double Rastered = 0.0;      ///< neither free nor hidden by a single wall: looked at from points
     void Add(const Counters& other);
   };
 

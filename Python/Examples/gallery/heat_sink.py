@@ -10,7 +10,7 @@ from shapes import DATA, draw, expect
 from vtklighttransport.arrays import get_areas, get_cell_array
 
 # The job itself.
-patches = lt.patches(DATA + "/heat_sink.stl", 3000)
+patches = lt.patches(DATA + "/heat_sink.stl", 1500)
 result = lt.radiosity(patches, temperature=353.15, emissivity=0.85, background_temperature=293.15)
 flux = get_cell_array(result, "NetFlux")
 power = (flux * get_areas(result)).sum() * 1e-6  # the part is in millimetres

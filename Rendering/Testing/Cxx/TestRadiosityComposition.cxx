@@ -7,6 +7,8 @@
 #include "LightTransportTesting.h"
 #include "PictureTesting.h"
 #include "RadiosityScene.h"
+#include "ScatteringScene.h"
+#include "vtkSurfaceLighting.h"
 
 #include "vtkCameraPass.h"
 #include "vtkDualDepthPeelingPass.h"
@@ -194,6 +196,62 @@ void TestWindows(bool byShots)
   scene.Pass->ReleaseGraphicsResources(other);
   other->RemoveRenderer(scene.Renderer);
 }
+
+/// What a solution sends to a translucent body enters it, and the body is drawn by another pass.
+void TestTranslucentBody(bool byShots)
+{
+  Solved scene(byShots);
+  const double center[3] = {};
+  const auto ball = ScatteringScene::MakeBall(8, center);
+  auto body = MakeActor(ball);
+  body->SetScale(0.4);
+  body->SetPosition(0.2, -0.2, 0.6);
+  body->GetProperty()->SetDiffuse(0.5);
+  scene.Renderer->AddActor(body);
+  scene.Pass->SetShown(body, false);
+  scene.Window->Render();
+  vtkPolyData* solved = scene.Pass->GetOutput(body);
+  if (!Check(solved != nullptr, "a translucent body takes no part"))
+  {
+    return;
+  }
+  vtkDataArray* irradiance = solved->GetCellData()->GetArray("Irradiance");
+  ball->GetCellData()->AddArray(irradiance);
+  double falling = 0.0;
+  double whole = 0.0;
+  for (vtkIdType cell = 0; cell < ball->GetNumberOfCells(); ++cell)
+  {
+    const double area = ScatteringScene::GetArea(ball, cell);
+    falling += area * irradiance->GetComponent(cell, 0);
+    whole += area;
+  }
+  vtkNew<vtkSubsurfaceScattering> material;
+  material->SetMillimetersPerUnit(5.0);
+  material->SetLinkMethodToAdaptive();
+  vtkNew<vtkSubsurfaceScatteringPass> scattering;
+  scattering->SetIrradianceMapSize(128);
+  scattering->SetScatteredMapSize(32);
+  scattering->SetMaterial(body, material);
+  scattering->GetLighting()->RendererLightsOff();
+  scattering->GetLighting()->SetIrradianceArray("Irradiance");
+  const double before = scene.GetMean();
+  scene.Pass->SetDelegatePass(scattering);
+  const double after = scene.GetMean();
+  double entered = 0.0;
+  double areas = 0.0;
+  const auto map = ScatteringScene::Read(scattering->GetTransmittedMap(body)->GetTexture());
+  for (std::size_t texel = 0; texel < map.size(); texel += 4)
+  {
+    entered += map[texel];
+    areas += map[texel + 3];
+  }
+  constexpr double MeanReflectance = 0.061132; // external, of index 1.3
+  CheckClose(entered / areas, (1.0 - MeanReflectance) * falling / whole, 0.01,
+    "what of a solution enters");
+  Check(std::abs(after - before) > 0.01 * before && scene.Pass->GetNumberOfSolverRuns() == 1,
+    "a translucent body is not drawn, or solved again");
+  scattering->ReleaseGraphicsResources(scene.Window);
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -210,6 +268,7 @@ int TestRadiosityComposition(int, char*[])
     TestDepthPeeling(byShots);
     TestViewports(byShots);
     TestWindows(byShots);
+    TestTranslucentBody(byShots);
   }
   return Result();
 }

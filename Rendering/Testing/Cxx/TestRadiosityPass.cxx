@@ -12,6 +12,7 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDoubleArray.h"
 #include "vtkMath.h"
@@ -453,6 +454,8 @@ void TestMessages()
     blocks->SetBlock(0, MakeSquare(2));
     vtkNew<vtkCompositePolyDataMapper2> mapper;
     mapper->SetInputDataObject(blocks);
+    mapper->SetCompositeDataDisplayAttributes(vtkNew<vtkCompositeDataDisplayAttributes>());
+    mapper->SetBlockOpacity(1, 0.5);
     vtkNew<vtkActor> composite;
     composite->SetMapper(mapper);
     composite->SetPosition(0.0, 0.0, -2.0);
@@ -499,6 +502,88 @@ void TestMessages()
     scene.Light->SetLightTypeToHeadlight();
     CheckMessage(scene, "Nothing shines", false);
   }
+}
+
+/// Blocks are as many actors, with the colors that their mapper gives them.
+void TestComposite()
+{
+  for (const bool byShots : { false, true })
+  {
+    Scene apart;
+    Scene together;
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    for (vtkActor* actor : { together.Floor.Get(), together.Wall.Get() })
+    {
+      vtkNew<vtkTransform> transform;
+      actor->ComputeMatrix();
+      transform->SetMatrix(actor->GetMatrix());
+      vtkNew<vtkTransformPolyDataFilter> moved;
+      moved->SetTransform(transform);
+      moved->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+      moved->SetInputData(vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->GetInput());
+      moved->Update();
+      blocks->SetBlock(blocks->GetNumberOfBlocks(), moved->GetOutput());
+      together.Renderer->RemoveActor(actor);
+    }
+    blocks->SetBlock(2, MakeSquare(1));
+    vtkNew<vtkCompositePolyDataMapper2> mapper;
+    mapper->SetInputDataObject(blocks);
+    mapper->SetCompositeDataDisplayAttributes(vtkNew<vtkCompositeDataDisplayAttributes>());
+    const double red[3] = { 0.9, 0.1, 0.1 };
+    mapper->SetBlockColor(2, red[0], red[1], red[2]);
+    mapper->SetBlockVisibility(3, false);
+    vtkNew<vtkActor> composite;
+    composite->SetMapper(mapper);
+    composite->GetProperty()->SetDiffuseColor(0.8, 0.8, 0.7);
+    together.Renderer->AddActor(composite);
+    apart.Wall->GetProperty()->SetDiffuse(1.0);
+    for (Scene* scene : { &apart, &together })
+    {
+      if (byShots)
+      {
+        scene->ShootInstead();
+      }
+      DrawAll(*scene);
+    }
+    int block = 0;
+    for (vtkActor* actor : { apart.Floor.Get(), apart.Wall.Get() })
+    {
+      vtkPolyData* output = together.Pass->GetOutput(composite, block++);
+      if (Check(output != nullptr, "a block has no output"))
+      {
+        const auto expected = GetCellValues(apart.Pass->GetOutput(actor), "Radiosity");
+        Check(GetLargestDifference(GetCellValues(output, "Radiosity"), expected) <
+            (byShots ? 1e-2 : 1e-10),
+          "a block differs from an actor");
+      }
+    }
+    Check(!together.Pass->GetOutput(composite, 2), "what cannot be seen takes part");
+    Check(GetLargestDifference(Draw(apart.Window), Draw(together.Window)) < 3.0 / 255.0,
+      "blocks look otherwise");
+  }
+}
+
+/// An actor that is not shown takes part, and is drawn as usual.
+void TestShown()
+{
+  Scene scene;
+  scene.Wall->GetProperty()->SetDiffuse(0.0);
+  scene.Wall->GetProperty()->SetSpecular(0.0);
+  Draw(scene.Window);
+  scene.Pass->SetShown(scene.Wall, false);
+  const auto without = Read(scene, "Radiosity");
+  const std::vector<double> picture = Draw(scene.Window);
+  Check(!scene.Pass->IsShown(scene.Wall) && scene.Pass->IsShown(scene.Floor) &&
+      GetRuns(scene)[2] == 1 && GetLargest(without) > 0.0,
+    "what is not shown");
+  scene.Wall->GetProperty()->SetAmbient(1.0);
+  scene.Wall->GetProperty()->SetAmbientColor(0.9, 0.9, 0.9);
+  const std::vector<double> asUsual = Draw(scene.Window);
+  scene.Pass->SetShown(scene.Wall, true);
+  const std::vector<double> asRadiosity = Draw(scene.Window);
+  // VTK draws the ambient color as it is, the pass over pi.
+  Check(GetLargest(asUsual) > 0.88 && GetLargestDifference(asUsual, asRadiosity) > 0.3,
+    "an actor that is not shown is drawn otherwise than VTK does");
 }
 
 /// Scenes that are hardly any.
@@ -599,6 +684,8 @@ int TestRadiosityPass(int, char*[])
   TestPictures();
   TestMovingActor();
   TestMessages();
+  TestComposite();
+  TestShown();
   TestSmallScenes();
   TestOffset();
   return Result();

@@ -3,6 +3,7 @@
 // The visible part of the exchange between two polygons past occluders against exact values and
 // against an independent integration: the exact view (clipped polygons) of many points.
 
+#include "Geometry/ShaftCuller.h"
 #include "ViewFactors/PairVisibility.h"
 #include "VisibilityTesting.h"
 
@@ -21,7 +22,6 @@ struct Case
 {
   PatchScene Scene;
   Corners A, B;
-  std::vector<vtkIdType> Occluders;
   std::vector<Corners> Parts; ///< what of the occluders is in front of both
 
   explicit Case(const std::vector<Corners>& polygons)
@@ -38,7 +38,6 @@ struct Case
       {
         continue; // it lies on another
       }
-      this->Occluders.push_back(occluder);
       Corners part = GetCorners(this->Scene, occluder);
       part = Cut(part, a[0], GetNormal(a));
       part = part.empty() ? part : Cut(part, b[0], GetNormal(b));
@@ -58,7 +57,10 @@ Share GetShare(const Case& scene, double tolerance, std::uint64_t key = 7, bool 
   PairVisibility visibility;
   const vtkIdType a = scene.Scene.GetPatch(swapped ? 1 : 0);
   const vtkIdType b = scene.Scene.GetPatch(swapped ? 0 : 1);
-  if (!visibility.SetPair(scene.Scene, a, b, scene.Occluders, key))
+  const ShaftCuller culler(scene.Scene);
+  std::vector<ShaftCuller::Occluder> between;
+  culler.FindBetween(a, b, between);
+  if (!visibility.SetPair(scene.Scene, a, b, culler.GetWalls(), between, key))
   {
     return Share();
   }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Shaft culling never leaves out a patch that hides anything, leaves out most others, and knows
-// scenes in which nothing can be in between.
+// scenes in which nothing can be in between; walls are what patches beside each other in one plane
+// fill.
 
 #include "Geometry/ShaftCuller.h"
 #include "VisibilityTesting.h"
@@ -15,7 +16,7 @@ using namespace VisibilityTesting;
 
 namespace
 {
-using Patches = std::vector<vtkIdType>;
+using Walls = std::vector<vtkIdType>;
 
 //------------------------------------------------------------------------------
 // Whether a segment crosses a patch, well inside both.
@@ -53,9 +54,9 @@ Vector GetPoint(const PatchScene& scene, vtkIdType patch, Random& random)
 }
 
 //------------------------------------------------------------------------------
-// All patches but the two that some segments between them cross.
-std::set<vtkIdType> GetCrossed(const PatchScene& scene, vtkIdType i, vtkIdType j, int count,
-  Random& random)
+// The walls that some segments between two patches cross.
+std::set<vtkIdType> GetCrossed(const PatchScene& scene, const OccluderWalls& walls, vtkIdType i,
+  vtkIdType j, int count, Random& random)
 {
   std::set<vtkIdType> crossed;
   for (int k = 0; k < count; ++k)
@@ -71,7 +72,7 @@ std::set<vtkIdType> GetCrossed(const PatchScene& scene, vtkIdType i, vtkIdType j
     {
       if (patch != i && patch != j && Crosses(scene, patch, from, to))
       {
-        crossed.insert(patch);
+        crossed.insert(walls.GetWall(patch));
       }
     }
   }
@@ -79,9 +80,20 @@ std::set<vtkIdType> GetCrossed(const PatchScene& scene, vtkIdType i, vtkIdType j
 }
 
 //------------------------------------------------------------------------------
-bool Holds(Patches found, const std::set<vtkIdType>& wanted)
+std::vector<vtkIdType> GetWalls(const std::vector<ShaftCuller::Occluder>& found)
 {
-  std::sort(found.begin(), found.end());
+  std::vector<vtkIdType> walls;
+  for (const ShaftCuller::Occluder& occluder : found)
+  {
+    walls.push_back(occluder.Wall);
+  }
+  std::sort(walls.begin(), walls.end());
+  return walls;
+}
+
+//------------------------------------------------------------------------------
+bool Holds(const Walls& found, const std::set<vtkIdType>& wanted)
+{
   return std::includes(found.begin(), found.end(), wanted.begin(), wanted.end());
 }
 
@@ -100,25 +112,25 @@ void CheckDescent(const PatchScene& scene, const ShaftCuller& culler, vtkIdType 
   int nodeI = 0;
   int nodeJ = 0;
   ShaftCuller::Candidates list, direct, next;
-  culler.Find(0, 0, list);
+  culler.Find(nodeI, nodeJ, list);
   while (!scene.GetTree().GetNode(nodeI).IsLeaf() || !scene.GetTree().GetNode(nodeJ).IsLeaf())
   {
     nodeI = getChild(nodeI, i);
     nodeJ = getChild(nodeJ, j);
     culler.Narrow(nodeI, nodeJ, list, next);
     culler.Find(nodeI, nodeJ, direct);
-    Patches narrowed = next.Patches;
+    Walls narrowed = next.Walls;
     std::sort(narrowed.begin(), narrowed.end());
-    std::sort(direct.Patches.begin(), direct.Patches.end());
-    Check(narrowed == direct.Patches, what + ": narrowed list of two nodes");
+    std::sort(direct.Walls.begin(), direct.Walls.end());
+    Check(narrowed == direct.Walls, what + ": narrowed list of two nodes");
     Check(Holds(narrowed, crossed), what + ": list of two nodes");
     std::swap(list, next);
   }
-  Patches narrowed, found;
-  culler.NarrowBetween(i, j, list, narrowed);
-  culler.FindBetween(i, j, found);
-  std::sort(narrowed.begin(), narrowed.end());
-  std::sort(found.begin(), found.end());
+  std::vector<ShaftCuller::Occluder> occluders;
+  culler.NarrowBetween(i, j, list, occluders);
+  const Walls narrowed = GetWalls(occluders);
+  culler.FindBetween(i, j, occluders);
+  const Walls found = GetWalls(occluders);
   Check(narrowed == found, what + ": narrowed list of two patches");
   Check(Holds(found, crossed), what + ": list of two patches");
 }
@@ -147,9 +159,9 @@ void CheckScene(const std::vector<Corners>& polygons, double most, const std::st
     {
       continue;
     }
-    const std::set<vtkIdType> crossed = GetCrossed(scene, i, j, 60, random);
+    const std::set<vtkIdType> crossed = GetCrossed(scene, culler.GetWalls(), i, j, 60, random);
     CheckDescent(scene, culler, i, j, crossed, what);
-    Patches found;
+    std::vector<ShaftCuller::Occluder> found;
     culler.FindBetween(i, j, found);
     listed += static_cast<double>(found.size());
     crossings += static_cast<double>(crossed.size());
@@ -272,11 +284,64 @@ void TestConvexScenes()
   Check(HasOccluders(Join(room, { dent })), "a triangle just over the floor");
   Check(!HasOccluders({ room[0] }), "one patch");
 }
+
+//------------------------------------------------------------------------------
+// Numbers of walls; corners of each; what belongs to one that is not all there is in its plane.
+void TestWalls()
+{
+  Random random(14);
+  const std::vector<Corners> room = GetPolygons(MakeRoom(5));
+  const auto count = [](const std::vector<Corners>& polygons)
+  {
+    PatchScene scene;
+    BuildScene(polygons, scene);
+    return OccluderWalls(scene).GetNumberOfPatches();
+  };
+  CheckClose(static_cast<double>(count(room)), 6.0, 0.0, "walls of a room");
+  CheckClose(
+    static_cast<double>(count(Transform(room, 20.0 * random.Rotation(), { 300.0, -100.0, 50.0 }))),
+    6.0, 0.0, "walls of a turned room");
+  const std::vector<Corners> body = MakeSphere(2.0, 2, false);
+  CheckClose(static_cast<double>(count(body)), static_cast<double>(body.size()), 0.0,
+    "walls of a sphere");
+  // Without one of its squares a face is no convex polygon.
+  std::vector<Corners> holed(room.begin(), room.begin() + 25);
+  holed.erase(holed.begin() + 12);
+  Check(count(holed) > 1 && count(holed) <= 5, "walls around a hole");
+}
+
+//------------------------------------------------------------------------------
+// What one wall hides from all points.
+void TestHiding()
+{
+  PatchScene scene;
+  const Corners lower{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+  const Corners upper{ { 0, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 0, 1 } };
+  const Corners screen{ { 0, 0, 0.5 }, { 1, 0, 0.5 }, { 1, 1, 0.5 }, { 0, 1, 0.5 } };
+  BuildScene({ lower, upper, screen }, scene);
+  const OccluderWalls walls(scene);
+  const auto getCorners = [&](vtkIdType polygon)
+  { return GetCorners(scene, scene.GetPatch(polygon)); };
+  const auto getWall = [&](vtkIdType polygon) { return walls.GetWall(scene.GetPatch(polygon)); };
+  const Corners a = getCorners(0), b = getCorners(1);
+  Check(walls.HidesAll(getWall(2), a, b, true), "a screen as large as the plates hides them");
+  Corners beside = b;
+  beside[0] -= 0.01 * (beside[2] - beside[0]);
+  Check(!walls.HidesAll(getWall(2), a, beside, true), "a corner is seen past it");
+  Check(!walls.HidesAll(getWall(0), a, b, false), "a plate does not hide itself");
+  Check(!walls.HidesAll(getWall(2), a, a, false), "nothing is between what is on one side");
+  Corners touching = getCorners(2);
+  touching[1] += 0.5 * (b[0] - a[0]);
+  Check(!walls.HidesAll(getWall(2), a, touching, true), "it is on the plane in part");
+  Check(walls.HidesAll(getWall(2), a, touching, false), "but behind it all the same");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
 int TestShaftCuller(int, char*[])
 {
+  TestWalls();
+  TestHiding();
   TestScenes();
   TestConvexScenes();
   return Result();

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The patches of a scene as what they hide: those that lie beside each other in one plane and fill
+ * a convex polygon together are one *wall*, all others are walls by themselves. How finely a wall
+ * is cut does not matter to what it hides, and there are far fewer of them.
+ */
+#ifndef OccluderWalls_h
+#define OccluderWalls_h
+
+#include "Scene/PatchGeometry.h"
+#include "vtkType.h"
+
+#include <vector>
+
+namespace LightTransport
+{
+class PatchScene;
+
+/// "Patches" of the base class are the walls, in the order of their first patches.
+class OccluderWalls : public PatchGeometry
+{
+public:
+  explicit OccluderWalls(const PatchScene& scene);
+
+  /// The wall that a patch of the scene belongs to.
+  vtkIdType GetWall(vtkIdType patch) const { return this->WallOf[patch]; }
+
+  /// A node of the scene's tree that holds all patches of a wall, and no child of it does.
+  int GetNode(vtkIdType wall) const { return this->Nodes[wall]; }
+
+  /**
+   * Whether a wall stands in the way of all segments between two convex hulls of points: then
+   * nothing of one is seen from the other. With `strictly` all points must be off the wall's plane
+   * for certain; else one of each side, what touches the plane from one side being no more than a
+   * border.
+   */
+  bool HidesAll(vtkIdType wall, const std::vector<Vector>& from, const std::vector<Vector>& to,
+    bool strictly) const;
+
+private:
+  class Builder;
+
+  bool IsInside(vtkIdType wall, const Vector& place) const;
+  void FindNodes(const PatchScene& scene);
+
+  std::vector<vtkIdType> WallOf;
+  std::vector<int> Nodes;
+};
+} // namespace LightTransport
+
+#endif
