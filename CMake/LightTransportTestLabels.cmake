@@ -16,7 +16,7 @@ set(LIGHTTRANSPORT_SLOW_TESTS
   TestSurfacesInOnePlace
   "TestViewFactor(Catalogue|Estimate|Properties)")
 # Tests that need OpenGL in folders where the others do not.
-set(LIGHTTRANSPORT_GL_TESTS "Panel-.*" TestPluginAlone TestReport)
+set(LIGHTTRANSPORT_GL_TESTS "Gallery-.*" "Panel-.*" TestPluginAlone TestReport)
 foreach (list IN ITEMS LIGHTTRANSPORT_SLOW_TESTS LIGHTTRANSPORT_GL_TESTS)
   string(REPLACE ";" "|" ${list} "(^|-)(${${list}})$")
 endforeach ()

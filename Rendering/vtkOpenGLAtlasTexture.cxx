@@ -115,6 +115,11 @@ bool vtkOpenGLAtlasTexture::CheckMaps(vtkImageData* maps, const char* valueName,
 bool vtkOpenGLAtlasTexture::Build(vtkImageData* maps, const char* valueName, const char* areaName,
   vtkRenderWindow* window)
 {
+  if (this->IsDrawnInto)
+  {
+    vtkErrorMacro("This texture is drawn by a map: build one of your own.");
+    return false;
+  }
   this->Texture->Clear();
   if (!this->CheckMaps(maps, valueName, areaName))
   {
@@ -294,7 +299,15 @@ void vtkOpenGLAtlasTexture::Deactivate()
 }
 
 //------------------------------------------------------------------------------
+// What a map keeps beside it lives as long as the map says.
 void vtkOpenGLAtlasTexture::ReleaseGraphicsResources()
 {
-  this->Texture->Clear();
+  if (this->IsDrawnInto)
+  {
+    this->Texture->ClearTexture();
+  }
+  else
+  {
+    this->Texture->Clear();
+  }
 }

@@ -57,7 +57,7 @@ public:
    *
    * Returns false with an error, and is empty, where the image or an array is not as above, a value
    * is not finite, an area is negative or all are 0, there is no context, or the texture does not
-   * fit.
+   * fit; the texture of a map (vtkOpenGLTransmittedMap, vtkOpenGLScatteredMap) stays as it is.
    */
   bool Build(vtkImageData* maps, const char* valueName, const char* areaName = "Area",
     vtkRenderWindow* window = nullptr);
@@ -127,6 +127,7 @@ private:
   friend class vtkSubsurfaceScatteringPass;
 
   const std::unique_ptr<LightTransport::AtlasTexture> Texture;
+  bool IsDrawnInto = false; ///< by a map, whose it is
 };
 
 #endif

@@ -75,7 +75,10 @@ struct vtkOpenGLScatteredMap::Parts
 };
 
 //------------------------------------------------------------------------------
-vtkOpenGLScatteredMap::vtkOpenGLScatteredMap() : Device(new Parts) {}
+vtkOpenGLScatteredMap::vtkOpenGLScatteredMap() : Device(new Parts)
+{
+  this->Texture->IsDrawnInto = true;
+}
 
 //------------------------------------------------------------------------------
 vtkOpenGLScatteredMap::~vtkOpenGLScatteredMap()
@@ -144,7 +147,7 @@ void vtkOpenGLScatteredMap::ReleaseGraphicsResources()
   this->Device->IsUploaded = false;
   // What did not fit may fit now.
   this->Device->HasFailed = this->Device->HasFailed && !this->Device->Exchange;
-  this->Texture->ReleaseGraphicsResources();
+  this->Texture->Texture->Clear();
 }
 
 //------------------------------------------------------------------------------
@@ -182,7 +185,7 @@ Outcome vtkOpenGLScatteredMap::Refresh(vtkOpenGLTransmittedMap* entering)
     done = this->MakeLinks(entering);
     parts.HasFailed = !done;
   }
-  if (done && !parts.IsUploaded)
+  if (done && !(parts.IsUploaded && this->Texture->Texture->IsThere()))
   {
     parts.HasFailed = true;
     parts.AppliedTime = 0;

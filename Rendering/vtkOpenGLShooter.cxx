@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOpenGLShooter.h"
 
+#include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceSession.h"
 #include "Device/DeviceWindow.h"
 #include "Shooting/ProgressiveShooter.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkTextureObject.h"
+#include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <limits>
 
 using namespace LightTransport;
 
@@ -23,6 +27,8 @@ constexpr vtkIdType MaximumNumberOfPatches = FloatTextures::MaximumTexels;
 constexpr int LowestResolution = 16;
 constexpr int HighestResolution = 2048;
 ///@}
+constexpr std::size_t AllEyes = std::numeric_limits<std::size_t>::max();
+constexpr vtkIdType AllShots = VTK_ID_MAX;
 
 bool Finish(vtkOpenGLShooter* shooter, const Outcome& work, const char* what)
 {
@@ -70,6 +76,23 @@ vtkTypeInt64 vtkOpenGLShooter::GetNumberOfEyePoints()
 vtkTypeInt64 vtkOpenGLShooter::GetNumberOfBytesRead()
 {
   return this->Progress ? this->Progress->GetNumberOfBytesRead() : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkOpenGLShooter::SetRenderWindow(vtkRenderWindow* window)
+{
+  if (!this->Window->IsUserWindow(window))
+  {
+    this->Progress.reset();
+    this->Window->SetUserWindow(window);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkRenderWindow* vtkOpenGLShooter::GetRenderWindow()
+{
+  return this->Window->GetUserWindow();
 }
 
 //------------------------------------------------------------------------------
@@ -162,6 +185,25 @@ bool vtkOpenGLShooter::IsReady()
 }
 
 //------------------------------------------------------------------------------
+// Chooses who shoots next, unless somebody does. False after an error, which has been reported.
+bool vtkOpenGLShooter::AimAtNext(vtkIdType most)
+{
+  std::vector<ProgressiveShooter::Shooter> shooters;
+  if (!Finish(this, this->Progress->FindShooters(shooters), "choosing a shooter"))
+  {
+    return false;
+  }
+  const auto left = static_cast<std::size_t>(most);
+  shooters.erase(shooters.begin() + std::min(shooters.size(), left), shooters.end());
+  this->Aimed = static_cast<vtkIdType>(shooters.size());
+  if (!shooters.empty())
+  {
+    this->Progress->Aim(shooters, this->EyePointDensity);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 vtkIdType vtkOpenGLShooter::Shoot(vtkIdType numberOfShots)
 {
   if (!this->IsReady())
@@ -172,24 +214,85 @@ vtkIdType vtkOpenGLShooter::Shoot(vtkIdType numberOfShots)
   vtkIdType shots = 0;
   while (shots < numberOfShots)
   {
-    std::vector<ProgressiveShooter::Shooter> shooters;
-    if (!Finish(this, this->Progress->FindShooters(shooters), "choosing a shooter"))
+    if (!this->Progress->IsShooting() && !this->AimAtNext(numberOfShots - shots))
     {
       return -1;
     }
-    if (shooters.empty())
+    if (!this->Progress->IsShooting())
     {
       break;
     }
-    const auto left = static_cast<std::size_t>(numberOfShots - shots);
-    shooters.erase(shooters.begin() + std::min(shooters.size(), left), shooters.end());
-    if (!Finish(this, this->Progress->ShootFrom(shooters, this->EyePointDensity), "shooting"))
+    if (!Finish(this, this->Progress->ShootNext(AllEyes), "shooting"))
     {
       return -1;
     }
-    shots += static_cast<vtkIdType>(shooters.size());
+    shots += this->Aimed;
   }
   return shots;
+}
+
+//------------------------------------------------------------------------------
+// A single eye point at first; then as many as there is time for. Drawing is waited for: what has
+// been begun would make the frame late.
+vtkIdType vtkOpenGLShooter::ShootFor(double seconds, bool& isOver)
+{
+  isOver = false;
+  if (!this->IsReady())
+  {
+    return -1;
+  }
+  const DeviceSession session(this->Window->Get());
+  const double begin = vtkTimerLog::GetUniversalTime();
+  double now = begin;
+  if (!this->Progress->IsShooting())
+  {
+    if (!this->AimAtNext(AllShots))
+    {
+      return -1;
+    }
+    isOver = !this->Progress->IsShooting();
+    glFinish();
+    now = vtkTimerLog::GetUniversalTime();
+  }
+  bool isFirst = true;
+  while (this->Progress->IsShooting() && (isFirst || now + this->SecondsPerEye <= begin + seconds))
+  {
+    const double left = begin + seconds - now;
+    const double room = this->SecondsPerEye > 0.0 ? left / this->SecondsPerEye : 1.0;
+    const auto eyes =
+      static_cast<std::size_t>(std::min(std::max(room, 1.0), double(HemisphereItems::MostEyes)));
+    if (!Finish(this, this->Progress->ShootNext(eyes), "shooting"))
+    {
+      return -1;
+    }
+    glFinish();
+    const double before = now;
+    now = vtkTimerLog::GetUniversalTime();
+    this->SecondsPerEye = (now - before) / static_cast<double>(eyes);
+    isFirst = false;
+  }
+  return isOver || this->Progress->IsShooting() ? 0 : this->Aimed;
+}
+
+//------------------------------------------------------------------------------
+vtkTextureObject* vtkOpenGLShooter::ComputeRadiosity(bool ambient)
+{
+  if (!this->IsReady())
+  {
+    return nullptr;
+  }
+  const DeviceSession session(this->Window->Get());
+  return Finish(this, this->Progress->ComputeRadiosity(ambient), "adding up the radiosity")
+    ? this->Progress->GetRadiosity()[0].Get()
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+double vtkOpenGLShooter::GetBandScale(int band)
+{
+  const bool isThere =
+    this->Progress && band >= 0 && band < static_cast<int>(this->Progress->GetScales().size());
+  return isThere ? this->Progress->GetScales()[band] : 0.0;
 }
 
 //------------------------------------------------------------------------------

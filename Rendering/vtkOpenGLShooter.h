@@ -46,6 +46,9 @@ class DeviceWindow;
 class ProgressiveShooter;
 } // namespace LightTransport
 
+class vtkRenderWindow;
+class vtkTextureObject;
+
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkOpenGLShooter : public vtkDeviceShooter
 {
 public:
@@ -56,6 +59,14 @@ public:
   /// Most bands that vectors can have.
   static constexpr int MaximumNumberOfBands = 32;
 
+  ///@{
+  /// The window whose context is used, which has one already (render once); it is not kept alive.
+  /// Default nullptr: an off-screen window that all filters of the process share. Another window
+  /// ends what has been begun.
+  void SetRenderWindow(vtkRenderWindow* window);
+  vtkRenderWindow* GetRenderWindow();
+  ///@}
+
   bool Open(std::string& reason) override;
   /// "OpenGL", and after Open() the name of the device, such as "OpenGL (llvmpipe (LLVM 15.0.6, 256
   /// bits))".
@@ -63,6 +74,25 @@ public:
   bool Initialize(const Patches& patches, int numberOfBands, const double* source,
     const double* reflectance) override;
   vtkIdType Shoot(vtkIdType numberOfShots) override;
+  /**
+   * Shoot for this long at most, or until shots are over that are made together; a call goes on
+   * with those that the last one has left. Eye points are drawn in steps, and one that would not be
+   * over in time waits, but for the first. Returns the number of shots that are over now, or -1
+   * after an error, which has been reported; `isOver` tells that nothing is left to shoot.
+   */
+  vtkIdType ShootFor(double seconds, bool& isOver);
+
+  ///@{
+  /**
+   * The radiosity so far, what is unshot included, as a texture of the context: a texel per patch,
+   * row by row, of four bands in units of GetBandScale. With `ambient`, what patches will have to
+   * reflect of what is still unshot, were it spread evenly, is added (Cohen et al. 1988). Scenes of
+   * up to four bands; nullptr after an error, which has been reported.
+   */
+  vtkTextureObject* ComputeRadiosity(bool ambient);
+  double GetBandScale(int band);
+  ///@}
+
   bool GetLargestUnshot(double* perBand) override;
   bool GetIrradiance(double* values) override;
   bool GetUnshot(double* values) override;
@@ -115,11 +145,14 @@ private:
 
   bool CheckSizes(vtkIdType numberOfPatches, int numberOfBands);
   bool Begin(const double* source);
+  bool AimAtNext(vtkIdType most);
   bool IsReady();
 
   int Resolution = 0;
   double EyePointDensity = 1000.0;
   bool Overshooting = true;
+  double SecondsPerEye = 0.0; ///< of the last step of ShootFor
+  vtkIdType Aimed = 0;        ///< shots under way
 
   const std::unique_ptr<LightTransport::DeviceWindow> Window;
   std::unique_ptr<LightTransport::ProgressiveShooter> Progress;

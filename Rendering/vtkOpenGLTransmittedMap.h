@@ -11,8 +11,9 @@
  *
  * in the unit of "TransmittedIrradiance" of vtkDirectIrradiance, against which it is tested:
  * directional, point and spot lights of the renderer; headlights and camera lights where the camera
- * has them. theta is the angle to the normal of the triangle, F_t Fresnel's transmittance, V what
- * is not in the shadow. Backs get nothing.
+ * has them. An environment or an array may light it as well (vtkSurfaceLighting). theta is the
+ * angle to the normal of the triangle, F_t Fresnel's transmittance, V what is not in the shadow.
+ * Backs get nothing.
  *
  * Shadows are those of all visible actors that are drawn as surfaces, wherever the camera looks,
  * also of what is translucent; a part of a vtkAssembly where it is itself. They come from shadow
@@ -42,13 +43,13 @@
 class vtkActor;
 class vtkOpenGLAtlasTexture;
 class vtkRenderer;
+class vtkSurfaceLighting;
 
 namespace LightTransport
 {
 class AtlasDrawing;
+class EnvironmentLight;
 class Outcome;
-struct LightView;
-struct SceneLight;
 } // namespace LightTransport
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkOpenGLTransmittedMap : public vtkObject
@@ -90,6 +91,15 @@ public:
   vtkGetMacro(RefractiveIndex, double);
   ///@}
 
+  ///@{
+  /**
+   * What lights the surface. Default: one of its own, with the renderer's lights alone. Maps may
+   * share one, which then reads an environment once.
+   */
+  void SetLighting(vtkSurfaceLighting* lighting);
+  vtkSurfaceLighting* GetLighting();
+  ///@}
+
   /**
    * Brings the map up to date, in the context of the renderer's window, which has one already
    * (render once). Nothing is drawn where neither the surface, the actor's place, the lights, what
@@ -109,7 +119,7 @@ public:
   /// When it was drawn last.
   vtkMTimeType GetRunTime();
 
-  /// When the shape or the atlas of the surface was last taken.
+  /// When the surface last had another shape or atlas.
   vtkMTimeType GetSurfaceTime();
 
   /// Gives all memory on the device back; Update makes it again.
@@ -127,15 +137,25 @@ private:
   friend class vtkSubsurfaceScatteringPass;
   struct Parts;
   struct State;
+  struct Sum;
 
   /// nullptr before Update.
   LightTransport::AtlasDrawing* GetDrawing();
+  /// One shadow map for both.
+  void ShareShadows(vtkOpenGLTransmittedMap* other);
+  bool TakesTransfer();
+
+  LightTransport::Outcome Look(vtkActor* actor, vtkRenderer* renderer, State& state);
   LightTransport::Outcome Open(vtkRenderer* renderer);
   LightTransport::Outcome Refresh(vtkActor* actor, vtkRenderer* renderer);
   LightTransport::Outcome Draw(const State& state);
-  LightTransport::Outcome AddLights(const State& state);
-  LightTransport::Outcome AddView(const State& state, const LightTransport::SceneLight& light,
-    const LightTransport::LightView& view, bool countsArea);
+  LightTransport::Outcome ReadLighting(const State& state, Sum& sum);
+  LightTransport::Outcome ReadEnvironment(const State& state, Sum& sum);
+  LightTransport::Outcome ReadTransfer(const State& state,
+    const LightTransport::EnvironmentLight& light, const double axes[9], Sum& sum);
+  LightTransport::Outcome ReadIrradiance(const State& state, Sum& sum);
+  void WarnOfIndex(const State& state);
+  LightTransport::Outcome AddLights(const State& state, const Sum& sum);
   /// xmin, xmax, ... of what is lit and of what casts shadows.
   using Box = std::array<double, 6>;
   Box GetSceneBounds(const State& state) const;

@@ -11,6 +11,7 @@
 #include "vtkOpenGLAtlasTexture.h"
 #include "vtkOpenGLScatteredMap.h"
 #include "vtkOpenGLTransmittedMap.h"
+#include "vtkSurfaceLighting.h"
 
 #include "vtkActor.h"
 #include "vtkObjectFactory.h"
@@ -68,7 +69,8 @@ struct vtkSubsurfaceScatteringPass::Body
 
 //------------------------------------------------------------------------------
 vtkSubsurfaceScatteringPass::vtkSubsurfaceScatteringPass()
-  : vtkTransportPass(ArrayNames::ScatteredIrradiance)
+  : vtkTransportPass(ArrayNames::ScatteredIrradiance),
+    Lighting(vtkSmartPointer<vtkSurfaceLighting>::New())
 {
   this->SetRefractiveIndex(1.3);
 }
@@ -86,6 +88,22 @@ void vtkSubsurfaceScatteringPass::SetRefractiveIndex(double index)
     this->MeanTransmittance = GetMeanTransmittanceAt(clamped);
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::SetLighting(vtkSurfaceLighting* lighting)
+{
+  if (lighting && this->Lighting != lighting)
+  {
+    this->Lighting = lighting;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceLighting* vtkSubsurfaceScatteringPass::GetLighting()
+{
+  return this->Lighting;
 }
 
 //------------------------------------------------------------------------------
@@ -109,6 +127,7 @@ void vtkSubsurfaceScatteringPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
+  os << indent << "Lighting: " << this->Lighting.Get() << "\n";
   os << indent << "IrradianceMapSize: " << this->IrradianceMapSize << "\n";
   os << indent << "IrradianceSamples: " << this->IrradianceSamples << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
@@ -146,6 +165,7 @@ void vtkSubsurfaceScatteringPass::SetMaterial(vtkActor* actor, vtkSubsurfaceScat
       this->Bodies.push_back(std::make_unique<Body>());
       body = this->Bodies.back().get();
       body->Actor = actor;
+      body->Transmitted->ShareShadows(this->Bodies.front()->Transmitted);
     }
     body->Scattered->SetMaterial(material);
   }
@@ -242,6 +262,7 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
     body.RefractiveIndex = index;
     body.MeanTransmittance = GetMeanTransmittanceAt(index);
   }
+  body.Transmitted->SetLighting(this->Lighting);
   body.Transmitted->SetResolution(this->IrradianceMapSize);
   body.Transmitted->SetSamples(this->IrradianceSamples);
   body.Transmitted->SetShadows(this->Shadows);
@@ -252,10 +273,10 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-bool vtkSubsurfaceScatteringPass::IsMapped(vtkProp* prop)
+RadianceShader::Source vtkSubsurfaceScatteringPass::GetSource(vtkProp* prop)
 {
   Body* body = this->FindBody(prop);
-  return body && body->IsMapped;
+  return body && body->IsMapped ? RadianceShader::Source::Map : RadianceShader::Source::Array;
 }
 
 //------------------------------------------------------------------------------
@@ -279,7 +300,7 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
   vtkTextureObject* points = drawing->GetPoints();
   points->Activate();
   program->SetUniformi("lightTransportPoints", points->GetTextureUnit());
-  program->SetUniformi("lightTransportPointWidthBits", AtlasDrawing::PointWidthBits);
+  program->SetUniformi("lightTransportPointWidthBits", TupleTable::WidthBits);
   body->Scattered->GetTexture()->Activate(program, "lightTransportMap");
 }
 

@@ -9,8 +9,9 @@
  * three steps, each a class of its own: what enters is drawn into the surface's atlas in the light
  * of the renderer (vtkOpenGLTransmittedMap); links are applied to it (vtkOpenGLScatteredMap); the
  * picture samples the result pixel by pixel, with mip-maps that no chart leaks into. Nothing is
- * computed again where only the camera moves; a light that moves, or a headlight with the camera,
- * costs the first step and the application of the links; points that move new links. Actors without
+ * computed again where only the camera moves; a light that moves, an environment that turns, or a
+ * headlight with the camera, costs the first step and the application of the links; points that
+ * move new links. Actors without
  * a material pay nothing. A surface that fails is drawn as usual, and an error tells why, once.
  *
  * Other actors with the point array "ScatteredIrradiance" of vtkSubsurfaceScattering draw that.
@@ -36,6 +37,7 @@
 #ifndef vtkSubsurfaceScatteringPass_h
 #define vtkSubsurfaceScatteringPass_h
 
+#include "vtkSmartPointer.h" // for members
 #include "vtkTransportPass.h"
 
 #include <memory> // for std::unique_ptr
@@ -46,6 +48,7 @@ class vtkOpenGLScatteredMap;
 class vtkOpenGLTransmittedMap;
 class vtkRenderer;
 class vtkSubsurfaceScattering;
+class vtkSurfaceLighting;
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkSubsurfaceScatteringPass : public vtkTransportPass
 {
@@ -100,6 +103,12 @@ public:
   ///@}
 
   ///@{
+  /// What lights the surfaces: the renderer's lights (the default), environments, arrays.
+  void SetLighting(vtkSurfaceLighting* lighting);
+  vtkSurfaceLighting* GetLighting();
+  ///@}
+
+  ///@{
   /// How often the steps have been computed, over all actors: what enters was drawn, links were
   /// made, links were applied.
   vtkIdType GetNumberOfIrradianceRuns();
@@ -121,7 +130,7 @@ protected:
   ~vtkSubsurfaceScatteringPass() override;
 
   bool UpdateMaps(const vtkRenderState* state) override;
-  bool IsMapped(vtkProp* prop) override;
+  LightTransport::RadianceShader::Source GetSource(vtkProp* prop) override;
   void SetMap(vtkShaderProgram* program, vtkProp* prop,
     LightTransport::RadianceShader::Uniforms& uniforms) override;
   void LetGoOfMaps() override;
@@ -139,6 +148,7 @@ private:
   Body* FindBody(vtkProp* actor);
   bool Update(Body& body, vtkRenderer* renderer);
 
+  vtkSmartPointer<vtkSurfaceLighting> Lighting;
   std::vector<std::unique_ptr<Body>> Bodies;
   Body* Bound = nullptr; ///< whose textures are active
   int IrradianceMapSize = 512;

@@ -4,6 +4,7 @@
 
 #include "Passes/MappedArrays.h"
 #include "Passes/RadianceShader.h"
+#include "Shared/ArrayNames.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -73,12 +74,20 @@ void vtkTransportPass::Render(const vtkRenderState* state)
     return;
   }
   this->Parallel = state->GetRenderer()->GetActiveCamera()->GetParallelProjection() != 0;
-  this->MapArrays(state, this->UpdateMaps(state));
-  this->PreRender(state);
-  this->DelegatePass->Render(state);
+  const bool areMapsUsed = this->UpdateMaps(state);
+  std::vector<vtkProp*> props(state->GetPropArray(),
+    state->GetPropArray() + state->GetPropArrayCount());
+  this->ReplaceProps(state, props);
+  vtkRenderState drawn(state->GetRenderer());
+  drawn.SetFrameBuffer(state->GetFrameBuffer());
+  drawn.SetRequiredKeys(state->GetRequiredKeys());
+  drawn.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
+  this->MapArrays(&drawn, areMapsUsed);
+  this->PreRender(&drawn);
+  this->DelegatePass->Render(&drawn);
   this->LetGoOfMaps();
   this->NumberOfRenderedProps = this->DelegatePass->GetNumberOfRenderedProps();
-  this->PostRender(state);
+  this->PostRender(&drawn);
 }
 
 //------------------------------------------------------------------------------
@@ -95,8 +104,19 @@ void vtkTransportPass::ReleaseGraphicsResources(vtkWindow* window)
 //------------------------------------------------------------------------------
 void vtkTransportPass::MapArrays(const vtkRenderState* state, bool areMapsUsed)
 {
-  const auto isMapped = [this](vtkActor* actor) { return this->IsMapped(actor); };
-  const bool found = this->Arrays->Map(state, this->ArrayName, isMapped) || areMapsUsed;
+  const auto getName = [this](vtkActor* actor) -> std::string
+  {
+    switch (this->GetSource(actor))
+    {
+      case RadianceShader::Source::Array:
+        return this->ArrayName;
+      case RadianceShader::Source::Groups:
+        return ArrayNames::SmoothGroup;
+      default:
+        return {};
+    }
+  };
+  const bool found = this->Arrays->Map(state, getName) || areMapsUsed;
   if (!found && !this->Warned)
   {
     vtkWarningMacro("No visible actor has a point array \""
@@ -113,11 +133,27 @@ vtkMTimeType vtkTransportPass::GetShaderStageMTime()
 }
 
 //------------------------------------------------------------------------------
+RadianceShader::Source vtkTransportPass::GetSource(vtkProp*)
+{
+  return RadianceShader::Source::Array;
+}
+
+//------------------------------------------------------------------------------
+RadianceShader::Source vtkTransportPass::FindSource(vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  const RadianceShader::Source source = this->GetSource(prop);
+  const bool needsArray = source != RadianceShader::Source::Map;
+  return needsArray && this->Arrays->GetNumberOfComponents(mapper) == 0
+    ? RadianceShader::Source::None
+    : source;
+}
+
+//------------------------------------------------------------------------------
 bool vtkTransportPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
   vtkProp* prop)
 {
-  if (this->IsMapped(prop) || this->Arrays->GetNumberOfComponents(mapper) > 0)
+  if (this->FindSource(mapper, prop) != RadianceShader::Source::None)
   {
     RadianceShader::MarkPlaces(vertexShader, geometryShader, fragmentShader);
   }
@@ -128,10 +164,10 @@ bool vtkTransportPass::PreReplaceShaderValues(std::string& vertexShader,
 bool vtkTransportPass::PostReplaceShaderValues(std::string& vertexShader, std::string&,
   std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  const bool isMapped = this->IsMapped(prop);
-  if (isMapped || this->Arrays->GetNumberOfComponents(mapper) > 0)
+  const RadianceShader::Source source = this->FindSource(mapper, prop);
+  if (source != RadianceShader::Source::None)
   {
-    RadianceShader::FillPlaces(vertexShader, fragmentShader, this->GetFragmentShader(), isMapped);
+    RadianceShader::FillPlaces(vertexShader, fragmentShader, this->GetFragmentShader(), source);
   }
   return true;
 }
@@ -142,8 +178,8 @@ bool vtkTransportPass::SetShaderParameters(vtkShaderProgram* program, vtkAbstrac
 {
   RadianceShader::Uniforms uniforms;
   uniforms.Components = this->Arrays->GetNumberOfComponents(mapper);
-  const bool isMapped = this->IsMapped(prop);
-  if (!isMapped && uniforms.Components == 0)
+  const RadianceShader::Source source = this->FindSource(mapper, prop);
+  if (source == RadianceShader::Source::None)
   {
     return true;
   }
@@ -156,7 +192,7 @@ bool vtkTransportPass::SetShaderParameters(vtkShaderProgram* program, vtkAbstrac
   uniforms.Exposure = this->Exposure;
   uniforms.RefractiveIndex = this->GetFresnelIndex();
   uniforms.MeanTransmittance = this->GetMeanTransmittance();
-  if (isMapped)
+  if (source != RadianceShader::Source::Array)
   {
     this->SetMap(program, prop, uniforms);
   }

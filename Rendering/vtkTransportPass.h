@@ -4,10 +4,11 @@
  * @class vtkTransportPass
  * @brief what the render passes for transport results share: draws a point array as radiance
  *
- * The passes compute no light transport: they draw arrays that a filter has computed (vtkRadiosity,
- * vtkSubsurfaceScattering). An array may have one component (grey) or three (red, green, blue; a
- * fourth is ignored), float or double, radiant exitance per unit area, and is divided by pi: the
- * surface is diffuse. Values are interpolated linearly over triangles.
+ * The passes draw arrays that a filter has computed (vtkRadiosity, vtkSubsurfaceScattering), and
+ * what they compute themselves for the actors of the scene. An array may have one component (grey)
+ * or three (red, green, blue; a fourth is ignored), float or double, radiant exitance per unit
+ * area, and is divided by pi: the surface is diffuse. Values are interpolated linearly over
+ * triangles.
  *
  * Every visible actor whose mapper is a plain vtkPolyDataMapper with that point array in its input
  * is drawn so; all others are drawn as usual, also those with composite data, whose mappers take no
@@ -26,14 +27,16 @@
 
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 namespace LightTransport
 {
 class MappedArrays;
 namespace RadianceShader
 {
+enum class Source;
 struct Uniforms;
-}
+} // namespace RadianceShader
 } // namespace LightTransport
 
 class VTKLIGHTTRANSPORTRENDERING_EXPORT vtkTransportPass : public vtkOpenGLRenderPass
@@ -106,13 +109,18 @@ protected:
 
   ///@{
   /**
-   * For a pass whose actors may be drawn from maps of their atlases instead: bring the maps of a
-   * frame up to date before it is drawn, and return whether any actor has one, or an error has told
-   * why not; whether an actor has one; let a program of that actor's mapper use it, and say which
-   * material it is; let go of it when the frame is drawn.
+   * For a pass that computes what it draws: bring that of a frame up to date before it is drawn,
+   * and return whether any actor has any, or an error has told why not; put others in the place of
+   * the props that are drawn; where the radiance of an actor comes from (None and Array are told
+   * apart here); let a program of that actor's mapper use it, and say which material it is; let go
+   * of it when the frame is drawn.
    */
   virtual bool UpdateMaps(const vtkRenderState* vtkNotUsed(state)) { return false; }
-  virtual bool IsMapped(vtkProp* vtkNotUsed(prop)) { return false; }
+  virtual void ReplaceProps(const vtkRenderState* vtkNotUsed(state),
+    std::vector<vtkProp*>& vtkNotUsed(props))
+  {
+  }
+  virtual LightTransport::RadianceShader::Source GetSource(vtkProp* prop);
   virtual void SetMap(vtkShaderProgram* vtkNotUsed(program), vtkProp* vtkNotUsed(prop),
     LightTransport::RadianceShader::Uniforms& vtkNotUsed(uniforms))
   {
@@ -120,7 +128,7 @@ protected:
   virtual void LetGoOfMaps() {}
   ///@}
 
-  /// To be called where IsMapped has changed for some actor.
+  /// To be called where GetSource has changed for some actor.
   void MapsModified() { this->MapsTime.Modified(); }
 
 private:
@@ -128,6 +136,7 @@ private:
   void operator=(const vtkTransportPass&) = delete;
 
   void MapArrays(const vtkRenderState* state, bool areMapsUsed);
+  LightTransport::RadianceShader::Source FindSource(vtkAbstractMapper* mapper, vtkProp* prop);
 
   std::string ArrayName;
   double Exposure = 1.0;

@@ -8,7 +8,7 @@ import numpy
 
 import vtklighttransport as lt
 from vtklighttransport.arrays import get_areas, get_cell_array, get_summary
-from vtklighttransport.shell.lights import make_light
+from vtklighttransport.lights import make_light
 from vtkmodules.vtkCommonCore import reference
 
 import demo_pictures

@@ -6,7 +6,7 @@ import os
 
 import vtklighttransport as lt
 from vtklighttransport.arrays import get_areas, get_cell_array, get_summary, relative_error
-from vtklighttransport.shell.files import make_reader
+from vtklighttransport.meshes import make_reader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import demo_pictures

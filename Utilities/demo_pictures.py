@@ -42,6 +42,19 @@ def render_cornell_box(file, surface, size=512):
     render_light(file, surface, 8.0, look_into_cornell_box, (size, size))
 
 
+def render_cornell_box_while_solving(file, surface, radiosity, size=512):
+    """The same, solved in the first frame."""
+    solving = lt.vtkRadiosityPass()
+    solving.SetRadiosity(radiosity)
+    solving.SetFrameBudget(1e6)
+    solving.SetExposure(8.0)
+    renderer = vtkRenderer()
+    renderer.AddActor(make_actor(surface))
+    renderer.SetPass(solving)
+    look_into_cornell_box(renderer)
+    write_picture(make_window(renderer, (size, size)), file)
+
+
 def render_bunny(file, surface, refractive_index, light, size=512):
     """What is scattered, weighted for the eye, added to the mirror-like reflection of the light."""
     scattered = lt.vtkSubsurfaceScatteringPass()
@@ -50,14 +63,19 @@ def render_bunny(file, surface, refractive_index, light, size=512):
     draw_bunny(file, make_smooth_actor(surface), scattered, light, size)
 
 
-def render_bunny_while_scattering(file, surface, material, light, size=512):
+def render_bunny_while_scattering(file, surface, material, light, size=512, exposure=20.0,
+                                  lighting=None, bumps=None):
     """The same, scattered while it is drawn: the surface has an atlas."""
     actor = make_smooth_actor(surface)
+    if bumps:
+        actor.GetProperty().SetNormalTexture(bumps)
     scattered = lt.vtkSubsurfaceScatteringPass()
     scattered.SetMaterial(actor, material)
+    if lighting:
+        scattered.SetLighting(lighting)
     scattered.SetIrradianceMapSize(128)
     scattered.SetScatteredMapSize(64)
-    scattered.SetExposure(20.0)
+    scattered.SetExposure(exposure)
     draw_bunny(file, actor, scattered, light, size)
 
 

@@ -8,7 +8,8 @@ import time
 
 import numpy
 
-from vtklighttransport.shell.files import make_reader, write_data
+from vtklighttransport.meshes import make_reader
+from vtklighttransport.shell.files import write_data
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkPolyData

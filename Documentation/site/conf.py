@@ -42,17 +42,19 @@ CLASSES = {
     for folder in ("Filters/Meshing", "Filters/Transport", "Rendering", "IO")
     for header in glob.glob(os.path.join(ROOT, folder, "vtk*.h"))}
 
-GUIDE = ["install", "arrays", "patches", "view-factors", "many-patches", "heat", "scattering",
-         "opengl", "openexr", "report", "demonstration"]
+START = ["paraview", "python", "shell", "cpp", "gallery"]
+GUIDE = ["install", "arrays", "patches", "sheets", "view-factors", "many-patches", "heat",
+         "scattering", "models", "opengl", "openexr", "report", "demonstration"]
 DESIGN = ["scene", "links", "view-factors", "clusters", "radiosity", "scattering", "meshing",
           "opengl", "build"]
 # What the side bar holds: captions and pages below a page.
 CONTENTS = {
     "README": (
-        ("Use", ["Documentation/guide/index", "Documentation/errors", "Documentation/limits",
-                 "Documentation/measurements", "Data/README"]),
+        ("Use", ["Documentation/start/index", "Documentation/guide/index", "Documentation/errors",
+                 "Documentation/limits", "Documentation/measurements", "Data/README"]),
         ("Inside", ["Documentation/glossary", "Documentation/design/index", "CONTRIBUTING",
                     "CHANGELOG"])),
+    "Documentation/start/index": ((None, ["Documentation/start/" + page for page in START]),),
     "Documentation/guide/index": ((None, ["Documentation/guide/" + page for page in GUIDE]),),
     "Documentation/design/index": ((None, ["Documentation/design/" + page for page in DESIGN]),),
 }

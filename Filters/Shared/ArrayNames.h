@@ -25,6 +25,11 @@ constexpr const char* TexelArea = "Area";
 ///@}
 /// Texel map, 1 component: the row of the links that a texel is, from 1 on; 0 for none.
 constexpr const char* LinkRow = "LinkRow";
+/// Point array, 1 component: the smooth group that the front of a surface has there.
+constexpr const char* SmoothGroup = "SmoothGroup";
+/// Cell and point array, (degree + 1)^2 components: what of each spherical harmonic of radiance
+/// from afar enters a surface.
+constexpr const char* RadianceTransfer = "RadianceTransfer";
 /// Field data of an image, 4 values: xmin, xmax, ymin, ymax of what of it is to be seen.
 constexpr const char* DisplayWindow = "DisplayWindow";
 /// Behind the name of an array of surfaces of two sides: that of the back.

@@ -159,7 +159,7 @@ bool vtkExchangeHierarchy::SetLinks(const std::vector<Link>& links)
 
 //------------------------------------------------------------------------------
 bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vector<int> columns,
-  std::vector<float> values)
+  std::vector<float> values, bool isSymmetric)
 {
   this->ClearLinks();
   const int slots = this->GetNumberOfSlots();
@@ -175,9 +175,26 @@ bool vtkExchangeHierarchy::SetRows(std::vector<std::int64_t> offsets, std::vecto
     this->Columns = std::move(columns);
     this->Values = std::move(values);
     this->NumberOfLinks = static_cast<vtkIdType>(this->Columns.size());
-    this->Symmetric = false;
+    this->Symmetric = isSymmetric;
+    if (isSymmetric)
+    {
+      this->NumberOfLinks = (this->NumberOfLinks + this->CountLoops()) / 2;
+    }
   }
   return good;
+}
+
+//------------------------------------------------------------------------------
+// Links of a slot with itself.
+vtkIdType vtkExchangeHierarchy::CountLoops() const
+{
+  vtkIdType loops = 0;
+  for (int slot = 0; slot < this->GetNumberOfSlots(); ++slot)
+  {
+    const auto [first, last] = this->GetRow(slot);
+    loops += std::count(this->Columns.begin() + first, this->Columns.begin() + last, slot);
+  }
+  return loops;
 }
 
 //------------------------------------------------------------------------------

@@ -184,9 +184,10 @@ public:
   bool SetLinks(const std::vector<Link>& links);
 
   /// Replace the links of this part by rows as they are (GetOffsets and so on), each link serving
-  /// one direction. Returns false, and there are no links, where the tables do not fit the tree.
+  /// one direction, or with `isSymmetric` being there twice, in the rows of both its ends. Returns
+  /// false, and there are no links, where the tables do not fit the tree.
   bool SetRows(std::vector<std::int64_t> offsets, std::vector<int> columns,
-    std::vector<float> values);
+    std::vector<float> values, bool isSymmetric = false);
 
   /// Rows beside those of SetRows, which drops them. Returns false, and nothing changes, where they
   /// do not fit the tree.
@@ -260,6 +261,7 @@ private:
   void operator=(const vtkExchangeHierarchy&) = delete;
 
   bool FindParents();
+  vtkIdType CountLoops() const;
   double GetCodedValue(const std::vector<int>& rows, const std::vector<int>& others,
     int kernel) const;
   void Clear();

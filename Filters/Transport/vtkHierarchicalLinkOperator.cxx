@@ -189,6 +189,13 @@ struct GatherCodes
 };
 
 //------------------------------------------------------------------------------
+// Where all links join patches nothing goes up or down the tree.
+bool LinksClusters(const vtkExchangeHierarchy& hierarchy)
+{
+  return !hierarchy.IsSymmetric() || hierarchy.GetOffsets()[hierarchy.GetNumberOfNodes()] > 0;
+}
+
+//------------------------------------------------------------------------------
 template <int Count, int Lights>
 void GatherLights(const Pass& pass)
 {
@@ -295,6 +302,11 @@ void vtkHierarchicalLinkOperator::SweepUp(const Vector& x)
     }
   };
   Threads::For(0, this->NumberOfPatches, SlotsPerTask, weigh);
+  if (!LinksClusters(*this->Hierarchy))
+  {
+    std::fill(this->Sent.data(), patches, 0.0);
+    return;
+  }
   const auto sumUp = [&](vtkIdType begin, vtkIdType end)
   {
     for (vtkIdType node = begin; node < end; ++node)
@@ -318,6 +330,10 @@ void vtkHierarchicalLinkOperator::SweepUp(const Vector& x)
 //------------------------------------------------------------------------------
 void vtkHierarchicalLinkOperator::SweepDown(int bands)
 {
+  if (!LinksClusters(*this->Hierarchy))
+  {
+    return;
+  }
   const std::vector<vtkExchangeHierarchy::Node>& nodes = this->Hierarchy->GetNodes();
   const auto handDown = [&](vtkIdType begin, vtkIdType end)
   {

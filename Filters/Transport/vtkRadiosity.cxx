@@ -8,6 +8,8 @@
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolver.h"
+#include "Radiosity/SampledErrors.h"
+#include "Radiosity/ShotPatches.h"
 #include "Radiosity/SolverSettings.h"
 #include "Radiosity/SolverTable.h"
 #include "Radiosity/ThermalDoubts.h"
@@ -15,10 +17,15 @@
 #include "Scene/CellArrays.h"
 #include "Scene/SceneOutput.h"
 #include "Scene/SmoothPoints.h"
+#include "Shared/AbortCheck.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
+#include "Shared/TransportMemory.h"
 #include "ViewFactors/EnclosureVerdict.h"
 #include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/RayErrors.h"
+#include "ViewFactors/RayHits.h"
+#include "ViewFactors/SamplingPlan.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkDataObject.h"
@@ -48,6 +55,13 @@ constexpr vtkIdType MostDensePatches = 8192;
 // solution to exist.
 constexpr double CoarseLinks = 4.0;
 constexpr double CoarsestLinks = 0.1;
+// Ranges of tolerances that are asked for.
+constexpr double LeastLinkTolerance = 1e-5;
+constexpr double LeastViewFactorTolerance = 1e-12;
+constexpr double MostViewFactorTolerance = 0.1;
+// What rays may take of the free memory: hits, and rows of them, which are there twice for a while.
+constexpr double MemoryForRays = 0.8;
+constexpr double BytesPerHit = 6.0;
 
 // The stages of a run as fractions of its progress.
 constexpr double CoarseDone = 0.3;
@@ -62,6 +76,13 @@ double GetElement(const std::vector<double>& values, int index)
 }
 
 //------------------------------------------------------------------------------
+const char* GetName(LightTransport::LinkMethod method)
+{
+  using Method = LightTransport::LinkMethod;
+  return method == Method::Dense ? "Dense" : method == Method::Sampled ? "Sampled" : "Hierarchical";
+}
+
+//------------------------------------------------------------------------------
 void PrintValues(ostream& os, const std::vector<double>& values)
 {
   for (const double value : values)
@@ -72,11 +93,21 @@ void PrintValues(ostream& os, const std::vector<double>& values)
 }
 } // namespace
 
+/// Shots that others make.
+struct vtkRadiosity::OwnShots
+{
+  ShotProblem* Problem = nullptr; ///< to be told
+  bool UsesAmbient = false;       ///< where nothing has been shot yet
+  const std::vector<double>* Irradiance = nullptr;
+  vtkIdType NumberOfShots = 0;
+};
+
 //------------------------------------------------------------------------------
 class vtkRadiosity::Run : public TransportRun
 {
 public:
-  Run(vtkRadiosity* owner, const RunPorts& ports) : TransportRun(ports), Owner(owner)
+  Run(vtkRadiosity* owner, const RunPorts& ports, OwnShots* ownShots = nullptr)
+    : TransportRun(ports), Owner(owner), Others(ownShots)
   {
     this->NumberOfSides = owner->TwoSided ? 2 : 1;
   }
@@ -91,24 +122,43 @@ protected:
   void Write() override;
 
 private:
-  bool IsHierarchical() const;
+  LightTransport::LinkMethod GetLinkMethod() const;
+  bool IsHierarchical() const
+  {
+    return this->GetLinkMethod() == LightTransport::LinkMethod::Hierarchical;
+  }
   Outcome CheckSolver() const;
 
-  Outcome UpdateLinks(double linkTolerance, const Monitor& monitor);
+  ///@{ What was asked for, or what Accuracy asks for.
+  double GetLinkTolerance() const;
+  double GetViewFactorTolerance() const;
+  ///@}
+
+  ViewFactorStore& GetStore() const;
+  Outcome UpdateLinks(double linkTolerance, const SamplingPlan& plan, const Monitor& monitor);
   Outcome LinkByBrightness();
+  Outcome LinkByRays();
+  SamplingPlan ImprovePlan(const SamplingPlan& plan) const;
 
   RadiosityEquation DescribeEquation() const;
+  RadiosityEquation DescribeLinks(RadiosityEquation equation) const;
   SolverSettings MakeSettings(int mostIterations, double begin, const Monitor& monitor);
   Outcome Solve(const Monitor& monitor);
+  Outcome FindErrors(const Monitor& monitor);
   Outcome Shoot(const Monitor& monitor);
+  Outcome CheckBackground() const;
+  Outcome TakeShots();
+  void AddDirectIrradiance();
   Outcome AddHint(const Outcome& solved) const;
   bool Finish();
 
   void WriteThermal(const std::vector<double>& flux, const SceneOutput& output);
+  void WriteErrors(const SceneOutput& output) const;
   void WriteVerdict(const SceneOutput& output) const;
   void WriteSummaries() const;
 
   vtkRadiosity* Owner;
+  OwnShots* Others;                    // null but where others shoot
   const SolverEntry* Solver = nullptr; // set by Check
   RadiosityMaterials Materials;
   const LightTransport::Links* Links = nullptr; // null where the solver needs none
@@ -116,6 +166,8 @@ private:
   vtkSmartPointer<vtkCPULinkOperator> Reference;
   RadiositySolution Solution;
   std::vector<double> Irradiance; // patches x bands
+  bool IsSolved = false;          // while linking
+  SampledErrors Errors;           // of sampled links
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double NetPower = 0.0; // of a thermal scene
@@ -129,6 +181,7 @@ NumberProperties::List vtkRadiosity::Run::ListNumbers() const
   NumberProperties::List numbers = this->TransportRun::ListNumbers();
   numbers.emplace_back("Tolerance", this->Owner->Tolerance);
   numbers.emplace_back("LinkTolerance", this->Owner->LinkTolerance);
+  numbers.emplace_back("Accuracy", this->Owner->Accuracy);
   numbers.emplace_back("ViewFactorTolerance", this->Owner->ViewFactorTolerance);
   numbers.emplace_back("BackgroundTemperature", this->Owner->BackgroundTemperature);
   if (vtkViewFactors* given = this->Owner->ViewFactors)
@@ -142,21 +195,20 @@ NumberProperties::List vtkRadiosity::Run::ListNumbers() const
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Check()
 {
-  this->Solver = SolverTable::Find(this->Owner->Solver, this->Owner->Device);
+  this->Solver = this->Others ? SolverTable::Find(SOLVER_SOUTHWELL, DEVICE_OPENGL)
+                              : SolverTable::Find(this->Owner->Solver, this->Owner->Device);
   if (!this->Solver)
   {
     return Outcome::Failed(SolverTable::ExplainUnknown(this->Owner->Solver));
   }
   const vtkViewFactors* given = this->Solver->NeedsLinks() ? this->Owner->ViewFactors : nullptr;
-  const bool givenHierarchical = given && given->LinksClusters();
-  const int method = this->Owner->LinkMethod;
-  if (given && method != LINK_METHOD_AUTO &&
-    givenHierarchical != (method == LINK_METHOD_HIERARCHICAL))
+  const LightTransport::LinkMethod linked = this->GetLinkMethod();
+  if (given && this->Owner->LinkMethod != LINK_METHOD_AUTO &&
+    static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod) != linked)
   {
-    return Outcome::Failed(
-      std::string("LinkMethod is not what the given view factors are: set it to Auto, or switch "
-                  "Hierarchical of vtkViewFactors ") +
-      (givenHierarchical ? "off." : "on."));
+    return Outcome::Failed(std::string("LinkMethod is not what the given view factors are: set it "
+                                       "to Auto, or LinkMethod of vtkViewFactors to ") +
+      GetName(static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod)) + ".");
   }
   if (given && given->TwoSided != this->Owner->TwoSided)
   {
@@ -164,7 +216,7 @@ Outcome vtkRadiosity::Run::Check()
       (given->TwoSided ? "both sides" : "one side") +
       " of each polygon: switch TwoSided of vtkViewFactors and vtkRadiosity both on, or both off.");
   }
-  if (this->Solver->NeedsEachPair() && (givenHierarchical || method == LINK_METHOD_HIERARCHICAL))
+  if (this->Solver->NeedsEachPair() && linked != LightTransport::LinkMethod::Dense)
   {
     return Outcome::Failed(std::string(this->Solver->Name) +
       " needs a link for each pair of patches: set LinkMethod to Dense, or "
@@ -203,15 +255,20 @@ Outcome vtkRadiosity::Run::Gather()
 }
 
 //------------------------------------------------------------------------------
-bool vtkRadiosity::Run::IsHierarchical() const
+LightTransport::LinkMethod vtkRadiosity::Run::GetLinkMethod() const
 {
-  if (this->Owner->ViewFactors)
+  using Method = LightTransport::LinkMethod;
+  if (vtkViewFactors* given = this->Owner->ViewFactors)
   {
-    return this->Owner->ViewFactors->LinksClusters();
+    return given->Store->GetLoadedFile().empty() ? given->GetSettings().Method : Method::Dense;
   }
-  return this->Owner->LinkMethod == LINK_METHOD_HIERARCHICAL ||
-    (this->Owner->LinkMethod == LINK_METHOD_AUTO &&
-      this->Scene.GetNumberOfPatches() > MostDensePatches && !this->Solver->NeedsEachPair());
+  if (this->Owner->LinkMethod != LINK_METHOD_AUTO)
+  {
+    return static_cast<Method>(this->Owner->LinkMethod);
+  }
+  return this->Scene.GetNumberOfPatches() > MostDensePatches && !this->Solver->NeedsEachPair()
+    ? Method::Hierarchical
+    : Method::Dense;
 }
 
 //------------------------------------------------------------------------------
@@ -235,6 +292,21 @@ Outcome vtkRadiosity::Run::Read()
 }
 
 //------------------------------------------------------------------------------
+double vtkRadiosity::Run::GetLinkTolerance() const
+{
+  const double asked = this->Owner->LinkTolerance;
+  return std::max(asked > 0.0 ? asked : this->Owner->Accuracy, LeastLinkTolerance);
+}
+
+//------------------------------------------------------------------------------
+double vtkRadiosity::Run::GetViewFactorTolerance() const
+{
+  const double asked = this->Owner->ViewFactorTolerance;
+  return asked > 0.0 ? std::max(asked, LeastViewFactorTolerance)
+                     : std::min(this->Owner->Accuracy, MostViewFactorTolerance);
+}
+
+//------------------------------------------------------------------------------
 // What enters through openings falls on the patches as the light of lamps does. Of it the first
 // links tell all: those for the light that there is know no row sums.
 Outcome vtkRadiosity::Run::Link()
@@ -243,12 +315,17 @@ Outcome vtkRadiosity::Run::Link()
   {
     return Outcome::Done();
   }
+  if (this->GetLinkMethod() == LightTransport::LinkMethod::Sampled && !this->Owner->ViewFactors &&
+    this->Owner->LinkTolerance == 0.0)
+  {
+    return this->LinkByRays();
+  }
   const bool isBright =
     this->Owner->RefineByBrightness && !this->Owner->ViewFactors && this->IsHierarchical();
-  const double tolerance = this->Owner->LinkTolerance;
+  const double tolerance = this->GetLinkTolerance();
   const double coarse = std::max(std::min(CoarseLinks * tolerance, CoarsestLinks), tolerance);
   const bool isCoarse = isBright && !this->Materials.Settings.HasBackground();
-  Outcome linked = this->UpdateLinks(isCoarse ? coarse : tolerance,
+  Outcome linked = this->UpdateLinks(isCoarse ? coarse : tolerance, {},
     this->Progress.GetMonitor().GetStage(0.0, isBright ? CoarseDone : LinksDone));
   if (linked && this->Materials.Settings.HasBackground())
   {
@@ -258,17 +335,93 @@ Outcome vtkRadiosity::Run::Link()
 }
 
 //------------------------------------------------------------------------------
-Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const Monitor& monitor)
+ViewFactorStore& vtkRadiosity::Run::GetStore() const
 {
   vtkViewFactors* given = this->Owner->ViewFactors;
-  ViewFactorStore& store = given ? *given->Store : *this->Owner->OwnViewFactors;
+  return given ? *given->Store : *this->Owner->OwnViewFactors;
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan& plan,
+  const Monitor& monitor)
+{
+  vtkViewFactors* given = this->Owner->ViewFactors;
+  ViewFactorStore& store = this->GetStore();
   const bool needsAll =
     given || this->Owner->EnforceClosure || this->Materials.Settings.HasBackground();
-  const ViewFactorSettings own{ this->Owner->ViewFactorTolerance, this->Owner->EnforceClosure,
-    this->IsHierarchical(), linkTolerance };
+  const ViewFactorSettings own{ this->GetViewFactorTolerance(), this->Owner->EnforceClosure,
+    this->GetLinkMethod(), linkTolerance, plan };
   this->Links = &store.GetLinks();
-  return store.Update(this->Scene, given ? given->GetSettings() : own,
+  const Outcome updated = store.Update(this->Scene, given ? given->GetSettings() : own,
     needsAll ? std::vector<bool>() : this->Materials.FindSenders(), this->AllRanks, monitor);
+  this->Owner->NumberOfLinkRuns += updated && store.WereMade() ? 1 : 0;
+  return updated;
+}
+
+//------------------------------------------------------------------------------
+// Few rays first; from the solution with them, and how wrong it is, follows how many are enough,
+// and which patches are worth exact rows.
+Outcome vtkRadiosity::Run::LinkByRays()
+{
+  const std::vector<double> direct = this->Materials.DirectIrradiance;
+  SamplingPlan plan = SamplingPlan::Begin();
+  double done = 0.0;
+  for (;;)
+  {
+    const double end = 0.5 * (done + SolverDone);
+    const Monitor stage = this->Progress.GetMonitor().GetStage(done, end);
+    Outcome outcome =
+      this->UpdateLinks(this->GetLinkTolerance(), plan, stage.GetStage(0.0, CoarseSolved));
+    if (outcome && this->Materials.Settings.HasBackground())
+    {
+      this->Materials.DirectIrradiance = direct;
+      this->Materials.AddBackground(this->Links->SkyFractions);
+    }
+    outcome = outcome ? this->Solve(stage.GetStage(CoarseSolved, LinksDone)) : outcome;
+    outcome = outcome && !this->Finish() ? Outcome::FailedAsReported() : outcome;
+    outcome = outcome ? this->FindErrors(stage.GetStage(LinksDone, 1.0)) : outcome;
+    const SamplingPlan better = outcome ? this->ImprovePlan(plan) : plan;
+    if (!outcome || better == plan)
+    {
+      this->IsSolved = static_cast<bool>(outcome);
+      return outcome;
+    }
+    plan = better;
+    done = end;
+  }
+}
+
+//------------------------------------------------------------------------------
+// The same where the accuracy has been reached, or cannot be.
+SamplingPlan vtkRadiosity::Run::ImprovePlan(const SamplingPlan& plan) const
+{
+  const double accuracy = this->Owner->Accuracy;
+  if (this->Errors.Whole <= accuracy)
+  {
+    return plan;
+  }
+  const std::vector<double> nothing;
+  SamplingPlan better =
+    plan.Improve({ this->Scene.GetAreas(), this->Solution.Radiosity,
+                   this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing,
+                   this->Links->SkyFractions, this->Errors.Whole },
+      accuracy);
+  const double bytes = BytesPerHit *
+    RayHits::GetEstimatedBytes(this->Scene.GetNumberOfPatches(), better.RaysPerPatch,
+      this->AllRanks);
+  const bool fits = bytes <= MemoryForRays * TransportMemory::GetAvailableBytes();
+  const bool doNotFit = this->AllRanks.GetLargest(fits ? 0 : 1) > 0;
+  if (doNotFit || better == plan)
+  {
+    std::ostringstream text;
+    text << "An Accuracy of " << accuracy << " was not reached: by its links B is known to "
+         << this->Errors.Whole << ". "
+         << (doNotFit ? "More rays do not fit into memory" : "No patch casts more rays")
+         << ": raise Accuracy, or set LinkMethod to Dense.";
+    this->WarnOnce({ text.str() });
+    return plan;
+  }
+  return better;
 }
 
 //------------------------------------------------------------------------------
@@ -285,11 +438,12 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
   const Monitor second = monitor.GetStage(CoarseSolved, LinksDone);
   if (!isKnown)
   {
-    return this->UpdateLinks(this->Owner->LinkTolerance, second);
+    return this->UpdateLinks(this->GetLinkTolerance(), {}, second);
   }
-  const HierarchicalViewFactors builder(this->Owner->LinkTolerance,
+  const HierarchicalViewFactors builder(this->GetLinkTolerance(),
     Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks));
   this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
+  ++this->Owner->NumberOfLinkRuns;
   this->Links = &this->BrightLinks;
   return builder.Build(this->Scene, this->AllRanks, second, this->BrightLinks);
 }
@@ -297,14 +451,28 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::Compute()
 {
+  if (this->Others)
+  {
+    return this->TakeShots();
+  }
   const Monitor monitor = this->Progress.GetMonitor();
-  Outcome solved = this->Solver->NeedsLinks() ? this->Solve(monitor.GetStage(LinksDone, SolverDone))
-                                              : this->Shoot(monitor.GetStage(0.0, SolverDone));
+  Outcome solved = Outcome::Done();
+  if (!this->IsSolved)
+  {
+    solved = this->Solver->NeedsLinks() ? this->Solve(monitor.GetStage(LinksDone, SolverDone))
+                                        : this->Shoot(monitor.GetStage(0.0, SolverDone));
+  }
   if (solved && !this->Solution.Warning.empty())
   {
     this->Warn(this->Solution.Warning);
   }
-  return solved && this->Links && !this->Finish() ? Outcome::FailedAsReported() : solved;
+  if (!solved || !this->Links || this->IsSolved)
+  {
+    return solved;
+  }
+  solved = this->Finish() ? solved : Outcome::FailedAsReported();
+  return solved && this->Links->IsSampled() ? this->FindErrors(monitor.GetStage(SolverDone, 1.0))
+                                            : solved;
 }
 
 //------------------------------------------------------------------------------
@@ -327,13 +495,9 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
   {
     return Outcome::FailedAsReported();
   }
-  RadiosityEquation equation = this->DescribeEquation();
+  RadiosityEquation equation = this->DescribeLinks(this->DescribeEquation());
   equation.Operator = links;
   equation.Reference = this->Reference;
-  equation.Areas = &exchange->GetAreas();
-  equation.RowSums = &this->Links->RowSums;
-  equation.RowSumError = this->Links->GetRowSumError();
-  equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
   const SolverSettings settings =
     this->MakeSettings(this->Owner->MaximumNumberOfIterations, begin, monitor);
 
@@ -341,6 +505,22 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
   this->DeviceUsed = links->GetDeviceName();
   this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
   return this->AddHint(solved);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::FindErrors(const Monitor& monitor)
+{
+  auto links = LinkOperators::MakeOnCPU(this->Links->GetExchange(),
+    this->Materials.NumberOfBands * RayErrors::Groups, this->AllRanks);
+  if (!links)
+  {
+    return Outcome::FailedAsReported();
+  }
+  const std::vector<double> nothing;
+  const RayErrors rays(this->Scene, this->GetStore().GetHits(), *this->Links, this->AllRanks);
+  return this->Errors.Find(rays, this->DescribeLinks(this->DescribeEquation()), links,
+    this->Solution.Radiosity, this->Irradiance,
+    this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -354,11 +534,9 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
   {
     return Outcome::Failed("Device is OpenGL, but " + reason + " Or set Device to Auto or CPU.");
   }
-  if (this->Materials.Settings.HasBackground())
+  if (Outcome checked = this->CheckBackground(); !checked)
   {
-    return Outcome::Failed(
-      "Southwell on OpenGL computes no sky fractions, which a background needs: set "
-      "Device to Auto or CPU, or use another solver.");
+    return checked;
   }
   const RadiosityEquation equation = this->DescribeEquation();
   const vtkIdType patches = equation.NumberOfPatches;
@@ -373,10 +551,72 @@ Outcome vtkRadiosity::Run::Shoot(const Monitor& monitor)
   this->DeviceUsed = shooter->GetDeviceName();
   this->DeviceExplanation = "OpenGL: asked for";
   this->SolverSeconds = vtkTimerLog::GetUniversalTime() - begin;
+  this->AddDirectIrradiance();
+  return this->AddHint(solved);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::CheckBackground() const
+{
+  return this->Materials.Settings.HasBackground()
+    ? Outcome::Failed("Southwell on OpenGL computes no sky fractions, which a background needs: "
+                      "set Device to Auto or CPU, or use another solver.")
+    : Outcome::Done();
+}
+
+//------------------------------------------------------------------------------
+// To what shots have brought.
+void vtkRadiosity::Run::AddDirectIrradiance()
+{
   this->Irradiance = this->Solution.Irradiance;
   std::transform(this->Irradiance.begin(), this->Irradiance.end(),
     this->Materials.DirectIrradiance.begin(), this->Irradiance.begin(), std::plus<double>());
-  return this->AddHint(solved);
+}
+
+//------------------------------------------------------------------------------
+// What others have shot, or are to shoot.
+Outcome vtkRadiosity::Run::TakeShots()
+{
+  if (Outcome checked = this->CheckBackground(); !checked)
+  {
+    return checked;
+  }
+  const RadiosityEquation equation = this->DescribeEquation();
+  const std::vector<double> ambient = equation.FindAmbientIrradiance(this->Scene.GetAreas());
+  const std::size_t size = equation.Emission.size();
+  std::vector<double>& irradiance = this->Solution.Irradiance;
+  irradiance.assign(size, 0.0);
+  for (std::size_t k = 0; k < size && this->Others->UsesAmbient; ++k)
+  {
+    irradiance[k] = ambient[k % ambient.size()];
+  }
+  if (this->Others->Irradiance)
+  {
+    if (this->Others->Irradiance->size() != size)
+    {
+      return Outcome::Failed("The irradiance of shots is that of another scene: shoot again.");
+    }
+    irradiance = *this->Others->Irradiance;
+  }
+  this->Solution.Solver = SOLVER_SOUTHWELL;
+  this->Solution.Explanation = "Southwell: by others";
+  this->Solution.Status = SolverStatus::IterationsUsedUp;
+  this->Solution.Radiosity = equation.Emission;
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    this->Solution.Radiosity[k] += equation.Reflectance[k] * irradiance[k];
+  }
+  this->Shots = static_cast<int>(this->Others->NumberOfShots);
+  this->AddDirectIrradiance();
+  if (ShotProblem* problem = this->Others->Problem)
+  {
+    problem->Patches = DescribePatches(this->Scene);
+    problem->NumberOfBands = equation.NumberOfBands;
+    problem->Source = equation.Emission;
+    problem->Reflectance = equation.Reflectance;
+    problem->Ambient = ambient;
+  }
+  return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
@@ -394,6 +634,17 @@ RadiosityEquation vtkRadiosity::Run::DescribeEquation() const
   }
   equation.NumberOfPatches =
     static_cast<vtkIdType>(equation.Emission.size()) / equation.NumberOfBands;
+  return equation;
+}
+
+//------------------------------------------------------------------------------
+// With what is known of the links that it is solved with.
+RadiosityEquation vtkRadiosity::Run::DescribeLinks(RadiosityEquation equation) const
+{
+  equation.Areas = &this->Links->GetExchange()->GetAreas();
+  equation.RowSums = &this->Links->RowSums;
+  equation.RowSumError = this->Links->GetRowSumError();
+  equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
   return equation;
 }
 
@@ -463,12 +714,40 @@ void vtkRadiosity::Run::Write()
   output.AddArray("Radiosity", radiosity, bands);
   output.AddArray(ArrayNames::Irradiance, this->Irradiance, bands);
   output.AddArray("NetFlux", flux, bands);
+  if (this->Others)
+  {
+    output.AddGroups(ArrayNames::SmoothGroup);
+    if (ShotProblem* problem = this->Others->Problem)
+    {
+      points.GetMembers(problem->Starts, problem->Members, problem->Parts);
+    }
+  }
   if (this->Materials.IsThermal())
   {
     this->WriteThermal(flux, output);
   }
+  if (this->Owner->ComputeErrors)
+  {
+    this->WriteErrors(output);
+  }
   this->WriteVerdict(output);
   this->WriteSummaries();
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::Run::WriteErrors(const SceneOutput& output) const
+{
+  if (!this->Links || !this->Links->IsSampled())
+  {
+    this->WarnOnce(
+      { "Only sampled links know standard errors: set LinkMethod to Sampled, or switch "
+        "ComputeErrors off." });
+    return;
+  }
+  const int bands = this->Materials.NumberOfBands;
+  output.AddArray("RadiosityError", this->Errors.Radiosity, bands);
+  output.AddArray("IrradianceError", this->Errors.Irradiance, bands);
+  output.AddArray("NetFluxError", this->Errors.NetFlux, bands);
 }
 
 //------------------------------------------------------------------------------
@@ -508,8 +787,14 @@ void vtkRadiosity::Run::WriteSummaries() const
   if (this->Links)
   {
     FieldValues::Add(fields, "LinkMethodUsed",
-      std::string(this->Links->Matrix ? "Dense" : "Hierarchical"));
+      std::string(GetName(this->Links->Matrix ? LightTransport::LinkMethod::Dense
+          : this->Links->IsSampled()          ? LightTransport::LinkMethod::Sampled
+                                              : LightTransport::LinkMethod::Hierarchical)));
     this->Links->AddSummaries(fields);
+    if (this->Links->IsSampled())
+    {
+      FieldValues::Add(fields, "AccuracyReached", this->Errors.Whole);
+    }
   }
   else
   {
@@ -583,6 +868,84 @@ std::unique_ptr<TransportRun> vtkRadiosity::MakeRun(const RunPorts& ports)
 }
 
 //------------------------------------------------------------------------------
+void vtkRadiosity::CopyProperties(vtkRadiosity* source)
+{
+  if (!source || source == this)
+  {
+    return;
+  }
+  this->FeatureAngle = source->FeatureAngle;
+  this->Solver = source->Solver;
+  this->Tolerance = source->Tolerance;
+  this->MaximumNumberOfIterations = source->MaximumNumberOfIterations;
+  this->BandLimits = source->BandLimits;
+  this->BackgroundTemperature = source->BackgroundTemperature;
+  this->BackgroundRadiances = source->BackgroundRadiances;
+  this->LinkMethod = source->LinkMethod;
+  this->LinkTolerance = source->LinkTolerance;
+  this->Accuracy = source->Accuracy;
+  this->ComputeErrors = source->ComputeErrors;
+  this->ClusterTree = source->ClusterTree;
+  this->TwoSided = source->TwoSided;
+  this->RefineByBrightness = source->RefineByBrightness;
+  this->Device = source->Device;
+  this->ViewFactorTolerance = source->ViewFactorTolerance;
+  this->EnforceClosure = source->EnforceClosure;
+  this->SetViewFactors(source->ViewFactors);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::RunShots(vtkDataObject* scene, OwnShots& shots, vtkDataObject* output)
+{
+  if (!scene || !output)
+  {
+    vtkErrorMacro("There is no scene to shoot in, or no output to write to.");
+    return false;
+  }
+  AbortCheck::Forget(this);
+  RunPorts ports;
+  ports.Filter = this;
+  ports.Input = scene;
+  ports.Output = output;
+  ports.ProgressInterval = this->ProgressInterval;
+  Outcome outcome = Outcome::Done();
+  {
+    Run run(this, ports, &shots);
+    outcome = run.Go();
+  }
+  if (!outcome)
+  {
+    output->Initialize();
+  }
+  if (!outcome.GetMessage().empty())
+  {
+    vtkErrorMacro(<< outcome.GetMessage());
+  }
+  return static_cast<bool>(outcome);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::PrepareShots(vtkDataObject* scene, bool ambient, ShotProblem& problem,
+  vtkDataObject* output)
+{
+  OwnShots shots;
+  shots.Problem = &problem;
+  shots.UsesAmbient = ambient;
+  return this->RunShots(scene, shots, output);
+}
+
+//------------------------------------------------------------------------------
+bool vtkRadiosity::WriteShots(vtkDataObject* scene, const std::vector<double>& irradiance,
+  vtkIdType numberOfShots, vtkDataObject* output)
+{
+  OwnShots shots;
+  shots.Irradiance = &irradiance;
+  shots.NumberOfShots = numberOfShots;
+  return this->RunShots(scene, shots, output);
+}
+
+//------------------------------------------------------------------------------
 void vtkRadiosity::AddBandLimit(double micrometers)
 {
   this->BandLimits.push_back(micrometers);
@@ -641,6 +1004,8 @@ void vtkRadiosity::PrintSelf(ostream& os, vtkIndent indent)
   PrintValues(os << indent << "BackgroundRadiance:", this->BackgroundRadiances);
   os << indent << "LinkMethod: " << this->LinkMethod << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
+  os << indent << "Accuracy: " << this->Accuracy << "\n";
+  os << indent << "ComputeErrors: " << this->ComputeErrors << "\n";
   os << indent << "ClusterTree: " << this->ClusterTree << "\n";
   os << indent << "RefineByBrightness: " << this->RefineByBrightness << "\n";
   os << indent << "Device: " << this->Device << "\n";

@@ -78,6 +78,7 @@
 #ifndef vtkRadiosity_h
 #define vtkRadiosity_h
 
+#include "vtkDeviceShooter.h"               // for ShotProblem
 #include "vtkLightTransportFiltersModule.h" // for export macro
 #include "vtkTransportAlgorithm.h"
 
@@ -103,7 +104,8 @@ public:
   {
     LINK_METHOD_AUTO = 0,
     LINK_METHOD_DENSE = 1,
-    LINK_METHOD_HIERARCHICAL = 2
+    LINK_METHOD_HIERARCHICAL = 2,
+    LINK_METHOD_SAMPLED = 3
   };
 
   enum SolverType
@@ -190,22 +192,56 @@ public:
    * How patches are linked: Dense by a view factor for each pair (vtkExchangeMatrix), which takes
    * memory and time by the square of their number; Hierarchical by links between clusters of
    * patches (vtkExchangeHierarchy), whose number hardly grows with that of the patches, to an
-   * accuracy of LinkTolerance. Default LINK_METHOD_AUTO: Dense up to 8,192 patches, with the
+   * accuracy of LinkTolerance; Sampled by what rays of each patch meet, and exact view factors of
+   * the few patches that send most of the light (see Accuracy), which is the fastest where 1 % or
+   * more is enough. Default LINK_METHOD_AUTO: Dense up to 8,192 patches, with the
    * solvers that need it (GaussSeidel), and where SetViewFactors gave view factors, which then
    * decide; else Hierarchical. Field data LinkMethodUsed says which.
    */
-  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_HIERARCHICAL);
+  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_SAMPLED);
   vtkGetMacro(LinkMethod, int);
   void SetLinkMethodToAuto() { this->SetLinkMethod(LINK_METHOD_AUTO); }
   void SetLinkMethodToDense() { this->SetLinkMethod(LINK_METHOD_DENSE); }
   void SetLinkMethodToHierarchical() { this->SetLinkMethod(LINK_METHOD_HIERARCHICAL); }
+  void SetLinkMethodToSampled() { this->SetLinkMethod(LINK_METHOD_SAMPLED); }
   ///@}
 
   ///@{
-  /// Error of the irradiance that hierarchical links are allowed, see
-  /// vtkViewFactors::SetLinkTolerance. Default 1e-2, range 1e-5 to 1.
-  vtkSetClampMacro(LinkTolerance, double, 1e-5, 1.0);
+  /// Error of the irradiance that hierarchical links are allowed, or what decides on the rays of
+  /// sampled ones (which then have no exact rows), see vtkViewFactors::SetLinkTolerance. Range 1e-5
+  /// to 1; default 0: as Accuracy asks.
+  vtkSetClampMacro(LinkTolerance, double, 0.0, 1.0);
   vtkGetMacro(LinkTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * How wrong the radiosity may be by its links: the root mean square, by area, of the error of B,
+   * relative to that of B - E, of the worst band (of H, where nothing reflects). What a lamp emits
+   * is given, and hides no error of what it lights. The patches' size (B is constant on each) is
+   * another number and not in it, and the solver's Tolerance another. Default 1e-2, range 1e-5
+   * to 1.
+   *
+   * Sampled links get as many rays, and exact rows of as many of the brightest patches, as keep it
+   * in the least time, by one standard error of their own (AccuracyReached in the field data tells
+   * which; a warning tells where memory or the most rays did not reach it). Other links take it as
+   * their tolerance where that is 0.
+   */
+  vtkSetClampMacro(Accuracy, double, 1e-5, 1.0);
+  vtkGetMacro(Accuracy, double);
+  ///@}
+
+  ///@{
+  /**
+   * Add the cell and point arrays "RadiosityError", "IrradianceError" and "NetFluxError" (a
+   * component per band), and with temperatures "SurfaceTemperatureError" (kelvin; 0 where the
+   * temperature is given): one standard error each of what sampled links give, from eight groups
+   * of their rays. That of a single patch is known to a quarter itself. Other links have none, and
+   * a warning says so. Default off.
+   */
+  vtkSetMacro(ComputeErrors, bool);
+  vtkGetMacro(ComputeErrors, bool);
+  vtkBooleanMacro(ComputeErrors, bool);
   ///@}
 
   ///@{
@@ -259,9 +295,9 @@ public:
   ///@{
   /**
    * Tolerance and closure of the filter's own view factors (see vtkViewFactors); they are not used
-   * when SetViewFactors gave others. Hierarchical links have LinkTolerance instead, and always
-   * close rows. Defaults 1e-2 and off. The errors of many factors average out in B: measured
-   * without what is emitted, root mean square over all patches, relative to B,
+   * when SetViewFactors gave others. Other links have LinkTolerance instead, and always close rows.
+   * Defaults 0, which is Accuracy (0.1 at most), and off. The errors of many factors average out in
+   * B: measured without what is emitted, root mean square over all patches, relative to B,
    *
    * | ViewFactorTolerance            |          1e-1 |          1e-2 |          1e-3 |
    * |--------------------------------|--------------:|--------------:|--------------:|
@@ -270,7 +306,7 @@ public:
    * | city of boxes, 864, lit window | 5e-4 in 0.4 s | 3e-4 in 0.6 s | 3e-5 in 2.5 s |
    * | the same, even sky             | 1e-2 in 0.4 s | 1e-3 in 0.6 s | 8e-6 in 2.6 s |
    */
-  vtkSetClampMacro(ViewFactorTolerance, double, 1e-12, 0.1);
+  vtkSetClampMacro(ViewFactorTolerance, double, 0.0, 0.1);
   vtkGetMacro(ViewFactorTolerance, double);
   vtkSetMacro(EnforceClosure, bool);
   vtkGetMacro(EnforceClosure, bool);
@@ -292,6 +328,44 @@ public:
   /// The table of port 1.
   vtkTable* GetConvergence();
 
+  /// How often links have been made: not where kept ones served, and not by shots.
+  vtkGetMacro(NumberOfLinkRuns, vtkIdType);
+
+  /// All properties of another one, view factors that were given included; neither its input nor
+  /// its links.
+  void CopyProperties(vtkRadiosity* source);
+
+  ///@{
+  /**
+   * For those who shoot themselves, and show the solution while it comes (vtkRadiosityPass).
+   * PrepareShots tells what there is to shoot, of a scene that need not be connected; solver, links
+   * and Device do not matter. WriteShots makes the output of port 0 from the irradiance
+   * (patches x bands) that shots have brought, without the direct one; `numberOfShots` is written
+   * with it. The point array "SmoothGroup" of either output is the group of each point, -1 for
+   * none: its radiosity is the sum over the group's members of Part times that of the patch.
+   * `output` of PrepareShots has what WriteShots writes of the `ambient` irradiance: all that is
+   * unshot, as if it were spread over the scene evenly. False after an error, which has been
+   * reported, and an abort.
+   */
+  struct ShotProblem
+  {
+    vtkDeviceShooter::Patches Patches;
+    int NumberOfBands = 0;
+    std::vector<double> Source;      ///< patches x bands, the reflected direct light included
+    std::vector<double> Reflectance; ///< patches x bands
+    std::vector<double> Ambient;     ///< irradiance, one per band
+    ///@{ Those of group g are members Starts[g] to Starts[g + 1].
+    std::vector<vtkIdType> Starts;
+    std::vector<vtkIdType> Members; ///< patches
+    std::vector<double> Parts;
+    ///@}
+  };
+  bool PrepareShots(vtkDataObject* scene, bool ambient, ShotProblem& problem,
+    vtkDataObject* output);
+  bool WriteShots(vtkDataObject* scene, const std::vector<double>& irradiance,
+    vtkIdType numberOfShots, vtkDataObject* output);
+  ///@}
+
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -306,6 +380,9 @@ private:
   void operator=(const vtkRadiosity&) = delete;
 
   class Run;
+  struct OwnShots;
+
+  bool RunShots(vtkDataObject* scene, OwnShots& shots, vtkDataObject* output);
 
   int Solver = SOLVER_AUTO;
   double Tolerance = 1e-4;
@@ -314,14 +391,17 @@ private:
   double BackgroundTemperature = 0.0;
   std::vector<double> BackgroundRadiances;
   int LinkMethod = LINK_METHOD_AUTO;
-  double LinkTolerance = 1e-2;
+  double LinkTolerance = 0.0;
+  double Accuracy = 1e-2;
+  bool ComputeErrors = false;
   int ClusterTree = CLUSTER_TREE_AUTO;
   bool TwoSided = false;
   bool RefineByBrightness = false;
   int Device = DEVICE_AUTO;
-  double ViewFactorTolerance = 1e-2;
+  double ViewFactorTolerance = 0.0;
   bool EnforceClosure = false;
   vtkViewFactors* ViewFactors = nullptr;
+  vtkIdType NumberOfLinkRuns = 0;
   /// Where none were given.
   std::unique_ptr<LightTransport::ViewFactorStore> OwnViewFactors;
 };

@@ -10,6 +10,7 @@
 #include "ViewFactors/ViewFactorGroups.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
@@ -104,19 +105,57 @@ std::unique_ptr<TransportRun> vtkViewFactors::MakeRun(const RunPorts& ports)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::LinksClusters() const
 {
-  return this->Hierarchical && this->Store->GetLoadedFile().empty();
+  return this->LinkMethod == LINK_METHOD_HIERARCHICAL && this->Store->GetLoadedFile().empty();
 }
 
 //------------------------------------------------------------------------------
 ViewFactorSettings vtkViewFactors::GetSettings() const
 {
-  return { this->Tolerance, this->EnforceClosure, this->Hierarchical, this->LinkTolerance };
+  return { this->Tolerance, this->EnforceClosure,
+    static_cast<LightTransport::LinkMethod>(this->LinkMethod), this->LinkTolerance };
 }
 
 //------------------------------------------------------------------------------
 double vtkViewFactors::GetViewFactor(vtkIdType i, vtkIdType j)
 {
   return this->Store->GetViewFactor(i, j);
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::GetViewFactors(vtkIdType i, vtkDoubleArray* rows)
+{
+  const vtkIdType count = this->Store->GetNumberOfFaces();
+  if (!rows || rows->GetNumberOfComponents() != count || i < 0 ||
+    i > count - rows->GetNumberOfTuples())
+  {
+    return false;
+  }
+  double* value = rows->GetPointer(0);
+  for (vtkIdType row = i; row < i + rows->GetNumberOfTuples(); ++row)
+  {
+    for (vtkIdType j = 0; j < count; ++j)
+    {
+      *value++ = this->Store->GetViewFactor(row, j);
+    }
+  }
+  rows->Modified();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkViewFactors::GetPatchAreas(vtkDoubleArray* areas)
+{
+  if (!areas || areas->GetNumberOfValues() != this->Store->GetNumberOfFaces())
+  {
+    return false;
+  }
+  double* area = areas->GetPointer(0);
+  for (vtkIdType i = 0; i < areas->GetNumberOfValues(); ++i)
+  {
+    area[i] = this->Store->GetArea(i);
+  }
+  areas->Modified();
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -167,7 +206,7 @@ void vtkViewFactors::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "EnforceClosure: " << this->EnforceClosure << "\n";
   os << indent << "TwoSided: " << this->TwoSided << "\n";
-  os << indent << "Hierarchical: " << this->Hierarchical << "\n";
+  os << indent << "LinkMethod: " << this->LinkMethod << "\n";
   os << indent << "LinkTolerance: " << this->LinkTolerance << "\n";
   os << indent << "ClusterTree: " << this->ClusterTree << "\n";
   os << indent << "LoadedFile: " << this->Store->GetLoadedFile() << "\n";

@@ -68,6 +68,7 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkDoubleArray;
 class vtkTable;
 
 namespace LightTransport
@@ -83,6 +84,14 @@ public:
   static vtkViewFactors* New();
   vtkTypeMacro(vtkViewFactors, vtkTransportAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// As vtkRadiosity knows them.
+  enum LinkMethodType
+  {
+    LINK_METHOD_DENSE = 1,
+    LINK_METHOD_HIERARCHICAL = 2,
+    LINK_METHOD_SAMPLED = 3
+  };
 
   ///@{
   /**
@@ -110,8 +119,29 @@ public:
 
   ///@{
   /**
+   * What the view factors are: LINK_METHOD_DENSE (default) a matrix of all pairs of patches,
+   * integrated to Tolerance; LINK_METHOD_HIERARCHICAL links between clusters (below);
+   * LINK_METHOD_SAMPLED links between patches from scrambled Sobol' rays, those of both directions
+   * together, as many of each patch as LinkTolerance asks for: (0.5 / LinkTolerance)^1.6, the next
+   * power of two, 64 to 65,536. Of these three, rays take least time where 1 % or more of the
+   * irradiance is enough; a row's memory is what it sees. Their rows are closed as those of
+   * clusters are; where that cannot be, what is missing goes to the sky, and ClosureRest in the
+   * field data is the largest such part. Field data are RaysPerPatch, RaysCast, NumberOfLinks,
+   * ClosureChange, ClosureGap, MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
+   * "ViewFactorError" is the deviation of what is open in a row. SetHierarchical(true) is the same
+   * as LINK_METHOD_HIERARCHICAL, SetHierarchical(false) as LINK_METHOD_DENSE.
+   */
+  vtkSetClampMacro(LinkMethod, int, LINK_METHOD_DENSE, LINK_METHOD_SAMPLED);
+  vtkGetMacro(LinkMethod, int);
+  void SetLinkMethodToDense() { this->SetLinkMethod(LINK_METHOD_DENSE); }
+  void SetLinkMethodToHierarchical() { this->SetLinkMethod(LINK_METHOD_HIERARCHICAL); }
+  void SetLinkMethodToSampled() { this->SetLinkMethod(LINK_METHOD_SAMPLED); }
+  ///@}
+
+  ///@{
+  /**
    * Links between clusters of patches (vtkExchangeHierarchy) instead of a matrix: their number
-   * grows with that of the patches, not with its square, and Tolerance has no effect. Default off.
+   * grows with that of the patches, not with its square, and Tolerance has no effect.
    * LinkTolerance (default 1e-2, range 1e-5 to 1) bounds the error of the irradiance that they
    * give: its root mean square over the surface, relative to the radiosity, for a radiosity that is
    * the same everywhere. It is an estimate from the samples that decide which links there are;
@@ -129,8 +159,11 @@ public:
    * which between two patches), LinkError (the estimate), ClosureChange (largest change of a row
    * sum), ClosureGap, RaysCast, RowGap, MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
    */
-  vtkSetMacro(Hierarchical, bool);
-  vtkGetMacro(Hierarchical, bool);
+  void SetHierarchical(bool isHierarchical)
+  {
+    this->SetLinkMethod(isHierarchical ? LINK_METHOD_HIERARCHICAL : LINK_METHOD_DENSE);
+  }
+  bool GetHierarchical() const { return this->LinkMethod == LINK_METHOD_HIERARCHICAL; }
   vtkBooleanMacro(Hierarchical, bool);
   vtkSetClampMacro(LinkTolerance, double, 1e-5, 1.0);
   vtkGetMacro(LinkTolerance, double);
@@ -198,6 +231,18 @@ public:
   /// other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j);
 
+  /**
+   * Likewise whole rows, beginning with that of patch i: as many as `rows` has tuples, of one
+   * component for each patch. They are written where the array's memory is, which may be a
+   * program's own (SetArray). False where the array has another number of components or more
+   * tuples than there are rows; it then stays as it was.
+   */
+  bool GetViewFactors(vtkIdType i, vtkDoubleArray* rows);
+
+  /// The area of each patch in the input's unit squared, counted as in GetViewFactor. 0 where
+  /// nothing is exchanged. False where the array has not one value for each patch.
+  bool GetPatchAreas(vtkDoubleArray* areas);
+
 protected:
   vtkViewFactors();
   ~vtkViewFactors() override;
@@ -212,7 +257,7 @@ private:
   friend class vtkRadiosity; // which may share the view factors
   class Run;
 
-  /// Whether updates give links between clusters: Hierarchical, and nothing was loaded.
+  /// Whether updates give links between clusters: they are asked for, and nothing was loaded.
   bool LinksClusters() const;
   LightTransport::ViewFactorSettings GetSettings() const;
   bool Report(const LightTransport::Outcome& outcome);
@@ -221,7 +266,7 @@ private:
 
   double Tolerance = 1e-3;
   bool EnforceClosure = false;
-  bool Hierarchical = false;
+  int LinkMethod = LINK_METHOD_DENSE;
   bool TwoSided = false;
   double LinkTolerance = 1e-2;
   int ClusterTree = CLUSTER_TREE_AUTO;

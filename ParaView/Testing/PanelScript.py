@@ -27,6 +27,7 @@ HIDDEN = {
     "DirectIrradiance": set(),
     "Radiosity": set(),
     "SingleScattering": set(),
+    "RadianceTransfer": set(),
     "SubsurfaceScattering": {"TransmittedIrradianceArray", "BurleyFit", "NumberOfLinks",
                              "TargetError", "NumberOfPhotons", "Anisotropy", "Seed",
                              "CompressionTolerance"},

@@ -16,7 +16,7 @@ WITHOUT_PROPERTY = {"Brightness", "Controller", "ViewFactors"}
 INPUTS = {"Environment"}  # ports
 FILTERS = ("vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas", "vtkAtlasToSurface",
            "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering",
-           "vtkSingleScattering")
+           "vtkSingleScattering", "vtkRadianceTransfer")
 LIGHTS = ("NoLight", "DirectionalLight", "PointLight", "SpotLight")
 
 

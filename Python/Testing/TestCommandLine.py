@@ -5,7 +5,6 @@
 import math
 import os
 import pkgutil
-import resource
 import signal
 import subprocess
 import sys
@@ -18,9 +17,9 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
 
+from CommandTools import CommandTestCase
 from TestingTools import (
-    CUBE_CORNERS, CUBE_FACES, FolderTestCase, add_array, get_tuples, join_points, make_surface,
-    read_surface, write_surface)
+    CUBE_CORNERS, CUBE_FACES, add_array, get_tuples, join_points, make_surface)
 
 
 def make_cube(outside=False, first=0.0):
@@ -33,34 +32,7 @@ def get_values(surface, name):
     return get_tuples(surface.GetCellData().GetArray(name))
 
 
-class TestCommandLine(FolderTestCase):
-    def save(self, name, surface):
-        self.assertTrue(write_surface(self.path(name), surface))
-        return self.path(name)
-
-    def load(self, name):
-        return read_surface(self.path(name))
-
-    def run_command(self, *arguments, limit=None):
-        """`limit`: bytes that a file may have."""
-        def limit_files():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-        return subprocess.run(
-            [sys.executable, "-m", "vtklighttransport", *arguments],
-            capture_output=True, text=True, timeout=120, check=False,
-            preexec_fn=limit_files if limit else None,
-            # Wide enough for argparse to break no word at a hyphen.
-            env={**os.environ, "COLUMNS": "500"})
-
-    def check_failure(self, result, code, message, output="out.vtp"):
-        self.assertEqual(result.returncode, code, result.stderr)
-        self.assertIn(message, result.stderr)
-        self.assertNotIn("Traceback", result.stderr)
-        self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("out")],
-                         [output] if os.path.exists(self.path(output)) else [])
-        errors = [line for line in result.stderr.splitlines() if message in line]
-        self.assertTrue(errors[0].startswith("error: ") or code == 2, errors)
-
+class TestCommandLine(CommandTestCase):
     def make_lit_cube(self):
         cube = add_array(make_cube(), "Emission", [1, 0, 0, 0, 0, 0])
         return self.save("in.vtp", add_array(cube, "Reflectance", [0.5] * 6))

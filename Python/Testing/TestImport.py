@@ -23,8 +23,8 @@ FOLDERS = {
 }
 FILTERS = {
     "vtkLightTransportFilters": (
-        "vtkDirectIrradiance", "vtkRadiosity", "vtkSingleScattering", "vtkSubsurfaceScattering",
-        "vtkViewFactors"),
+        "vtkDirectIrradiance", "vtkRadianceTransfer", "vtkRadiosity", "vtkSingleScattering",
+        "vtkSubsurfaceScattering", "vtkViewFactors"),
     "vtkLightTransportMeshing": (
         "vtkAtlasToSurface", "vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas"),
     "vtkLightTransportRendering": (),

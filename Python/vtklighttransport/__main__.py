@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filters from the shell: python3 -m vtklighttransport radiosity|scatter in.vtp out.vtp
+"""The filters from the shell: python3 -m vtklighttransport radiosity in.stl out.vtp
 
-and what they cost: python3 -m vtklighttransport report scene.vtp folder
+--help tells all commands.
 
 What the commands are and do is in `commands`; here are the parser, exit codes and interrupts.
 Exit codes: 0 done, 1 reading, computing or writing failed (no result was written), 2 wrong usage,
@@ -10,6 +10,8 @@ Exit codes: 0 done, 1 reading, computing or writing failed (no result was writte
 """
 
 import argparse
+import json
+import math
 import sys
 
 import vtklighttransport as lt
@@ -31,6 +33,8 @@ def make_parser():
         command.set_defaults(parser=command, module=module)
         command.add_argument("--quiet", action="store_true",
                              help="no progress on stderr, no summary")
+        command.add_argument("--json", action="store_true",
+                             help="the summary as JSON on stdout, for scripts")
         module.add_options(command)
     return parser
 
@@ -48,10 +52,30 @@ def main(arguments):
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
-    if not options.quiet:
-        print(summary)
+    if options.json:
+        print(print_json({"command": options.command, **summary.values,
+                          "warnings": messages.warnings}))
+    elif not options.quiet:
+        print(summary.text)
     return 0
 
 
-if __name__ == "__main__":
+def print_json(values):
+    """What is not finite becomes null: JSON has no such number."""
+    def clean(value):
+        if isinstance(value, dict):
+            return {str(key): clean(part) for key, part in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [clean(part) for part in value]
+        return None if isinstance(value, float) and not math.isfinite(value) else value
+
+    return json.dumps(clean(values), indent=2)
+
+
+def run_script():
+    """The command that pip makes."""
     sys.exit(main(sys.argv[1:]))
+
+
+if __name__ == "__main__":
+    run_script()

@@ -60,13 +60,15 @@ def find_direction(surface):
     return total
 
 
-def look_at(surface, direction):
-    """What places a camera so that the surface, seen from a direction, fills the picture."""
+def look_at(surface, direction, up=None):
+    """What places a camera so that the surface, seen from a direction, fills the picture; `up` is
+    y where nothing else is given, or z where that is seen from above."""
     points = get_points(surface)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     back = numpy.asarray(direction, dtype=float)
     back = back / numpy.linalg.norm(back)
-    up = numpy.array([0.0, 1.0, 0.0] if abs(back[1]) < 0.9 else [0.0, 0.0, 1.0])
+    if up is None:
+        up = [0.0, 1.0, 0.0] if abs(back[1]) < 0.9 else [0.0, 0.0, 1.0]
     right = numpy.cross(up, back)
     right /= numpy.linalg.norm(right)
     offsets = points - middle

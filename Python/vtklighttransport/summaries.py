@@ -22,6 +22,14 @@ def get_summary(data, name):
     return value
 
 
+def list_summaries(data):
+    """All one-value field data arrays by their names."""
+    fields = data.GetFieldData()
+    arrays = [fields.GetAbstractArray(k) for k in range(fields.GetNumberOfArrays())]
+    return {array.GetName(): array.GetValue(0) for array in arrays
+            if array is not None and array.GetNumberOfValues() == 1}
+
+
 def without_summaries(surface):
     """A copy that nothing is known of from earlier runs."""
     copy = vtkPolyData()

@@ -39,27 +39,7 @@ Outcome AtlasDrawing::SetSurface(vtkPolyData* data)
 {
   Outcome set = this->Surface.Read(data);
   set = set ? this->Triangles.Upload(this->Surface.Corners, ChartedSurface::FloatsPerCorner) : set;
-  return set ? this->UploadPoints() : set;
-}
-
-//------------------------------------------------------------------------------
-Outcome AtlasDrawing::UploadPoints()
-{
-  const int width = 1 << PointWidthBits;
-  const auto texels = static_cast<vtkIdType>(this->Surface.Points.size() / 4);
-  const int height = FloatTextures::DivideUp(texels, width);
-  if (height > this->Engine.GetMaximumTextureSize())
-  {
-    return Outcome::Failed("The surface has too many points for a texture: use fewer.");
-  }
-  std::vector<float> points = this->Surface.Points;
-  points.resize(static_cast<std::size_t>(4) * width * height, 0.0f);
-  Outcome allocated = this->Engine.Allocate(this->Points, 1, width, height);
-  if (allocated)
-  {
-    this->Engine.UploadTable(this->Points, points);
-  }
-  return allocated;
+  return set ? this->Points.Upload(this->Engine, this->Surface.Points) : set;
 }
 
 //------------------------------------------------------------------------------
@@ -78,14 +58,23 @@ Outcome AtlasDrawing::CheckSize(int size, const char* name) const
 }
 
 //------------------------------------------------------------------------------
-Outcome AtlasDrawing::Use(vtkShaderProgram*& program, const char* body, int outputs)
+Outcome AtlasDrawing::Use(vtkShaderProgram*& program, const char* body, int outputs,
+  const Light& light)
 {
+  const std::string choices = std::string(light.IsAtCorners ? "#define IS_LIT_AT_CORNERS\n" : "") +
+    (light.HasBumps ? "#define HAS_BUMPS\n" : "") + "#define TABLE_WIDTH_BITS " +
+    std::to_string(TupleTable::WidthBits) + "\n#define VALUE_ENTRIES " +
+    std::to_string(light.ValueEntries) + "\n";
+  std::string vertices = vtkLightTransportMapsAtlasVS;
+  vtkShaderProgram::Substitute(vertices, "//VTK::LightTransport::Define", choices);
+  vtkShaderProgram::Substitute(vertices, "//VTK::LightTransport::Light", light.Code);
   std::string source = vtkLightTransportTexturesCommonFS;
   vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Define",
-    FloatTextures::GetDefines(1, outputs, 2));
+    FloatTextures::GetDefines(1, outputs, 2) + choices);
   source += body;
-  program = this->Engine.GetWindow()->GetShaderCache()->ReadyShaderProgram(
-    vtkLightTransportMapsAtlasVS, source.c_str(), "");
+  vtkShaderProgram::Substitute(source, "//VTK::LightTransport::Light", light.Code);
+  program = this->Engine.GetWindow()->GetShaderCache()->ReadyShaderProgram(vertices.c_str(),
+    source.c_str(), "");
   const Outcome compiled = FloatTextures::CheckProgram(program);
   if (compiled)
   {
@@ -137,7 +126,7 @@ Outcome AtlasDrawing::AddSamples(vtkShaderProgram* program, const FloatTextures:
     const float shift[2] = { place(sample % samples), place(sample / samples) };
     program->SetUniform2f("shift", shift);
     drawn = this->Triangles.Draw(program,
-      { { "position", 0, 3 }, { "normal", 3, 3 }, { "place", 6, 2 }, { "share", 8, 2 } });
+      { { "position", 0, 3 }, { "normal", 3, 3 }, { "place", 6, 2 }, { "share", 8, 3 } });
   }
   return drawn;
 }

@@ -7,9 +7,11 @@
 
 #include "Maps/ChartedSurface.h"
 #include "Maps/TriangleBuffer.h"
+#include "Maps/TupleTable.h"
 #include "Textures/FloatTextures.h"
 
 #include <array>
+#include <string>
 
 class vtkActor;
 
@@ -29,29 +31,35 @@ public:
   const ChartedSurface& GetSurface() const { return this->Surface; }
 
   /// The point table of the surface (ChartedSurface::Points) as a texture.
-  vtkTextureObject* GetPoints() const { return this->Points[0]; }
-  /// Texels of a line of it: a power of two.
-  static constexpr int PointWidthBits = 10;
+  vtkTextureObject* GetPoints() const { return this->Points.Get(); }
 
   /// A failure where charts have no texel of their own in a map of `size` texels a side, or that is
   /// no power of two.
   Outcome CheckSize(int size, const char* name) const;
 
+  /// What a program computes light with: GLSL that defines GetEntering, in the vertex shader or in
+  /// the fragment shader.
+  struct Light
+  {
+    std::string Code;
+    bool IsAtCorners = false;
+    bool HasBumps = false;
+    int ValueEntries = 1; ///< texels of a tuple that it reads
+  };
+
   /// A program whose fragment shader is `body`, behind the common part, for `outputs` textures. It
   /// draws the surface where it is, unless SetMove moves it (`move` as MakeMove has it).
-  Outcome Use(vtkShaderProgram*& program, const char* body, int outputs);
+  Outcome Use(vtkShaderProgram*& program, const char* body, int outputs, const Light& light);
   static void SetMove(vtkShaderProgram* program, std::array<float, 16> move);
 
   /// Adds samples x samples of each texel, one drawing for each, to what is in `target`.
   Outcome AddSamples(vtkShaderProgram* program, const FloatTextures::Group& target, int samples);
 
 private:
-  Outcome UploadPoints();
-
   FloatTextures& Engine;
   ChartedSurface Surface;
   TriangleBuffer Triangles;
-  FloatTextures::Group Points;
+  TupleTable Points;
 };
 } // namespace LightTransport
 

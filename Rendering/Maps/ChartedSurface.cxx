@@ -208,9 +208,10 @@ Outcome ChartedSurface::AddCorners(const Source& source)
       const double share = onAtlas > 0.0 ? area / onAtlas : 0.0;
       for (int corner = 0; corner < 3; ++corner)
       {
-        for (const double value : { points[corner][0], points[corner][1], points[corner][2],
-               normal[0], normal[1], normal[2], places[corner][0], places[corner][1], share,
-               static_cast<double>(source.GetChart(triangle)) })
+        for (const double value :
+          { points[corner][0], points[corner][1], points[corner][2], normal[0], normal[1],
+            normal[2], places[corner][0], places[corner][1], share,
+            static_cast<double>(source.GetChart(triangle)), static_cast<double>(corners[corner]) })
         {
           this->Corners.push_back(static_cast<float>(value));
         }
@@ -248,6 +249,21 @@ void ChartedSurface::AddPoints(const Source& source, const std::vector<Chart>& c
       texels[6] = static_cast<float>(chart.Size);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t ChartedSurface::GetHash() const
+{
+  BitHash hash;
+  for (const float number : this->Corners)
+  {
+    hash.AddNumber(number);
+  }
+  for (const double number : this->Center)
+  {
+    hash.AddNumber(number);
+  }
+  return hash.Get();
 }
 
 //------------------------------------------------------------------------------

@@ -18,14 +18,17 @@ namespace LightTransport
 struct ChartedSurface
 {
   /// Position from Center, normal of the triangle, place in the atlas, surface on a unit of it (as
-  /// a part of Area), chart.
-  static constexpr int FloatsPerCorner = 10;
+  /// a part of Area), chart, number of the point.
+  static constexpr int FloatsPerCorner = 11;
 
   /// Fails, with the remedy, for what is no surface with an atlas.
   Outcome Read(vtkPolyData* surface);
 
   /// Another number where what Read looks at is modified or replaced.
   static std::uint64_t GetStamp(vtkPolyData* surface);
+
+  /// Of all that was read: filters that run again make new objects of the same shape.
+  std::uint64_t GetHash() const;
 
   std::vector<float> Corners; ///< of triangles, one after another
   /// Two RGBA texels of each point: its place in the atlas; lower left corner and size of the block

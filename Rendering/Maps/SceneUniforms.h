@@ -21,8 +21,8 @@ void SetVector(vtkShaderProgram* program, const char* name, const Vector3& vecto
 std::array<float, 16> MakeMove(const double matrix[16], const Vector3& center,
   const Vector3& origin);
 
-/// A light, and a view from it, for vtkLightTransportMapsIrradianceFS.glsl; the view also for
-/// vtkLightTransportMapsShadowVS.glsl.
+/// A light, and a view from it, for vtkLightTransportMapsLight.glsl and
+/// vtkLightTransportMapsLightView.glsl.
 void SetLight(vtkShaderProgram* program, const SceneLight& light, const Vector3& origin);
 void SetView(vtkShaderProgram* program, const LightView& view, const Vector3& origin);
 } // namespace SceneUniforms

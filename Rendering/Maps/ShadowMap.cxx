@@ -8,6 +8,7 @@
 #include "Device/DeviceMemory.h"
 #include "Maps/SceneUniforms.h"
 #include "Shared/BitHash.h"
+#include "vtkLightTransportMapsLightView.h"
 #include "vtkLightTransportMapsShadowFS.h"
 #include "vtkLightTransportMapsShadowVS.h"
 
@@ -30,6 +31,8 @@
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace LightTransport
 {
@@ -70,7 +73,7 @@ void VisitSurfaces(vtkDataObject* data, const Visit& visit)
 
 //------------------------------------------------------------------------------
 // Of the shape alone: arrays come and go.
-std::uint64_t GetStamp(vtkDataObject* data)
+std::uint64_t GetShapeStamp(vtkDataObject* data)
 {
   BitHash hash;
   VisitSurfaces(data,
@@ -83,19 +86,41 @@ std::uint64_t GetStamp(vtkDataObject* data)
 } // namespace
 
 //------------------------------------------------------------------------------
-ShadowMap::ShadowMap(FloatTextures& engine)
-  : Engine(engine), Framebuffer(vtkSmartPointer<vtkOpenGLFramebufferObject>::New())
-{
-}
+ShadowMap::ShadowMap() = default;
 
 //------------------------------------------------------------------------------
 ShadowMap::~ShadowMap()
 {
-  if (this->Engine.IsAlive())
+  this->Clear();
+}
+
+//------------------------------------------------------------------------------
+void ShadowMap::Clear()
+{
+  for (Caster& caster : this->Casters)
   {
-    const OpenGLContextGuard guard(this->Engine.GetWindow());
-    this->Framebuffer->ReleaseGraphicsResources(this->Engine.GetWindow());
+    caster.Triangles.clear();
+    caster.IsUploaded = false;
+  }
+  if (this->IsOpen())
+  {
+    const OpenGLContextGuard guard(this->Engine->GetWindow());
+    this->Framebuffer->ReleaseGraphicsResources(this->Engine->GetWindow());
     this->Depth = nullptr;
+  }
+  this->Depth = nullptr;
+  this->Framebuffer = nullptr;
+  this->Engine.reset();
+}
+
+//------------------------------------------------------------------------------
+void ShadowMap::Open(vtkOpenGLRenderWindow* window)
+{
+  if (!this->IsOpen() || this->Engine->GetWindow() != window)
+  {
+    this->Clear();
+    this->Engine = std::make_unique<FloatTextures>(window);
+    this->Framebuffer = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
   }
 }
 
@@ -106,19 +131,19 @@ Outcome ShadowMap::SetSize(int size)
   {
     return Outcome::Done();
   }
-  if (size > this->Engine.GetMaximumTextureSize())
+  if (size > this->Engine->GetMaximumTextureSize())
   {
     return Outcome::Failed("too many texels a side");
   }
   // Drivers may end the process where memory is refused.
-  const double available = GetAvailableDeviceBytes(this->Engine.GetWindow());
+  const double available = GetAvailableDeviceBytes(this->Engine->GetWindow());
   if (available >= 0.0 && sizeof(float) * static_cast<double>(size) * size > available)
   {
     return Outcome::Failed("too little memory");
   }
   this->Size = size;
   this->Depth = vtkSmartPointer<vtkTextureObject>::New();
-  this->Depth->SetContext(this->Engine.GetWindow());
+  this->Depth->SetContext(this->Engine->GetWindow());
   const auto side = static_cast<unsigned int>(size);
   this->Depth->AllocateDepth(side, side, vtkTextureObject::Float32);
   if (Outcome allocated = DeviceErrors::Check(); !allocated)
@@ -126,7 +151,7 @@ Outcome ShadowMap::SetSize(int size)
     this->Depth = nullptr;
     return allocated;
   }
-  this->Framebuffer->SetContext(this->Engine.GetWindow());
+  this->Framebuffer->SetContext(this->Engine->GetWindow());
   this->Framebuffer->Bind();
   this->Framebuffer->AddDepthAttachment(this->Depth);
   this->Framebuffer->DeactivateDrawBuffers();
@@ -134,13 +159,13 @@ Outcome ShadowMap::SetSize(int size)
 }
 
 //------------------------------------------------------------------------------
-// True where they are those that are known, where they were.
-bool ShadowMap::Find(vtkRenderer* renderer, std::vector<Caster>& found)
+void ShadowMap::Find(vtkRenderer* renderer)
 {
+  std::vector<Caster> found;
+  BitHash stamp;
   vtkActorCollection* actors = renderer->GetActors();
   vtkCollectionSimpleIterator place;
   actors->InitTraversal(place);
-  std::size_t known = 0;
   while (vtkActor* actor = actors->GetNextActor(place))
   {
     if (!CastsShadows(actor))
@@ -148,61 +173,43 @@ bool ShadowMap::Find(vtkRenderer* renderer, std::vector<Caster>& found)
       continue;
     }
     actor->GetMapper()->Update();
-    vtkDataObject* data = actor->GetMapper()->GetInputDataObject(0, 0);
-    if (!data)
+    Caster caster;
+    caster.Data = actor->GetMapper()->GetInputDataObject(0, 0);
+    if (!caster.Data)
     {
       continue;
     }
-    Caster caster;
-    caster.Data = data;
-    caster.Stamp = GetStamp(data);
+    caster.Stamp = GetShapeStamp(caster.Data);
     actor->ComputeMatrix();
     std::copy_n(actor->GetMatrix()->GetData(), 16, caster.Matrix.begin());
     actor->GetBounds(caster.Bounds.data());
-    const std::size_t index = found.size();
-    known += index < this->Casters.size() && this->Casters[index].Data == caster.Data &&
-        this->Casters[index].Stamp == caster.Stamp && this->Casters[index].Matrix == caster.Matrix
-      ? 1
-      : 0;
+    stamp.Add(caster.Stamp);
+    for (const double number : caster.Matrix)
+    {
+      stamp.AddNumber(number);
+    }
+    this->TakeOver(caster);
     found.push_back(std::move(caster));
   }
-  return known == this->Casters.size() && known == found.size();
+  this->Casters = std::move(found);
+  this->Stamp = stamp.Get();
+  this->AddBounds();
 }
 
 //------------------------------------------------------------------------------
-Outcome ShadowMap::Update(vtkRenderer* renderer, bool& areOthers)
+// What is on the device already.
+void ShadowMap::TakeOver(Caster& caster)
 {
-  std::vector<Caster> found;
-  areOthers = !this->Find(renderer, found);
-  if (!areOthers)
+  const auto known = std::find_if(this->Casters.begin(), this->Casters.end(),
+    [&caster](const Caster& other)
+    { return other.Data == caster.Data && other.Stamp == caster.Stamp && other.IsUploaded; });
+  if (known != this->Casters.end())
   {
-    return Outcome::Done();
+    caster.Center = known->Center;
+    caster.Triangles = std::move(known->Triangles);
+    caster.IsUploaded = true;
+    known->IsUploaded = false;
   }
-  Outcome uploaded = Outcome::Done();
-  for (Caster& caster : found)
-  {
-    const auto known = std::find_if(this->Casters.begin(), this->Casters.end(),
-      [&caster](const Caster& other) {
-        return other.Data == caster.Data && other.Stamp == caster.Stamp && !other.Triangles.empty();
-      });
-    if (known != this->Casters.end())
-    {
-      caster.Center = known->Center;
-      caster.Triangles = std::move(known->Triangles);
-      known->Triangles.clear();
-    }
-    else if (uploaded)
-    {
-      uploaded = this->Upload(caster);
-    }
-  }
-  this->Casters = std::move(found);
-  this->AddBounds();
-  if (!uploaded)
-  {
-    this->Casters.clear();
-  }
-  return uploaded;
 }
 
 //------------------------------------------------------------------------------
@@ -227,6 +234,7 @@ Outcome ShadowMap::Upload(Caster& caster)
 {
   bool isFirst = true;
   Outcome uploaded = Outcome::Done();
+  caster.Triangles.clear();
   VisitSurfaces(caster.Data,
     [&](vtkPolyData* surface)
     {
@@ -237,6 +245,7 @@ Outcome ShadowMap::Upload(Caster& caster)
       }
       uploaded = uploaded ? this->Upload(caster, surface) : uploaded;
     });
+  caster.IsUploaded = static_cast<bool>(uploaded);
   return uploaded;
 }
 
@@ -269,19 +278,31 @@ Outcome ShadowMap::Upload(Caster& caster, vtkPolyData* data)
   {
     return Outcome::Done();
   }
-  caster.Triangles.push_back(std::make_unique<TriangleBuffer>(this->Engine));
+  caster.Triangles.push_back(std::make_unique<TriangleBuffer>(*this->Engine));
   return caster.Triangles.back()->Upload(corners, 3);
 }
 
 //------------------------------------------------------------------------------
 Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
 {
-  vtkOpenGLState* state = this->Engine.GetWindow()->GetState();
+  vtkOpenGLState* state = this->Engine->GetWindow()->GetState();
   const vtkOpenGLState::ScopedglDepthFunc function(state);
   const vtkOpenGLState::ScopedglDepthMask mask(state);
   const vtkOpenGLState::ScopedglEnableDisable test(state, GL_DEPTH_TEST);
-  vtkShaderProgram* program = this->Engine.GetWindow()->GetShaderCache()->ReadyShaderProgram(
-    vtkLightTransportMapsShadowVS, vtkLightTransportMapsShadowFS, "");
+  std::string vertices = vtkLightTransportMapsShadowVS;
+  vtkShaderProgram::Substitute(vertices, "//VTK::LightTransport::View",
+    vtkLightTransportMapsLightView);
+  Outcome drawn = Outcome::Done();
+  for (Caster& caster : this->Casters)
+  {
+    drawn = drawn && !caster.IsUploaded ? this->Upload(caster) : drawn;
+  }
+  if (!drawn)
+  {
+    return drawn;
+  }
+  vtkShaderProgram* program = this->Engine->GetWindow()->GetShaderCache()->ReadyShaderProgram(
+    vertices.c_str(), vtkLightTransportMapsShadowFS, "");
   if (Outcome compiled = FloatTextures::CheckProgram(program); !compiled)
   {
     return compiled;
@@ -295,7 +316,6 @@ Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
   const float farthest = 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &farthest);
   SceneUniforms::SetView(program, view, origin);
-  Outcome drawn = Outcome::Done();
   for (Caster& caster : this->Casters)
   {
     auto move = SceneUniforms::MakeMove(caster.Matrix.data(), caster.Center, origin);

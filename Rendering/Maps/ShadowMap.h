@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// How far the surfaces of a scene are from a light. All calls but the constructor and the
-/// destructor within a DeviceSession.
+/// How far the surfaces of a scene are from a light; for all bodies that are lit, one after
+/// another. SetSize and Draw within a DeviceSession.
 #ifndef ShadowMap_h
 #define ShadowMap_h
 
@@ -26,21 +26,28 @@ namespace LightTransport
 class ShadowMap
 {
 public:
-  /// `engine` must outlive this.
-  explicit ShadowMap(FloatTextures& engine);
+  ShadowMap();
   ~ShadowMap();
   ShadowMap(const ShadowMap&) = delete;
   void operator=(const ShadowMap&) = delete;
 
-  /// Texels a side, of the next drawing.
-  Outcome SetSize(int size);
+  /// Work in the context of this window, which has one already.
+  void Open(vtkOpenGLRenderWindow* window);
+  /// Drops all that is on the device.
+  void Clear();
 
   /// Look for the surfaces that cast shadows: of all visible actors, wherever the camera looks.
-  /// `areOthers` becomes true where they are not those of the last call, or elsewhere.
-  Outcome Update(vtkRenderer* renderer, bool& areOthers);
+  /// They are brought up to date, and go to the device when they are drawn.
+  void Find(vtkRenderer* renderer);
+
+  /// Another number where they, or their places, are others.
+  std::uint64_t GetStamp() const { return this->Stamp; }
 
   /// xmin, xmax, ... of all of them.
   const double* GetBounds() const { return this->Bounds.data(); }
+
+  /// Texels a side, of the next drawing.
+  Outcome SetSize(int size);
 
   /// Relative to `origin`, as all that shaders get.
   Outcome Draw(const LightView& view, const Vector3& origin);
@@ -57,18 +64,21 @@ private:
     Vector3 Center = {};
     std::array<double, 6> Bounds = {};
     std::vector<std::unique_ptr<TriangleBuffer>> Triangles;
+    bool IsUploaded = false;
   };
 
-  bool Find(vtkRenderer* renderer, std::vector<Caster>& found);
+  bool IsOpen() const { return this->Engine && this->Engine->IsAlive(); }
+  void TakeOver(Caster& caster);
   Outcome Upload(Caster& caster);
   Outcome Upload(Caster& caster, vtkPolyData* data);
   void AddBounds();
 
-  FloatTextures& Engine;
+  std::unique_ptr<FloatTextures> Engine;
   vtkSmartPointer<vtkOpenGLFramebufferObject> Framebuffer;
   vtkSmartPointer<vtkTextureObject> Depth;
   int Size = 0;
   std::vector<Caster> Casters;
+  std::uint64_t Stamp = 0;
   std::array<double, 6> Bounds = {};
 };
 } // namespace LightTransport

@@ -78,7 +78,7 @@ Outcome MakeTexelImage(AtlasDrawing& drawing, FloatTextures& engine, int size, v
   if (made)
   {
     engine.Clear(target);
-    made = drawing.Use(program, vtkLightTransportMapsTexelsFS, 2);
+    made = drawing.Use(program, vtkLightTransportMapsTexelsFS, 2, {});
   }
   made = made ? drawing.AddSamples(program, target, Samples) : made;
   if (!made)

@@ -8,6 +8,7 @@
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLVertexArrayObject.h"
+#include "vtkShaderProgram.h"
 
 namespace LightTransport
 {
@@ -47,6 +48,10 @@ Outcome TriangleBuffer::Draw(vtkShaderProgram* program, const std::vector<Attrib
   bool added = true;
   for (const Attribute& attribute : attributes)
   {
+    if (!program->IsAttributeUsed(attribute.Name))
+    {
+      continue;
+    }
     added = this->Array->AddAttributeArray(program, this->Corners, attribute.Name,
               static_cast<int>(attribute.First * sizeof(float)),
               this->FloatsPerCorner * sizeof(float), VTK_FLOAT, attribute.Count, false) &&

@@ -33,7 +33,7 @@ public:
 
   Outcome Upload(const std::vector<float>& corners, int floatsPerCorner);
 
-  /// With a program that is in use, into what is bound.
+  /// With a program that is in use, into what is bound. It need not take all attributes.
   Outcome Draw(vtkShaderProgram* program, const std::vector<Attribute>& attributes);
 
 private:

@@ -43,8 +43,8 @@ void MappedArrays::ForgetDeadMappers()
 }
 
 //------------------------------------------------------------------------------
-bool MappedArrays::Map(const vtkRenderState* state, const std::string& arrayName,
-  const std::function<bool(vtkActor*)>& skip)
+bool MappedArrays::Map(const vtkRenderState* state,
+  const std::function<std::string(vtkActor*)>& getName)
 {
   this->ForgetDeadMappers();
   bool found = false;
@@ -54,7 +54,8 @@ bool MappedArrays::Map(const vtkRenderState* state, const std::string& arrayName
     auto* mapper = actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
     if (mapper)
     {
-      const int components = skip(actor) ? 0 : FindComponents(mapper, arrayName);
+      const std::string arrayName = getName(actor);
+      const int components = arrayName.empty() ? 0 : FindComponents(mapper, arrayName);
       found = found || components > 0;
       this->Map(mapper, arrayName, components);
     }

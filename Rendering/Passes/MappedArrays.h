@@ -29,11 +29,10 @@ public:
   MappedArrays(const MappedArrays&) = delete;
   void operator=(const MappedArrays&) = delete;
 
-  /// Asks the mappers of all props that have this point array with 1, 3 or 4 components, but for
-  /// those that `skip`(actor) leaves out, and takes back what others were asked for. False where no
-  /// prop has it.
-  bool Map(const vtkRenderState* state, const std::string& arrayName,
-    const std::function<bool(vtkActor*)>& skip);
+  /// Asks the mappers of all props that have the point array `getName`(actor) with 1, 3 or 4
+  /// components, and takes back what others were asked for; no name leaves an actor out. False
+  /// where no prop has it.
+  bool Map(const vtkRenderState* state, const std::function<std::string(vtkActor*)>& getName);
 
   /// Takes back what all mappers have been asked for.
   void Unmap();

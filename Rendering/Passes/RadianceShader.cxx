@@ -41,10 +41,11 @@ void RadianceShader::MarkPlaces(std::string& vertexShader, std::string& geometry
 
 //------------------------------------------------------------------------------
 void RadianceShader::FillPlaces(std::string& vertexShader, std::string& fragmentShader,
-  const char* lastStep, bool isMapped)
+  const char* lastStep, Source source)
 {
-  const std::string choice =
-    "#define LIGHT_TRANSPORT_IS_MAPPED " + std::to_string(isMapped ? 1 : 0) + "\n";
+  const std::string choice = std::string("#define LIGHT_TRANSPORT_IS_MAPPED ") +
+    (source == Source::Map ? "1" : "0") + "\n#define LIGHT_TRANSPORT_IS_GROUPED " +
+    (source == Source::Groups ? "1" : "0") + "\n";
   std::string declarations = choice + vtkLightTransportPassesDecVS;
   if (vertexShader.find("uniform mat4 MCVCMatrix;") == std::string::npos)
   {

@@ -22,10 +22,18 @@ constexpr const char* Attribute = "lightTransportMC";
 void MarkPlaces(std::string& vertexShader, std::string& geometryShader,
   std::string& fragmentShader);
 
-/// `lastStep` writes gl_FragData[0]; see glsl/vtkLightTransportPassesDecFS.glsl. Radiance comes
-/// from an array, or from a map of the surface's atlas.
+/// Where radiance comes from.
+enum class Source
+{
+  Array,  ///< of points
+  Map,    ///< of the surface's atlas
+  Groups, ///< a texture, of which the array has the number of the texel
+  None
+};
+
+/// `lastStep` writes gl_FragData[0]; see glsl/vtkLightTransportPassesDecFS.glsl.
 void FillPlaces(std::string& vertexShader, std::string& fragmentShader, const char* lastStep,
-  bool isMapped);
+  Source source);
 
 struct Uniforms
 {

@@ -39,12 +39,19 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
   this->LinksPerTexel = tables.GetLinksPerTexel();
   this->TexelsPerLink = tables.GetTexelsPerLink();
   this->Kernels = hierarchy->GetNumberOfKernels();
-  this->CodedLine = this->PieceLines + tables.GetNumberOfNodeLines();
+  this->CommonLine = this->PieceLines + tables.GetNumberOfNodeLines();
+  this->CommonRounds = tables.GetCommon().GetNumberOfRounds();
+  this->CodedLine = this->CommonLine + this->CommonRounds * this->Patches.Lines;
+  if (this->CommonRounds > 0)
+  {
+    this->Common = std::make_unique<CommonGatherGL>(this->Engine, this->Vectors);
+  }
   if (!codes.GetParts().empty())
   {
     this->Codes = std::make_unique<CodedGatherGL>(this->Engine, this->Vectors);
   }
-  double bytes = CodedGatherGL::GetNumberOfBytes(codes, this->Vectors.Width);
+  double bytes = CodedGatherGL::GetNumberOfBytes(codes, this->Vectors.Width) +
+    CommonGatherGL::GetNumberOfBytes(tables.GetCommon(), this->Vectors.Width);
   for (const Tile& tile : this->Tiles)
   {
     bytes += static_cast<double>(tile.Height) * this->Vectors.Width * FloatTextures::BytesPerTexel;
@@ -58,7 +65,16 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
     return this->RefuseMemory();
   }
   this->Upload(tables, pause);
-  return this->InitializeCodes(codes, pause);
+  const Outcome common = this->InitializeCommon(tables, pause);
+  return common ? this->InitializeCodes(codes, pause) : common;
+}
+
+//------------------------------------------------------------------------------
+Outcome HierarchicalProductGL::InitializeCommon(const HierarchyLayout& tables, const Pause& pause)
+{
+  return !this->Common || this->Common->Initialize(tables, this->Kernels, pause)
+    ? Outcome::Done()
+    : this->RefuseMemory();
 }
 
 //------------------------------------------------------------------------------
@@ -77,6 +93,7 @@ Outcome HierarchicalProductGL::InitializeCodes(const CodedLayout& tables, const 
 int HierarchicalProductGL::GetNumberOfLinkTextures() const
 {
   return static_cast<int>(this->Links.size()) +
+    (this->Common ? this->Common->GetNumberOfTextures() : 0) +
     (this->Codes ? this->Codes->GetNumberOfTextures() : 0);
 }
 
@@ -202,6 +219,10 @@ Outcome HierarchicalProductGL::GatherLinks()
     // it for seconds.
     glFlush();
   }
+  if (used && this->Common)
+  {
+    used = this->Common->Draw(this->Parts, this->CommonLine, this->Sent);
+  }
   return used && this->Codes ? this->Codes->Draw(this->Parts, this->CodedLine, this->Sent) : used;
 }
 
@@ -233,7 +254,8 @@ Outcome HierarchicalProductGL::UseSums(vtkShaderProgram*& program, bool ofPatche
   const Outcome used = this->Use(program, ofPatches ? "SumPiecesOfPatches" : "SumPieces",
     vtkLightTransportProductsHierarchySumPiecesFS,
     std::string(ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n") +
-      (this->Codes ? "#define CODED 1\n" : "#define CODED 0\n"));
+      (this->Codes ? "#define CODED 1\n" : "#define CODED 0\n") +
+      (this->Common && ofPatches ? "#define COMMON 1\n" : "#define COMMON 0\n"));
   if (used)
   {
     this->Engine.SetTextures(program, "rows", this->Rows);
@@ -241,6 +263,12 @@ Outcome HierarchicalProductGL::UseSums(vtkShaderProgram*& program, bool ofPatche
     if (this->Codes)
     {
       program->SetUniformi("codedLine", this->CodedLine);
+    }
+    if (this->Common && ofPatches)
+    {
+      program->SetUniformi("commonLine", this->CommonLine);
+      program->SetUniformi("commonRounds", this->CommonRounds);
+      program->SetUniformi("linesOfRound", this->Patches.Lines);
     }
   }
   return used;

@@ -4,7 +4,8 @@
  * The product with a vtkExchangeHierarchy: up-sweep, gather and down-sweep, with the tables of
  * HierarchyLayout.
  *
- * Coded rows are gathered by CodedGatherGL, their sums are added to those of the pieces.
+ * Links that patches have in common are gathered by CommonGatherGL, coded rows by CodedGatherGL;
+ * their sums are added to those of the pieces.
  *
  * OpenGL 3.2 does not let a texture be read while it is drawn into: what a sweep draws for one
  * level of the tree is drawn beside and copied in. Gathering sums pieces of rows, and the
@@ -14,6 +15,7 @@
 #define HierarchicalProductGL_h
 
 #include "Products/CodedGatherGL.h"
+#include "Products/CommonGatherGL.h"
 #include "Products/HierarchyLayout.h"
 #include "Products/ProductGL.h"
 
@@ -32,6 +34,7 @@ private:
   using Range = HierarchyLayout::Range;
   using Tile = HierarchyLayout::Tile;
 
+  Outcome InitializeCommon(const HierarchyLayout& tables, const Pause& pause);
   Outcome InitializeCodes(const CodedLayout& tables, const Pause& pause);
   Outcome Allocate(const HierarchyLayout& tables);
   void Upload(const HierarchyLayout& tables, const Pause& pause);
@@ -51,15 +54,20 @@ private:
   int LinksPerTexel = 0;
   int TexelsPerLink = 0;
   int Kernels = 0;
-  int CodedLine = 0;                    ///< where sums of coded rows begin
-  std::unique_ptr<CodedGatherGL> Codes; ///< where there are coded rows
+  int CommonLine = 0; ///< where sums of common links begin, rounds of patches
+  int CommonRounds = 0;
+  int CodedLine = 0;                      ///< where sums of coded rows begin
+  std::unique_ptr<CommonGatherGL> Common; ///< where there are common links
+  std::unique_ptr<CodedGatherGL> Codes;   ///< where there are coded rows
   std::vector<Tile> Tiles;
   std::vector<Group> Links; ///< of each tile
   Group Children;
   Group Rows;
   Group Lines;
-  Group Sent;   ///< by slots
-  Group Parts;  ///< sums by pieces, then what nodes receive, then sums of coded rows by slots
+  Group Sent; ///< by slots
+  /// Sums by pieces, then what nodes receive, then sums of common links by patches, round after
+  /// round, then sums of coded rows by slots.
+  Group Parts;
   Group Beside; ///< a level of either
 };
 } // namespace LightTransport

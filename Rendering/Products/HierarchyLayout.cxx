@@ -20,11 +20,47 @@ HierarchyLayout::HierarchyLayout(const vtkExchangeHierarchy& hierarchy, int widt
   : Hierarchy(hierarchy), Width(width),
     MaximumHeight(std::min(maximumHeight, static_cast<int>(FloatTextures::MaximumTexels / width))),
     LinksPerTexel(hierarchy.GetNumberOfKernels() == 1 ? 2 : 1),
-    TexelsPerLink(FloatTextures::DivideUp(1 + hierarchy.GetNumberOfKernels(), 4))
+    TexelsPerLink(FloatTextures::DivideUp(1 + hierarchy.GetNumberOfKernels(), 4)),
+    Common(hierarchy, double(TexelsPerLink * FloatTextures::BytesPerTexel) / double(LinksPerTexel),
+      width, MaximumHeight)
 {
+  this->LeaveOutCommon();
   this->PlaceSlots();
   this->CutRows();
   this->PlacePieces();
+}
+
+//------------------------------------------------------------------------------
+void HierarchyLayout::LeaveOutCommon()
+{
+  if (this->Common.GetSlots().empty())
+  {
+    return;
+  }
+  const int nodes = this->Hierarchy.GetNumberOfNodes();
+  this->OtherOffsets.assign(1, 0);
+  for (int slot = 0; slot < this->Hierarchy.GetNumberOfSlots(); ++slot)
+  {
+    const auto [first, last] = this->Hierarchy.GetRow(slot);
+    for (std::int64_t link = first; link < last; ++link)
+    {
+      if (slot < nodes ||
+        !this->Common.Has(this->Hierarchy.GetColumns()[static_cast<std::size_t>(link)]))
+      {
+        this->OtherLinks.push_back(link);
+      }
+    }
+    this->OtherOffsets.push_back(static_cast<std::int64_t>(this->OtherLinks.size()));
+  }
+}
+
+//------------------------------------------------------------------------------
+std::pair<std::int64_t, std::int64_t> HierarchyLayout::GetRow(int slot) const
+{
+  const auto index = static_cast<std::size_t>(slot);
+  return this->OtherOffsets.empty()
+    ? this->Hierarchy.GetRow(slot)
+    : std::make_pair(this->OtherOffsets[index], this->OtherOffsets[index + 1]);
 }
 
 //------------------------------------------------------------------------------
@@ -37,7 +73,9 @@ int HierarchyLayout::CountTexels(std::int64_t links) const
 bool HierarchyLayout::Fits() const
 {
   const int coded = this->Hierarchy.GetCodedRows().Tiles.empty() ? 0 : this->GetNumberOfSlotLines();
-  const int received = this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines() + coded;
+  const int common = this->Common.GetNumberOfRounds() * this->Patches.Lines;
+  const int received =
+    this->GetNumberOfPieceLines() + this->GetNumberOfNodeLines() + coded + common;
   return std::max({ this->GetNumberOfSlotLines(), received, this->TexelsPerLink }) <=
     this->MaximumHeight;
 }
@@ -78,7 +116,7 @@ void HierarchyLayout::CutRows()
   std::vector<int> lengths(slots);
   for (std::size_t slot = 0; slot < slots; ++slot)
   {
-    const auto [first, last] = this->Hierarchy.GetRow(static_cast<int>(slot));
+    const auto [first, last] = this->GetRow(static_cast<int>(slot));
     const int bunches = FloatTextures::DivideUp(last - first, this->LinksPerTexel);
     const int pieces = std::max(FloatTextures::DivideUp(bunches, most), 1);
     lengths[slot] = this->LinksPerTexel * FloatTextures::DivideUp(bunches, pieces);
@@ -92,7 +130,7 @@ void HierarchyLayout::CutRows()
   for (const std::size_t slot : order)
   {
     const std::size_t before = this->Pieces.size();
-    const auto [first, end] = this->Hierarchy.GetRow(static_cast<int>(slot));
+    const auto [first, end] = this->GetRow(static_cast<int>(slot));
     for (std::int64_t link = first; link < end; link += lengths[slot])
     {
       this->Pieces.push_back(
@@ -200,7 +238,9 @@ HierarchyLayout::Texels HierarchyLayout::MakeLinks(int lineOfPieces) const
     for (int link = 0; link < this->LinksPerTexel * height / this->TexelsPerLink; ++link)
     {
       const bool inside = link < links.Links;
-      const auto source = static_cast<std::size_t>(links.First + std::min(link, links.Links - 1));
+      const auto among = static_cast<std::size_t>(links.First + std::min(link, links.Links - 1));
+      const std::size_t source =
+        this->OtherOffsets.empty() ? among : static_cast<std::size_t>(this->OtherLinks[among]);
       const auto line = std::size_t(link / this->LinksPerTexel) * this->TexelsPerLink;
       float* texel =
         texels.data() + 4 * (line * this->Width + piece - first) + 2 * (link % this->LinksPerTexel);

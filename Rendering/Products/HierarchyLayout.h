@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * How the tables of a vtkExchangeHierarchy lie in RGBA textures.
+ * How the tables of a vtkExchangeHierarchy lie in RGBA textures. What most patches are linked with
+ * is a table of its own, CommonLinks.
  *
  * Slots are texels, each level of the tree and the patches from a line of their own on, so that
  * they are rectangles to draw.
@@ -21,9 +22,12 @@
 #ifndef HierarchyLayout_h
 #define HierarchyLayout_h
 
+#include "Products/CommonLinks.h"
+
 #include "vtkExchangeHierarchy.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace LightTransport
@@ -61,6 +65,7 @@ public:
 
   const std::vector<Range>& GetLevels() const { return this->Levels; }
   const Range& GetPatches() const { return this->Patches; }
+  const CommonLinks& GetCommon() const { return this->Common; }
   const std::vector<Tile>& GetTiles() const { return this->Tiles; }
   int GetSlotTexel(int slot) const { return this->SlotTexels[static_cast<std::size_t>(slot)]; }
   int GetNumberOfSlotLines() const { return this->Patches.FirstLine + this->Patches.Lines; }
@@ -89,6 +94,8 @@ private:
   };
 
   int CountTexels(std::int64_t links) const;
+  std::pair<std::int64_t, std::int64_t> GetRow(int slot) const;
+  void LeaveOutCommon();
   void PlaceSlots();
   Range PlaceRange(int first, int last);
   void CutRows();
@@ -99,6 +106,11 @@ private:
   const int MaximumHeight;
   const int LinksPerTexel;
   const int TexelsPerLink;
+  const CommonLinks Common;
+  ///@{ The links that are not common, where some are: rows as the hierarchy has them.
+  std::vector<std::int64_t> OtherOffsets;
+  std::vector<std::int64_t> OtherLinks;
+  ///@}
   std::vector<Range> Levels;
   Range Patches{};
   std::vector<int> SlotTexels;

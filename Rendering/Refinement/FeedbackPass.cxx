@@ -67,7 +67,7 @@ Outcome FeedbackPass::Use(vtkShaderProgram*& program)
 
 //------------------------------------------------------------------------------
 // Where the target is too small all is done again, now that its size is known.
-Outcome FeedbackPass::Run(const FeedbackBuffer& source, vtkIdType count, FeedbackBuffer& target,
+Outcome FeedbackPass::Run(const VectorBuffer& source, vtkIdType count, VectorBuffer& target,
   vtkIdType kept, vtkIdType& written)
 {
   vtkIdType expected = count;
@@ -92,8 +92,8 @@ Outcome FeedbackPass::Run(const FeedbackBuffer& source, vtkIdType count, Feedbac
 }
 
 //------------------------------------------------------------------------------
-Outcome FeedbackPass::Capture(const FeedbackBuffer& source, vtkIdType count,
-  const FeedbackBuffer& target, vtkIdType kept, vtkIdType& written, vtkIdType& generated)
+Outcome FeedbackPass::Capture(const VectorBuffer& source, vtkIdType count,
+  const VectorBuffer& target, vtkIdType kept, vtkIdType& written, vtkIdType& generated)
 {
   if (this->VertexArray == 0)
   {
@@ -124,7 +124,7 @@ Outcome FeedbackPass::Capture(const FeedbackBuffer& source, vtkIdType count,
 }
 
 //------------------------------------------------------------------------------
-void FeedbackPass::SetAttributes(const FeedbackBuffer& source)
+void FeedbackPass::SetAttributes(const VectorBuffer& source)
 {
   glBindBuffer(GL_ARRAY_BUFFER, source.GetHandle());
   for (std::size_t vector = 0; vector < this->Attributes.size(); ++vector)
@@ -134,10 +134,10 @@ void FeedbackPass::SetAttributes(const FeedbackBuffer& source)
     // The compiler drops what no output needs.
     if (location >= 0)
     {
-      const std::size_t offset = vector * FeedbackBuffer::FloatsPerVector * sizeof(float);
+      const std::size_t offset = vector * VectorBuffer::FloatsPerVector * sizeof(float);
       glEnableVertexAttribArray(static_cast<GLuint>(location));
-      glVertexAttribPointer(static_cast<GLuint>(location), FeedbackBuffer::FloatsPerVector,
-        GL_FLOAT, GL_FALSE, static_cast<GLsizei>(source.GetBytesPerRecord()), AsPointer(offset));
+      glVertexAttribPointer(static_cast<GLuint>(location), VectorBuffer::FloatsPerVector, GL_FLOAT,
+        GL_FALSE, static_cast<GLsizei>(source.GetBytesPerRecord()), AsPointer(offset));
     }
   }
   glBindBuffer(GL_ARRAY_BUFFER, 0);

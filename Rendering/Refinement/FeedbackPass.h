@@ -3,8 +3,8 @@
 #ifndef FeedbackPass_h
 #define FeedbackPass_h
 
-#include "Refinement/FeedbackBuffer.h"
 #include "Shared/Outcome.h"
+#include "Textures/VectorBuffer.h"
 #include "vtkSmartPointer.h"
 #include "vtkTransformFeedback.h"
 #include "vtkType.h"
@@ -37,13 +37,13 @@ public:
 
   /// After Use. Write what comes of `count` records behind the first `kept` of the target, which
   /// grows where it is too small; `written` is how many came.
-  Outcome Run(const FeedbackBuffer& source, vtkIdType count, FeedbackBuffer& target, vtkIdType kept,
+  Outcome Run(const VectorBuffer& source, vtkIdType count, VectorBuffer& target, vtkIdType kept,
     vtkIdType& written);
 
 private:
-  Outcome Capture(const FeedbackBuffer& source, vtkIdType count, const FeedbackBuffer& target,
+  Outcome Capture(const VectorBuffer& source, vtkIdType count, const VectorBuffer& target,
     vtkIdType kept, vtkIdType& written, vtkIdType& generated);
-  void SetAttributes(const FeedbackBuffer& source);
+  void SetAttributes(const VectorBuffer& source);
 
   vtkOpenGLRenderWindow* Window;
   std::string VertexShader;

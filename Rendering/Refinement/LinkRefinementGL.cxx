@@ -48,7 +48,7 @@ LinkRefinementGL::LinkRefinementGL(FloatTextures& engine) : Engine(engine) {}
 //------------------------------------------------------------------------------
 void LinkRefinementGL::Release()
 {
-  for (FeedbackBuffer* buffer : { &this->Pairs, &this->Followers, &this->Tested, &this->Taken })
+  for (VectorBuffer* buffer : { &this->Pairs, &this->Followers, &this->Tested, &this->Taken })
   {
     buffer->Release();
   }
@@ -173,7 +173,7 @@ Outcome LinkRefinementGL::Refine(vtkIdType first, vtkIdType last, const Pause& p
   std::vector<float> pairs;
   this->AddCover(0, first, last, pairs);
   Outcome done = this->Pairs.Upload(pairs);
-  auto count = static_cast<vtkIdType>(pairs.size()) / FeedbackBuffer::FloatsPerVector;
+  auto count = static_cast<vtkIdType>(pairs.size()) / VectorBuffer::FloatsPerVector;
   vtkIdType taken = 0;
   while (done && count > 0)
   {

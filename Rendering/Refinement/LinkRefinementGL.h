@@ -14,10 +14,10 @@
 #ifndef LinkRefinementGL_h
 #define LinkRefinementGL_h
 
-#include "Refinement/FeedbackBuffer.h"
 #include "Refinement/FeedbackPass.h"
 #include "Shared/Outcome.h"
 #include "Textures/FloatTextures.h"
+#include "Textures/VectorBuffer.h"
 #include "vtkDeviceLinkRefiner.h"
 
 #include <functional>
@@ -73,10 +73,10 @@ private:
   Group Pieces;
   Group Profile;
   Group Bounds;
-  FeedbackBuffer Pairs{ 1 };
-  FeedbackBuffer Followers{ 1 };
-  FeedbackBuffer Tested{ 3 };
-  FeedbackBuffer Taken{ 3 };
+  VectorBuffer Pairs{ 1 };
+  VectorBuffer Followers{ 1 };
+  VectorBuffer Tested{ 3 };
+  VectorBuffer Taken{ 3 };
   std::unique_ptr<FeedbackPass> TestPass;
   std::unique_ptr<FeedbackPass> TakePass;
   std::unique_ptr<FeedbackPass> DividePass;

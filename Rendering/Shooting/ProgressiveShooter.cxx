@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -24,6 +25,8 @@ enum Slot
   Area,     ///< in every band
   Received, ///< power, by the shots under way
   Power,    ///< all power received
+  Source,
+  Radiosity, ///< so far
   Scratch
 };
 
@@ -68,6 +71,7 @@ Outcome ProgressiveShooter::Begin(const double* source, int resolution)
     return uploaded;
   }
   this->ComputeScales(source);
+  this->MeanReflectance = this->GetMeanReflectance();
   return this->SetMaterials(source);
 }
 
@@ -103,8 +107,9 @@ Outcome ProgressiveShooter::SetMaterials(const double* source)
   }
   const std::vector<double> nothing(size, 0.0);
   const std::pair<Slot, const double*> vectors[] = { { Unshot, unshot.data() },
-    { OwnReflectance, this->Reflectance.data() }, { ReflectancePerArea, perArea.data() },
-    { Area, areas.data() }, { Power, nothing.data() }, { Received, nothing.data() } };
+    { Source, unshot.data() }, { OwnReflectance, this->Reflectance.data() },
+    { ReflectancePerArea, perArea.data() }, { Area, areas.data() }, { Power, nothing.data() },
+    { Received, nothing.data() } };
   for (const auto& vector : vectors)
   {
     if (Outcome set = this->Vectors.Set(vector.first, vector.second); !set)
@@ -171,42 +176,49 @@ Outcome ProgressiveShooter::FindShooters(std::vector<Shooter>& shooters)
 }
 
 //------------------------------------------------------------------------------
-Outcome ProgressiveShooter::ShootFrom(const std::vector<Shooter>& shooters, double density)
+void ProgressiveShooter::Aim(const std::vector<Shooter>& shooters, double density)
 {
-  std::vector<HemisphereItems::Eye> eyes;
   for (const Shooter& shooter : shooters)
   {
     const double wanted = density * shooter.Power / this->FirstPower;
     const double triangles = this->Scene.GetNumberOfTriangles(shooter.Index);
     const int divisions = static_cast<int>(std::ceil(std::sqrt(wanted / triangles)));
-    const auto number = this->NumberOfEyePoints + static_cast<vtkTypeInt64>(eyes.size());
-    this->Scene.AddEyes(shooter.Index, std::max(divisions, 1), number, eyes);
+    const auto number = this->NumberOfEyePoints + static_cast<vtkTypeInt64>(this->Eyes.size());
+    this->Scene.AddEyes(shooter.Index, std::max(divisions, 1), number, this->Eyes);
   }
-  this->NumberOfEyePoints += static_cast<vtkTypeInt64>(eyes.size());
+  this->NumberOfEyePoints += static_cast<vtkTypeInt64>(this->Eyes.size());
   this->Ambient.AddShots(static_cast<vtkIdType>(shooters.size()));
-  if (Outcome drawn = this->DrawShots(eyes); !drawn)
+  this->Aimed = shooters;
+  this->NextEye = 0;
+  this->Engine.Clear(this->Vectors.Get(Received));
+}
+
+//------------------------------------------------------------------------------
+Outcome ProgressiveShooter::ShootNext(std::size_t mostEyes)
+{
+  const std::size_t end = std::min(this->NextEye + mostEyes, this->Eyes.size());
+  while (this->NextEye < end)
   {
-    return drawn;
+    const std::size_t last = std::min(this->NextEye + HemisphereItems::MostEyes, end);
+    if (Outcome drawn =
+          this->Items.Shoot({ this->Eyes.data() + this->NextEye, this->Eyes.data() + last },
+            this->Vectors.GetLayout(), this->Vectors.Get(Shot), this->Vectors.Get(Received));
+        !drawn)
+    {
+      return drawn;
+    }
+    this->NextEye = last;
   }
-  for (const Shooter& shooter : shooters)
+  if (end < this->Eyes.size())
+  {
+    return Outcome::Done();
+  }
+  this->Eyes.clear();
+  for (const Shooter& shooter : this->Aimed)
   {
     this->TakeAway(shooter.Index);
   }
   return this->Collect();
-}
-
-//------------------------------------------------------------------------------
-Outcome ProgressiveShooter::DrawShots(const std::vector<HemisphereItems::Eye>& eyes)
-{
-  this->Engine.Clear(this->Vectors.Get(Received));
-  Outcome drawn = Outcome::Done();
-  for (std::size_t first = 0; first < eyes.size() && drawn; first += HemisphereItems::MostEyes)
-  {
-    const std::size_t end = std::min(first + HemisphereItems::MostEyes, eyes.size());
-    drawn = this->Items.Shoot({ eyes.data() + first, eyes.data() + end }, this->Vectors.GetLayout(),
-      this->Vectors.Get(Shot), this->Vectors.Get(Received));
-  }
-  return drawn;
 }
 
 //------------------------------------------------------------------------------
@@ -252,6 +264,61 @@ Outcome ProgressiveShooter::Collect()
 }
 
 //------------------------------------------------------------------------------
+std::vector<double> ProgressiveShooter::GetMeanReflectance() const
+{
+  std::vector<double> mean(static_cast<std::size_t>(this->Bands), 0.0);
+  for (std::size_t k = 0; k < this->Reflectance.size(); ++k)
+  {
+    mean[k % this->Bands] += this->Scene.GetAreas()[k / this->Bands] * this->Reflectance[k];
+  }
+  return mean;
+}
+
+//------------------------------------------------------------------------------
+Outcome ProgressiveShooter::ComputeRadiosity(bool ambient)
+{
+  std::vector<double> irradiance(static_cast<std::size_t>(this->Bands), 0.0);
+  if (ambient)
+  {
+    if (Outcome summed = this->Vectors.Dot(Unshot, Area, irradiance.data()); !summed)
+    {
+      return summed;
+    }
+    std::transform(irradiance.begin(), irradiance.end(), this->MeanReflectance.begin(),
+      irradiance.begin(),
+      [](double power, double reflectance)
+      { return reflectance < 1.0 ? std::max(power, 0.0) / (1.0 - reflectance) : 0.0; });
+  }
+  const std::vector<double> ones(static_cast<std::size_t>(this->Bands), 1.0);
+  if (this->IsShooting())
+  {
+    // The part of the shots under way that has been handed out.
+    const Outcome summed =
+      this->Vectors.Combine(Radiosity, ones.data(), Power, ones.data(), Received);
+    if (!summed)
+    {
+      return summed;
+    }
+  }
+  if (Outcome reflected =
+        this->Vectors.Scale(Scratch, ReflectancePerArea, this->IsShooting() ? Radiosity : Power);
+      !reflected)
+  {
+    return reflected;
+  }
+  const Outcome added =
+    this->Vectors.Combine(Scratch, ones.data(), Scratch, irradiance.data(), OwnReflectance);
+  return added ? this->Vectors.Combine(Radiosity, ones.data(), Scratch, ones.data(), Source)
+               : added;
+}
+
+//------------------------------------------------------------------------------
+const FloatTextures::Group& ProgressiveShooter::GetRadiosity()
+{
+  return this->Vectors.Get(Radiosity);
+}
+
+//------------------------------------------------------------------------------
 Outcome ProgressiveShooter::GetLargestUnshot(double* perBand)
 {
   const Outcome drawn = this->Vectors.MaxNorm(Unshot, perBand);
@@ -263,6 +330,12 @@ Outcome ProgressiveShooter::GetLargestUnshot(double* perBand)
 void ProgressiveShooter::GetIrradiance(double* values)
 {
   this->Vectors.Read(Power, values);
+  if (this->IsShooting())
+  {
+    std::vector<double> underWay(this->Reflectance.size());
+    this->Vectors.Read(Received, underWay.data());
+    std::transform(underWay.begin(), underWay.end(), values, values, std::plus<double>());
+  }
   this->Unscale(values, this->GetSize());
   for (vtkIdType k = 0; k < this->GetSize(); ++k)
   {

@@ -41,8 +41,22 @@ public:
 
   /// Those that shoot together next, the brightest first; none where nothing is left to shoot.
   Outcome FindShooters(std::vector<Shooter>& shooters);
+  ///@{
+  /// Their shots, by as many eye points at a time as one has time for, until none is left.
   /// `density`: eye points for a shot with all the emitted power.
-  Outcome ShootFrom(const std::vector<Shooter>& shooters, double density);
+  void Aim(const std::vector<Shooter>& shooters, double density);
+  bool IsShooting() const { return !this->Eyes.empty(); }
+  Outcome ShootNext(std::size_t mostEyes);
+  ///@}
+
+  ///@{
+  /// Draws the radiosity so far, what is unshot included, into a vector, in units of the largest
+  /// source of each band (GetScales). With `ambient`, what patches will have to reflect of what is
+  /// unshot, were it spread evenly, is added to it.
+  Outcome ComputeRadiosity(bool ambient);
+  const FloatTextures::Group& GetRadiosity();
+  const std::vector<double>& GetScales() const { return this->Scales; }
+  ///@}
 
   ///@{
   /// Per band; per patch and band.
@@ -63,8 +77,8 @@ private:
   Outcome SetMaterials(const double* source);
   Outcome EndSweep();
   Outcome ComputeShots();
-  Outcome DrawShots(const std::vector<HemisphereItems::Eye>& eyes);
   Outcome Collect();
+  std::vector<double> GetMeanReflectance() const;
   void TakeAway(int patch);
   void Unscale(double* values, vtkIdType size) const;
 
@@ -72,8 +86,14 @@ private:
   const std::vector<double> Reflectance; ///< patches x bands
   const int Bands;
   Overshooting Ambient;
-  std::vector<double> Scales; ///< of each band: its largest source
+  std::vector<double> Scales;          ///< of each band: its largest source
+  std::vector<double> MeanReflectance; ///< of each band
   double FirstPower = 0.0;
+  ///@{ Of the shots under way.
+  std::vector<Shooter> Aimed;
+  std::vector<HemisphereItems::Eye> Eyes;
+  std::size_t NextEye = 0;
+  ///@}
   vtkTypeInt64 NumberOfEyePoints = 0;
 
   FloatTextures Engine;

@@ -6,6 +6,7 @@
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceSession.h"
 #include "Shared/TransportMemory.h"
+#include "Textures/VectorBuffer.h"
 #include "vtkLightTransportTexturesCommonFS.h"
 #include "vtkLightTransportTexturesQuadVS.h"
 
@@ -205,6 +206,21 @@ void FloatTextures::Copy(const Group& target, int line, const Group& source, con
       region[3]);
     target[index]->Deactivate();
   }
+}
+
+//------------------------------------------------------------------------------
+void FloatTextures::Copy(const VectorBuffer& target, const Group& source)
+{
+  const int width = static_cast<int>(source[0]->GetWidth());
+  const int height = static_cast<int>(source[0]->GetHeight());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, target.GetHandle());
+  for (std::size_t index = 0; index < source.size(); ++index)
+  {
+    // Where a buffer is bound, an address is where to begin in it.
+    auto* const begin = static_cast<char*>(nullptr) + index * width * height * BytesPerTexel;
+    this->Download(source, index, width, height, reinterpret_cast<float*>(begin));
+  }
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
 //------------------------------------------------------------------------------

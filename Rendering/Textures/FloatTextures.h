@@ -27,6 +27,8 @@ class vtkShaderProgram;
 
 namespace LightTransport
 {
+class VectorBuffer;
+
 class FloatTextures
 {
 public:
@@ -115,6 +117,9 @@ public:
 
   /// Copy a region (x, y, width, height) to (x, line) between groups of as many textures.
   void Copy(const Group& target, int line, const Group& source, const int region[4]);
+
+  /// Copy all texels of a group, one texture after the other, into a buffer with room for them.
+  void Copy(const VectorBuffer& target, const Group& source);
 
   /// Read the left lower width x height texels of one texture of a group.
   void Download(const Group& group, std::size_t index, int width, int height, float* rgba);

@@ -1,108 +1,45 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a light gives a sample of a surface per unit area, times the area: what enters through a smooth boundary (Fresnel), where
-// nothing is in the way. Coordinates are those of the world, from a place near by.
+// What enters a sample of a surface per unit area, times the area. GetEntering says what that is, here or in the vertex shader.
 in vec3 scenePosition;
 flat in vec3 sceneNormal;
 flat in vec2 shareOfAtlas;
 uniform float weight;    // of a sample
 uniform float countsArea; // 1 where the area is to be added, too
-uniform float refractiveIndex;
-uniform vec3 color;
-uniform int isPositional;
-uniform vec3 lightPosition;
-uniform vec3 lightAxis;
-uniform vec3 attenuation;
-uniform float coneCosine;
-uniform float exponent;
-// A camera in the light (LightView), and how far along its axis it sees.
-uniform sampler2D shadows;
-uniform int hasShadows;
-uniform vec3 viewOrigin;
-uniform vec3 viewRight;
-uniform vec3 viewUp;
-uniform vec3 viewAhead;
-uniform vec4 frame;
-uniform vec2 range;
-uniform int isPerspective;
-uniform int face;
-uniform float bias;
 
-// Where rasterisation rounds the corners of triangles to, in texels.
-const float CORNER_ROUNDING = 1.0 / 64.0;
+#ifdef HAS_BUMPS
+uniform sampler2D bumps; // normals in tangent space
+uniform float bumpScale;
+in vec2 textureCoordinates;
+in vec3 sceneTangent;
 
-// How far along the axis the plane of the sample is that is seen at a place of the shadow map. Triangles so cast no shadow on
-// themselves, however slanted, and need no bias for it.
-float GetPlaneDepth(vec2 place, vec3 seen, vec3 normal)
+// As VTK's own shading has it.
+vec3 GetBumpedNormal()
 {
-  if (isPerspective == 0)
-  {
-    return seen.z - dot(normal.xy, frame.xy + place * frame.zw - seen.xy) / normal.z;
-  }
-  float slant = dot(normal, vec3(place * frame.zw, 1.0));
-  return slant < 0.0 ? dot(normal, seen) / slant : seen.z;
+  vec3 bump = (texture(bumps, textureCoordinates).xyz * 2.0 - 1.0) * vec3(bumpScale, bumpScale, 1.0);
+  vec3 tangent = sceneTangent - dot(sceneTangent, sceneNormal) * sceneNormal;
+  float size = length(tangent);
+  return size > 0.0 ? normalize(mat3(tangent / size, cross(sceneNormal, tangent / size), sceneNormal) * bump) : sceneNormal;
 }
-
-// Between the four texels around.
-float GetLitPart()
+#else
+vec3 GetBumpedNormal()
 {
-  vec3 path = scenePosition - viewOrigin;
-  vec3 seen = vec3(dot(path, viewRight), dot(path, viewUp), dot(path, viewAhead));
-  vec3 normal = vec3(dot(sceneNormal, viewRight), dot(sceneNormal, viewUp), dot(sceneNormal, viewAhead));
-  vec2 place = isPerspective != 0 ? seen.xy / (seen.z * frame.zw) : (seen.xy - frame.xy) / frame.zw;
-  float size = float(textureSize(shadows, 0).x);
-  float texel = 2.0 * max(frame.z, frame.w) / size * (isPerspective != 0 ? seen.z : 1.0);
-  float slant = isPerspective != 0 ? dot(normal, seen) / seen.z : normal.z;
-  float slope = length(normal.xy) / max(-slant, 1e-6);
-  float allowed = bias + CORNER_ROUNDING * texel * slope;
-  vec2 at = (0.5 * place + 0.5) * size - 0.5;
-  vec2 first = floor(at);
-  vec2 part = at - first;
-  float lit = 0.0;
-  for (int k = 0; k < 4; ++k)
-  {
-    vec2 step = vec2(float(k & 1), float(k >> 1));
-    vec2 where = clamp(first + step, 0.0, size - 1.0);
-    float depth = range.x + texelFetch(shadows, ivec2(where), 0).r * (range.y - range.x);
-    float plane = GetPlaneDepth((where + 0.5) / size * 2.0 - 1.0, seen, normal);
-    vec2 share = mix(1.0 - part, part, step);
-    lit += plane - allowed <= depth ? share.x * share.y : 0.0;
-  }
-  return lit;
+  return sceneNormal;
 }
+#endif
 
-// The face of a cube around the light through which it shines here.
-int GetFace(vec3 path)
-{
-  vec3 along = abs(path);
-  int axis = along.x >= along.y && along.x >= along.z ? 0 : (along.y >= along.z ? 1 : 2);
-  return 2 * axis + (path[axis] >= 0.0 ? 0 : 1);
-}
+#ifdef IS_LIT_AT_CORNERS
+in vec3 cornerLight;
+#else
+//VTK::LightTransport::Light
+#endif
 
 void main()
 {
-  vec3 towards = -lightAxis;
-  float strength = 1.0;
-  bool isSeen = true;
-  if (isPositional != 0)
-  {
-    vec3 path = scenePosition - lightPosition;
-    float distance = length(path);
-    towards = -path / max(distance, 1e-30);
-    strength = 1.0 / (attenuation.x + distance * (attenuation.y + distance * attenuation.z));
-    isSeen = face < 0 || face == GetFace(path);
-    if (coneCosine > 0.0)
-    {
-      float along = dot(-towards, lightAxis);
-      strength *= along >= coneCosine ? pow(max(along, 0.0), exponent) : 0.0;
-    }
-  }
-  float cosine = dot(sceneNormal, towards);
-  vec3 entering = vec3(0.0);
-  if (isSeen && cosine > 0.0 && strength > 0.0)
-  {
-    float transmittance = refractiveIndex > 1.0 ? 1.0 - LightTransportFresnel(cosine, refractiveIndex) : 1.0;
-    entering = color * (strength * cosine * transmittance * (hasShadows != 0 ? GetLitPart() : 1.0));
-  }
-  result[0] = weight * shareOfAtlas.x * vec4(entering, countsArea);
+#ifdef IS_LIT_AT_CORNERS
+  vec3 light = cornerLight;
+#else
+  vec3 light = GetEntering(scenePosition, sceneNormal, GetBumpedNormal());
+#endif
+  result[0] = weight * shareOfAtlas.x * vec4(light, countsArea);
 }

@@ -24,7 +24,8 @@ vec3 LightTransportRadiance()
   float texels = size * max(length(dFdx(place)), length(dFdy(place)));
   vec3 value = SampleAtlas(lightTransportMap, place, size * lightTransportBlockVSOutput, log2(max(texels, 1.0))).rgb;
 #else
-  vec3 value = lightTransportComponents == 1 ? vec3(lightTransportVSOutput.x) : lightTransportVSOutput;
+  bool isGrey = LIGHT_TRANSPORT_IS_GROUPED == 0 && lightTransportComponents == 1;
+  vec3 value = isGrey ? vec3(lightTransportVSOutput.x) : lightTransportVSOutput;
 #endif
   return value / 3.14159265358979;
 }

@@ -7,6 +7,10 @@ uniform int lightTransportPointWidthBits;
 #else
 in vec3 lightTransportMC;
 #endif
+#if LIGHT_TRANSPORT_IS_GROUPED
+uniform sampler2D lightTransportGroups;
+uniform int lightTransportGroupWidthBits;
+#endif
 out vec3 lightTransportVSOutput;
 flat out vec3 lightTransportBlockVSOutput;
 out vec3 lightTransportPositionVSOutput;

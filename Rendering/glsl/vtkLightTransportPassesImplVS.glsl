@@ -5,6 +5,12 @@
   ivec2 lightTransportAt = ivec2(lightTransportTexel & ((1 << lightTransportPointWidthBits) - 1), lightTransportTexel >> lightTransportPointWidthBits);
   lightTransportVSOutput = texelFetch(lightTransportPoints, lightTransportAt, 0).xyz;
   lightTransportBlockVSOutput = texelFetch(lightTransportPoints, lightTransportAt + ivec2(1, 0), 0).xyz;
+#elif LIGHT_TRANSPORT_IS_GROUPED
+  // Points of no patch are black.
+  int lightTransportGroup = int(lightTransportMC.x);
+  ivec2 lightTransportAt = ivec2(lightTransportGroup & ((1 << lightTransportGroupWidthBits) - 1), lightTransportGroup >> lightTransportGroupWidthBits);
+  lightTransportVSOutput = lightTransportGroup < 0 ? vec3(0.0) : texelFetch(lightTransportGroups, lightTransportAt, 0).xyz;
+  lightTransportBlockVSOutput = vec3(0.0);
 #else
   lightTransportVSOutput = lightTransportMC;
   lightTransportBlockVSOutput = vec3(0.0);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What slots receive: the sum over the pieces of their row, and what the parent received, which is kept behind the pieces: 16 textures
-// are all that OpenGL 3.2 promises. With CODED also the sum of the coded row, kept from codedLine on. With PATCHES the result is theirs, weighted; their lines begin at firstLine.
+// are all that OpenGL 3.2 promises. With CODED also the sum of the coded row, kept from codedLine on. With PATCHES the result is theirs,
+// weighted, and their lines begin at firstLine; with COMMON also the sums of each round of common links, kept from commonLine on.
 uniform sampler2D rows[1];
 uniform sampler2D parts[GROUPS];
 #if PATCHES
@@ -12,6 +13,11 @@ const int firstLine = 0;
 
 #if CODED
 uniform int codedLine;
+#endif
+#if COMMON
+uniform int commonLine;
+uniform int commonRounds;
+uniform int linesOfRound;
 #endif
 
 void main()
@@ -34,6 +40,14 @@ void main()
   ivec2 codedPlace = ivec2(gl_FragCoord.xy) + ivec2(0, firstLine + codedLine);
 #define ADD_CODED(g) AddCompensated(sum[g], lost[g], texelFetch(parts[g], codedPlace, 0));
   FOR_ALL_GROUPS(ADD_CODED)
+#endif
+#if COMMON
+  for (int round = 0; round < commonRounds; ++round)
+  {
+    ivec2 commonPlace = ivec2(gl_FragCoord.xy) + ivec2(0, commonLine + round * linesOfRound);
+#define ADD_COMMON(g) AddCompensated(sum[g], lost[g], texelFetch(parts[g], commonPlace, 0));
+    FOR_ALL_GROUPS(ADD_COMMON)
+  }
 #endif
 #if PATCHES
 #define STORE(g) result[g] = row.w * (sum[g] + lost[g]);

@@ -37,6 +37,13 @@ namespace
 {
 using Bytes = std::vector<std::uint8_t>;
 
+// Instruments make a program some ten times slower.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr long UsualPatience = 100;
+#else
+constexpr long UsualPatience = 10;
+#endif
+
 struct Settings
 {
   std::vector<Bytes> Corpus;
@@ -47,7 +54,7 @@ struct Settings
   /// 0: no limit.
   long Seconds = 0;
   /// Processor time of all threads of one run, in seconds.
-  long Patience = 10;
+  long Patience = UsualPatience;
 };
 
 // The largest block of memory that a run may ask for, and what it is compared with outside of runs.

@@ -20,7 +20,7 @@ bool HasMemory(void*, ssize_t bytes, bool isTaken)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool EmbreeTree::Open()
+bool EmbreeTree::Open(bool isWatertight)
 {
   this->Close();
   // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree.
@@ -29,6 +29,10 @@ bool EmbreeTree::Open()
   {
     rtcSetDeviceMemoryMonitorFunction(this->Device, HasMemory, nullptr);
     this->Scene = rtcNewScene(this->Device);
+  }
+  if (this->Scene && isWatertight)
+  {
+    rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST);
   }
   return this->Scene != nullptr;
 }
@@ -134,6 +138,21 @@ void EmbreeTree::FindOccluded(Context& context, RTCRay& ray) const
   rtcOccluded1(this->Scene, &ray, &arguments);
 #else
   rtcOccluded1(this->Scene, &context, &ray);
+#endif
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTree::Intersect(Context& context, const int* valid, RTCRayHit16& hits) const
+{
+#if LIGHTTRANSPORT_EMBREE_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, this->Scene, &hits, &arguments);
+#else
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, this->Scene, &context, &hits);
 #endif
 }
 } // namespace LightTransport

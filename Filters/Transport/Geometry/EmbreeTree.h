@@ -35,8 +35,9 @@ public:
   EmbreeTree(const EmbreeTree&) = delete;
   void operator=(const EmbreeTree&) = delete;
 
-  /// An empty tree, in place of what was there. False without a device.
-  bool Open();
+  /// An empty tree, in place of what was there. False without a device. Rays through a watertight
+  /// one miss no edge between triangles.
+  bool Open(bool isWatertight = false);
   void Close();
 
   /// nullptr while closed.
@@ -59,6 +60,8 @@ public:
   static void Initialize(Context& context);
   void Intersect(Context& context, RTCRayHit& hit) const;
   void FindOccluded(Context& context, RTCRay& ray) const;
+  /// Sixteen rays that go much the same way, those of which `valid` is -1.
+  void Intersect(Context& context, const int* valid, RTCRayHit16& hits) const;
 
 private:
   void Commit();

@@ -35,13 +35,19 @@ public:
   /// Coordinate `dimension` (0 to 3) of point `index`, in (0, 1).
   double Get(int index, int dimension) const
   {
-    std::uint32_t digits = this->Flips[dimension];
+    return ((this->Flips[dimension] ^ GetDigits(index, dimension)) + 0.5) * 0x1.0p-32;
+  }
+
+  /// Coordinate `dimension` of Sobol's point `index`, as binary digits, none of them flipped.
+  static std::uint32_t GetDigits(int index, int dimension)
+  {
+    std::uint32_t digits = 0;
     const std::uint32_t* direction = GetDirections().Numbers[dimension];
     for (auto bits = static_cast<std::uint32_t>(index); bits != 0; bits >>= 1, ++direction)
     {
       digits ^= bits & 1u ? *direction : 0u;
     }
-    return (digits + 0.5) * 0x1.0p-32;
+    return digits;
   }
 
   /// A uniformly distributed point of a polygon, from dimensions `first` and `first` + 1 of point
@@ -162,9 +168,37 @@ private:
 
   std::uint32_t Flips[4];
 };
+
+/// Owen's scrambling of numbers by a hash: each binary digit is flipped or not by those before it
+/// (B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9, 2020; S. Laine, T. Karras,
+/// "Stratified Sampling for Stochastic Transparency", EGSR 2011). What shares its first digits
+/// still does.
+namespace OwenScrambling
+{
+/// The digits from the last to the first.
+inline std::uint32_t Reverse(std::uint32_t bits)
+{
+  bits = (bits >> 16) | (bits << 16);
+  bits = ((bits & 0xFF00FF00u) >> 8) | ((bits & 0x00FF00FFu) << 8);
+  bits = ((bits & 0xF0F0F0F0u) >> 4) | ((bits & 0x0F0F0F0Fu) << 4);
+  bits = ((bits & 0xCCCCCCCCu) >> 2) | ((bits & 0x33333333u) << 2);
+  return ((bits & 0xAAAAAAAAu) >> 1) | ((bits & 0x55555555u) << 1);
+}
+
+/// Of digits in reverse order, which it leaves so.
+inline std::uint32_t ScrambleReversed(std::uint32_t bits, std::uint32_t seed)
+{
+  bits += seed;
+  bits ^= bits * 0x6C50B47Cu;
+  bits ^= bits * 0xB82F1E52u;
+  bits ^= bits * 0xC7AFE638u;
+  bits ^= bits * 0x8D22F6E6u;
+  return bits;
+}
+} // namespace OwenScrambling
+
 /// Points of a PatchSampler with the same key in another order, so that both together are points in
-/// more dimensions: every 2^k that follow each other are a permutation of some that do (B. Burley,
-/// "Practical Hash-based Owen Scrambling", JCGT 9, 2020).
+/// more dimensions: every 2^k that follow each other are a permutation of some that do.
 class ShuffledSampler
 {
 public:
@@ -180,26 +214,10 @@ public:
   }
 
 private:
-  // Each digit of the index is flipped or not by those before it (S. Laine, T. Karras, "Stratified
-  // Sampling for Stochastic Transparency", EGSR 2011).
   std::uint32_t Shuffle(int index) const
   {
-    std::uint32_t bits = Reverse(static_cast<std::uint32_t>(index));
-    bits += this->Seed;
-    for (const std::uint32_t factor : { 0x6C50B47Cu, 0xB82F1E52u, 0xC7AFE638u, 0x8D22F6E6u })
-    {
-      bits ^= bits * factor;
-    }
-    return Reverse(bits);
-  }
-
-  static std::uint32_t Reverse(std::uint32_t bits)
-  {
-    bits = (bits >> 16) | (bits << 16);
-    bits = ((bits & 0xFF00FF00u) >> 8) | ((bits & 0x00FF00FFu) << 8);
-    bits = ((bits & 0xF0F0F0F0u) >> 4) | ((bits & 0x0F0F0F0Fu) << 4);
-    bits = ((bits & 0xCCCCCCCCu) >> 2) | ((bits & 0x33333333u) << 2);
-    return ((bits & 0xAAAAAAAAu) >> 1) | ((bits & 0x55555555u) << 1);
+    using namespace OwenScrambling;
+    return Reverse(ScrambleReversed(Reverse(static_cast<std::uint32_t>(index)), this->Seed));
   }
 
   PatchSampler Sampler;

@@ -7,7 +7,6 @@
 #include "Lighting/PunctualLight.h"
 #include "Run/TransportRun.h"
 
-#include <functional>
 #include <vector>
 
 class vtkLightingAlgorithm;
@@ -27,12 +26,6 @@ protected:
 
   /// Take over the lights that are on. A warning tells where there is no light at all.
   Outcome ReadLights(std::vector<PunctualLight>& lights) const;
-
-  /// Do something with each patch of this rank that costs about as much as `rays` rays, with
-  /// progress up to a fraction. `finish`: then to be done with each, one after another.
-  Outcome ForLocalPatches(double rays, double done,
-    const std::function<void(vtkIdType patch)>& compute,
-    const std::function<void(vtkIdType patch)>& finish = {});
 
 private:
   vtkLightingAlgorithm* Lighting;

@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Lighting/Panorama.h"
 
-#include "Shared/InputArrays.h"
+#include "Shared/EnvironmentPicture.h"
 #include "Shared/Pulse.h"
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
 #include "vtkMath.h"
-#include "vtkPointData.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <string>
+#include <utility>
 
 namespace LightTransport
 {
@@ -55,53 +51,17 @@ std::size_t Choose(std::size_t first, std::size_t last, const GetEnd& getEnd, do
 //------------------------------------------------------------------------------
 Outcome Panorama::Read(vtkImageData* picture)
 {
-  const int* size = picture->GetDimensions();
-  vtkDataArray* scalars = picture->GetPointData()->GetScalars();
-  const int components = scalars ? scalars->GetNumberOfComponents() : 0;
-  if (size[0] < 1 || size[1] < 1 || size[2] != 1 || (components != 1 && components != LightBands))
-  {
-    std::ostringstream text;
-    text << "The environment must be a two-dimensional image with point scalars of 1 or 3 "
-            "components, but its size is "
-         << size[0] << " x " << size[1] << " x " << size[2] << " with " << components
-         << " components.";
-    return Outcome::Failed(text.str());
-  }
-  if (const std::string problem = InputArrays::DescribeLengths(picture); !problem.empty())
-  {
-    return Outcome::Failed("In the environment " + problem + ".");
-  }
-  this->Width = size[0];
-  this->Height = size[1];
-  if (Outcome read = this->ReadValues(scalars); !read)
+  EnvironmentPicture source;
+  if (Outcome read = source.Read(picture); !read)
   {
     return read;
   }
+  this->Width = source.Width;
+  this->Height = source.Height;
+  this->Values = std::move(source.Values);
   this->FindLimit();
   this->FindMoments();
   this->FillTable();
-  return Outcome::Done();
-}
-
-//------------------------------------------------------------------------------
-Outcome Panorama::ReadValues(vtkDataArray* scalars)
-{
-  const bool isGrey = scalars->GetNumberOfComponents() == 1;
-  this->Values.reserve(static_cast<std::size_t>(this->Width) * this->Height * LightBands);
-  for (vtkIdType pixel = 0; pixel < scalars->GetNumberOfTuples(); ++pixel)
-  {
-    Pulse::Beat(pixel);
-    for (int band = 0; band < LightBands; ++band)
-    {
-      const double value = scalars->GetComponent(pixel, isGrey ? 0 : band);
-      if (!std::isfinite(value))
-      {
-        return Outcome::Failed("The environment has a value that is not finite at pixel " +
-          std::to_string(pixel) + ": replace such values.");
-      }
-      this->Values.push_back(value);
-    }
-  }
   return Outcome::Done();
 }
 

@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <vector>
 
-class vtkDataArray;
 class vtkImageData;
 
 namespace LightTransport
@@ -57,7 +56,6 @@ private:
     double South, North;      // latitudes
   };
 
-  Outcome ReadValues(vtkDataArray* scalars);
   void FindLimit();
   void FindMoments();
   void AddMoments(std::size_t pixel, const Vector& direction, double size);

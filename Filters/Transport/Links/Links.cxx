@@ -38,7 +38,7 @@ void Links::AddSummaries(vtkFieldData* fields) const
   {
     FieldValues::Add(fields, remark.first.c_str(), remark.second);
   }
-  if (this->Hierarchy)
+  if (this->Hierarchy && !this->IsSampled())
   {
     FieldValues::Add(fields, "ClusterTreeUsed", this->ClusterTree);
   }
@@ -59,6 +59,16 @@ std::vector<double> Links::GetErrors() const
 //------------------------------------------------------------------------------
 double Links::GetRowSumError() const
 {
+  if (this->IsSampled())
+  {
+    double squares = 0.0;
+    for (const double error : this->RowErrors)
+    {
+      squares += error * error;
+    }
+    return std::max(std::sqrt(squares) / static_cast<double>(this->RowErrors.size()),
+      DoublePrecision);
+  }
   double largest = DoublePrecision;
   for (std::size_t row = 0; row < this->RowErrors.size(); ++row)
   {

@@ -82,6 +82,18 @@ struct Links
   /// And those that are text.
   std::vector<std::pair<std::string, std::string>> Remarks;
   std::string ClusterTree; ///< of the hierarchy: "Spatial" or "Atlas"
+
+  ///@{ Where the hierarchy joins patches alone, by what rays have met: how many of each patch, and
+  /// which patches have exact links (empty: none).
+  int RaysPerPatch = 0;
+  std::vector<bool> ExactPatches;
+  bool IsSampled() const { return this->RaysPerPatch > 0; }
+  bool IsExact(vtkIdType patch) const
+  {
+    return !this->ExactPatches.empty() && this->ExactPatches[patch];
+  }
+  ///@}
+
   /// Not empty where users should doubt the links: why, and the remedy.
   std::string Warning;
 
@@ -95,7 +107,7 @@ struct Links
   std::vector<double> GetErrors() const;
 
   /// The largest error of a row sum. A row without openings that has been closed is as good as
-  /// its sum.
+  /// its sum. Rows of rays are wrong independently of each other: of them that of their mean.
   double GetRowSumError() const;
 
   /// Row sums of the exchange as it is, into RowSums. Collective.

@@ -17,6 +17,10 @@ namespace LightTransport
 {
 struct RadiosityEquation
 {
+  /// Of each band, with `areas` of the patches: all that is emitted as if it were spread over the
+  /// scene evenly, and went on until it is lost (Cohen et al. 1988); 0 where nothing is lost.
+  std::vector<double> FindAmbientIrradiance(const std::vector<double>& areas) const;
+
   ///@{ Not there for a solver that needs no links.
   vtkLinkOperator* Operator = nullptr;
   /// The same links on the CPU: what goes from patch to patch works on it, and residuals in double

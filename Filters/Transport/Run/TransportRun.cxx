@@ -5,6 +5,7 @@
 #include "Scene/Leaves.h"
 #include "Shared/InputArrays.h"
 #include "Shared/Pulse.h"
+#include "Shared/Threads.h"
 #include "Shared/TransportMemory.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
@@ -19,6 +20,14 @@
 
 namespace LightTransport
 {
+namespace
+{
+/// Calls of the progress function, at least, and rays at most between two of them, by which a user
+/// who aborts does not wait. The same on all ranks.
+constexpr double LeastBatches = 50.0;
+constexpr double RaysOfBatch = 4e6;
+} // namespace
+
 //------------------------------------------------------------------------------
 TransportRun::TransportRun(const RunPorts& ports)
   : Filter(ports.Filter), Input(ports.Input), Output(ports.Output), Table(ports.Table),
@@ -155,6 +164,40 @@ Outcome TransportRun::GatherForClusters(int clusterTree)
   return this->GatherInOrder(usesAtlas ? PatchScene::Order::Atlas : PatchScene::Order::Spatial);
 }
 
+//------------------------------------------------------------------------------
+Outcome TransportRun::ForLocalPatches(double rays, double done,
+  const std::function<void(vtkIdType)>& compute, const std::function<void(vtkIdType)>& finish)
+{
+  const std::vector<vtkIdType> locals = this->Scene.GetLocalPatches();
+  const auto count = static_cast<vtkIdType>(locals.size());
+  const auto computeSome = [&locals, &compute](vtkIdType first, vtkIdType last)
+  {
+    for (vtkIdType local = first; local < last; ++local)
+    {
+      Pulse::Beat();
+      compute(locals[local]);
+    }
+  };
+  const Monitor monitor = this->Progress.GetMonitor().GetStage(0.0, done);
+  const auto patches = static_cast<double>(this->Scene.GetAreas().size());
+  const auto batches = static_cast<vtkIdType>(
+    std::max(LeastBatches, std::min(patches, std::ceil(patches * rays / RaysOfBatch))));
+  for (vtkIdType batch = 0; batch < batches; ++batch)
+  {
+    const vtkIdType first = count * batch / batches;
+    const vtkIdType last = count * (batch + 1) / batches;
+    Threads::For(first, last, std::min<vtkIdType>(16, 1 + (last - first) / 16), computeSome);
+    if (finish)
+    {
+      std::for_each(locals.begin() + first, locals.begin() + last, finish);
+    }
+    if (!monitor.Report(static_cast<double>(batch + 1) / static_cast<double>(batches)))
+    {
+      return Outcome::Aborted();
+    }
+  }
+  return Outcome::Done();
+}
 //------------------------------------------------------------------------------
 void TransportRun::Warn(const std::string& text) const
 {

@@ -15,6 +15,7 @@
 #include "Shared/Outcome.h"
 #include "Support/Ranks.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -70,6 +71,12 @@ protected:
   /// Gather in the order that links between clusters need, for a ClusterTree
   /// (vtkTransportAlgorithm::ClusterTreeType): Auto takes atlases where all surfaces have one.
   Outcome GatherForClusters(int clusterTree);
+
+  /// Do something with each patch of this rank that costs about as much as `rays` rays, with
+  /// progress up to a fraction. `finish`: then to be done with each, one after another.
+  Outcome ForLocalPatches(double rays, double done,
+    const std::function<void(vtkIdType patch)>& compute,
+    const std::function<void(vtkIdType patch)>& finish = {});
 
   void Warn(const std::string& text) const;
   /// What is the same on all ranks, by the first of them.

@@ -12,6 +12,7 @@
 #include "Scattering/ScatteringModels.h"
 #include "Scattering/ScatteringPatches.h"
 #include "Scattering/ScatteringRefinement.h"
+#include "Scattering/ScatteringRows.h"
 #include "Scene/PatchScene.h"
 #include "Shared/BitHash.h"
 #include "Shared/TransportMemory.h"
@@ -264,7 +265,7 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
   links.ClusterTree = task.Scene.GetOrder() == PatchScene::Order::Atlas ? "Atlas" : "Surface";
   links.Hierarchy->SetTree(task.Areas, clusters.GetSlots().GetNodes(), task.AllRanks.GetMine(),
     task.AllRanks.GetNumber(), kernels);
-  ScatteringRefinement::Summary summary;
+  ScatteringRows::Summary summary;
   built = this->ChooseRows(task, clusters, refinement, summary);
   if (!built)
   {
@@ -285,7 +286,7 @@ Outcome ScatteringLinks::FillRows(Task& task, const ScatteringClusters& clusters
 //------------------------------------------------------------------------------
 // Auto comes back to the CPU where the device cannot. It knows no light.
 Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& clusters,
-  const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const
+  const ScatteringRefinement& refinement, ScatteringRows::Summary& summary) const
 {
   AirGaps gaps;
   vtkSmartPointer<vtkDeviceLinkRefiner> refiner;
@@ -298,8 +299,9 @@ Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& cluste
   }
   const auto fill = [&](RefinementOnDevice* device)
   {
-    return task.AllRanks.Agree(refinement.Fill(task.Profiles, gaps, task.AllRanks, task.Watch,
-      device, task.Result.Hierarchy, summary));
+    const ScatteringRows rows(refinement, task.Profiles, gaps);
+    return task.AllRanks.Agree(
+      rows.Fill(task.AllRanks, task.Watch, device, task.Result.Hierarchy, summary));
   };
   std::string where = "CPU";
   where += refinement.IsKept() ? ": links of an earlier position are kept" : "";
@@ -322,7 +324,7 @@ Outcome ScatteringLinks::ChooseRows(Task& task, const ScatteringClusters& cluste
 
 //------------------------------------------------------------------------------
 void ScatteringLinks::Summarize(Task& task, const ScatteringRefinement& refinement,
-  const ScatteringRefinement::Summary& summary) const
+  const ScatteringRows::Summary& summary) const
 {
   task.Result.Summaries = { { "NumberOfLinks", summary.Links }, { "LinksLeftOut", summary.LeftOut },
     { "LinkError", refinement.GetProspect().Error },

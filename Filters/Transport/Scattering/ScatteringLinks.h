@@ -10,13 +10,14 @@
 #include "Links/LinkOperators.h"
 #include "Scattering/ScatteringMedium.h"
 #include "Scattering/ScatteringModels.h"
-#include "Scattering/ScatteringRefinement.h"
+#include "Scattering/ScatteringRows.h"
 
 #include <vector>
 
 namespace LightTransport
 {
 class ScatteringClusters;
+class ScatteringRefinement;
 
 /// Which links there are.
 struct ScatteringLinkChoice
@@ -54,9 +55,9 @@ private:
   Outcome FillRows(Task& task, const ScatteringClusters& clusters,
     const ScatteringRefinement& refinement) const;
   Outcome ChooseRows(Task& task, const ScatteringClusters& clusters,
-    const ScatteringRefinement& refinement, ScatteringRefinement::Summary& summary) const;
+    const ScatteringRefinement& refinement, ScatteringRows::Summary& summary) const;
   void Summarize(Task& task, const ScatteringRefinement& refinement,
-    const ScatteringRefinement::Summary& summary) const;
+    const ScatteringRows::Summary& summary) const;
   double GetTolerance(bool isDense) const;
 
   int Model;

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Chooses from which clusters each patch receives scattered light, and fills the rows of a
- * vtkExchangeHierarchy with the profiles' means over them (Jensen and Buhler 2002; Carr, Hall and
- * Hart 2003). A link takes the light of a cluster for its mean: it misses at most the deviation of
- * the profile over the cluster times that of the light. So from the top down a cluster is divided
- * where
+ * Chooses from which clusters each patch receives scattered light (Jensen and Buhler 2002; Carr,
+ * Hall and Hart 2003); ScatteringRows holds what comes of it. A link takes the light of a cluster
+ * for its mean: it misses at most the deviation of the profile over the cluster times that of the
+ * light. So from the top down a cluster is divided where
  *
  *   area x deviation of the profile > threshold
  *
@@ -30,24 +29,16 @@
 #ifndef ScatteringRefinement_h
 #define ScatteringRefinement_h
 
-#include "Links/LinksThroughAir.h"
 #include "Scattering/ClusterLight.h"
 #include "Scattering/ScatteringClusters.h"
 #include "Scattering/ScatteringReceiver.h"
-#include "Shared/Monitor.h"
-#include "Shared/Outcome.h"
 #include "Support/Ranks.h"
 
-#include <cstdint>
 #include <limits>
 #include <vector>
 
-class vtkExchangeHierarchy;
-
 namespace LightTransport
 {
-class AirGaps;
-class RefinementOnDevice;
 struct LinkChoice;
 
 class ScatteringRefinement
@@ -89,46 +80,22 @@ public:
   /// Of every slot: what a link from it may miss; negative where it is divided anyway.
   std::vector<double> GetLimits() const;
 
-  struct Summary
+  ///@{ What rows are filled by: a look of a receiver, whether a part that it meets is divided, and
+  /// the profiles' mean over one that is not.
+  void Look(vtkIdType patch, ScatteringReceiver& receiver) const;
+  bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part) const
   {
-    double Links = 0.0;
-    double LeftOut = 0.0;
-    double Reused = 0.0; ///< from clusters of the choice that is kept
-    /// Of links that were looked at, each between the receiver and a patch of the cluster.
-    LinksThroughAir ThroughAir;
-  };
+    return this->Divides(receiver, part, this->Threshold);
+  }
+  ScatteringIntegrals::Bands GetValue(const ScatteringReceiver& receiver,
+    const ScatteringReceiver::Part& part) const;
+  ///@}
 
-  /// This rank's rows. The counts are those of all ranks, what goes
-  /// through air that of this one. `device` looks for the receivers where there is one, which one
-  /// rank alone may have.
-  Outcome Fill(const ScatteringProfiles& profiles, const AirGaps& gaps, const Ranks& ranks,
-    const Monitor& monitor, RefinementOnDevice* device, vtkExchangeHierarchy* exchange,
-    Summary& summary) const;
+  const ScatteringClusters& GetClusters() const { return this->Clusters; }
+  const std::vector<double>& GetAreas() const { return this->Areas; }
+  double GetLeaveOut() const { return this->LeaveOut; }
 
 private:
-  static constexpr int Bands = ScatteringIntegrals::NumberOfBands;
-  /// A link through air that was looked at: who sends, and how much for a unit of light.
-  struct AirLink
-  {
-    vtkIdType Sender;
-    ScatteringClusters::Bands Value;
-  };
-  /// The rows of some receivers, one after another.
-  struct Block
-  {
-    std::vector<int> Counts;
-    std::vector<int> Columns;
-    std::vector<float> Values;
-    double LeftOut = 0.0;
-    double Reused = 0.0;
-    std::vector<AirLink> ThroughAir;
-  };
-  struct Filler;
-
-  static Outcome FillAll(vtkIdType blocks, const Filler& filler, const Monitor& monitor);
-  Outcome FillFromDevice(RefinementOnDevice& device, const Filler& filler,
-    const Monitor& monitor) const;
-
   bool Divides(const ScatteringReceiver& receiver, const ScatteringReceiver::Part& part,
     double threshold) const;
   vtkIdType GetSampleSize() const;
@@ -138,8 +105,6 @@ private:
   void Begin(double tolerance);
   void LookAround();
   void LookAtLight(double tolerance);
-  ScatteringIntegrals::Bands GetValue(const ScatteringReceiver& receiver,
-    const ScatteringReceiver::Part& part) const;
   template <typename Divide>
   std::vector<double> Receive(const Divide& divide) const;
   std::vector<double> GetSizes(const std::vector<double>& received) const;
@@ -147,15 +112,9 @@ private:
   void StartFrom(const LinkChoice& kept, const Ranks& ranks);
   double GetMostLinks(const Prospect& others) const;
   bool IsAsGoodAs(const Prospect& others, double mostLinks) const;
-  void Look(vtkIdType patch, ScatteringReceiver& receiver) const;
   Prospect Measure(double threshold) const;
   double FindThreshold(double tolerance, double mostLinks, int steps) const;
   double GetClusterError(int slot) const;
-  double GetAirSample() const;
-  void SumUpAir(const std::vector<Block>& blocks, const ScatteringIntegrals::Bands& totals,
-    LinksThroughAir& sums) const;
-  Outcome Store(const std::vector<Block>& blocks, int mine, int ranks,
-    vtkExchangeHierarchy* exchange) const;
 
   const ScatteringClusters& Clusters;
   const std::vector<double>& Areas;

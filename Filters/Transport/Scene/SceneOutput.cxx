@@ -205,6 +205,22 @@ void SceneOutput::AddFaceArray(const std::string& name, const std::vector<double
 }
 
 //------------------------------------------------------------------------------
+void SceneOutput::AddGroups(const std::string& name) const
+{
+  const std::vector<vtkDataSet*> leaves = Leaves::Get(this->Output);
+  for (std::size_t block = 0; block < leaves.size(); ++block)
+  {
+    auto array = MakeArray<vtkDoubleArray>(name, leaves[block]->GetNumberOfPoints(), 1);
+    for (std::size_t point = 0; point < this->Groups[block].size(); ++point)
+    {
+      array->SetValue(static_cast<vtkIdType>(point),
+        static_cast<double>(this->Groups[block][point][0]));
+    }
+    leaves[block]->GetPointData()->AddArray(array);
+  }
+}
+
+//------------------------------------------------------------------------------
 void SceneOutput::AddFlags(const std::string& name, const std::vector<int>& flags) const
 {
   for (int side = 0; side < this->Scene.GetFaces().GetNumberOfSides(); ++side)

@@ -43,6 +43,10 @@ public:
   void AddFaceArray(const std::string& name, const std::vector<double>& values,
     int components) const;
 
+  /// The smooth group that the front of each point belongs to as the point array `name`, -1 for
+  /// none; numbers of SmoothPoints.
+  void AddGroups(const std::string& name) const;
+
   /// Flags of each face, as integers of the cell array `name`, and of that of the backs.
   void AddFlags(const std::string& name, const std::vector<int>& flags) const;
 

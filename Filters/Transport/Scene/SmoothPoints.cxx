@@ -126,6 +126,47 @@ vtkIdType SmoothPoints::GetGroup(vtkIdType polygon, int side, vtkIdType corner) 
 }
 
 //------------------------------------------------------------------------------
+void SmoothPoints::GetMembers(std::vector<vtkIdType>& starts, std::vector<vtkIdType>& patches,
+  std::vector<double>& parts) const
+{
+  const SceneFaces& faces = this->Scene.GetFaces();
+  const auto visit = [&](auto&& take)
+  {
+    std::size_t corner = 0;
+    for (vtkIdType face = 0; face < faces.GetNumberOfFaces(); ++face)
+    {
+      Pulse::Beat(face);
+      const SceneFaces::Range places = this->Scene.GetPlaces(faces.GetPolygon(face));
+      for (auto place = places.begin(); place != places.end(); ++place, ++corner)
+      {
+        for (const vtkIdType patch : faces.GetPatches(face))
+        {
+          take(this->Groups[corner], patch, faces.GetShare(patch) * faces.GetArea(face));
+        }
+      }
+    }
+  };
+  std::vector<double> areas(this->NumberOfGroups, 0.0);
+  starts.assign(this->NumberOfGroups + 1, 0);
+  visit(
+    [&](vtkIdType group, vtkIdType, double area)
+    {
+      ++starts[group + 1];
+      areas[group] += area;
+    });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  patches.resize(starts.back());
+  parts.resize(starts.back());
+  std::vector<vtkIdType> next(starts.begin(), starts.end() - 1);
+  visit(
+    [&](vtkIdType group, vtkIdType patch, double area)
+    {
+      patches[next[group]] = patch;
+      parts[next[group]++] = area / areas[group];
+    });
+}
+
+//------------------------------------------------------------------------------
 // Face by face in the order of the patches.
 std::vector<double> SmoothPoints::GetMeans(const std::vector<double>& values, int components) const
 {

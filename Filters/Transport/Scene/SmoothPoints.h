@@ -27,6 +27,11 @@ public:
   /// The group of a corner of a polygon on one of its sides; -1 where that face has no patches.
   vtkIdType GetGroup(vtkIdType polygon, int side, vtkIdType corner) const;
 
+  /// Which patches have which part in the mean of each group (GetMeans): those of group g are
+  /// [starts[g], starts[g + 1]).
+  void GetMembers(std::vector<vtkIdType>& starts, std::vector<vtkIdType>& patches,
+    std::vector<double>& parts) const;
+
   /// The area-weighted means of the faces' values over each group: means[group * components +
   /// component].
   std::vector<double> GetMeans(const std::vector<double>& values, int components) const;

@@ -78,13 +78,13 @@ Outcome RunStages(vtkExchangeMatrix* matrix, const Ranks& ranks, const Monitor& 
 
 //------------------------------------------------------------------------------
 Outcome Assemble(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,
-  ViewFactorAssembly& assembly, Links& links)
+  ViewFactorAssembly& assembly, vtkSmartPointer<vtkExchangeMatrix>& matrix)
 {
   vtkNew<vtkExchangeMatrix> structure;
   structure->AllocateSparse(scene.GetAreas(), 1, ranks.GetMine(), ranks.GetNumber());
-  Outcome allocated = LinkOperators::AllocateSparseMatrix(scene.GetAreas(),
-    assembly.Plan(*structure), ranks, links.Matrix);
-  return allocated ? RunStages(links.Matrix, ranks, monitor, assembly) : allocated;
+  Outcome allocated =
+    LinkOperators::AllocateSparseMatrix(scene.GetAreas(), assembly.Plan(*structure), ranks, matrix);
+  return allocated ? RunStages(matrix, ranks, monitor, assembly) : allocated;
 }
 
 //------------------------------------------------------------------------------
@@ -155,6 +155,15 @@ DenseViewFactors::DenseViewFactors(double tolerance, bool enforceClosure, std::v
 }
 
 //------------------------------------------------------------------------------
+Outcome DenseViewFactors::FillRows(const PatchScene& scene, double tolerance,
+  const std::vector<bool>& patches, const Ranks& ranks, const Monitor& monitor,
+  vtkSmartPointer<vtkExchangeMatrix>& matrix)
+{
+  ViewFactorAssembly assembly(scene, tolerance, &patches);
+  return Assemble(scene, ranks, monitor, assembly, matrix);
+}
+
+//------------------------------------------------------------------------------
 LinkKey DenseViewFactors::GetKey() const
 {
   return { "DenseViewFactors", { this->Tolerance, this->EnforceClosure ? 1.0 : 0.0 },
@@ -169,7 +178,7 @@ Outcome DenseViewFactors::Build(const PatchScene& scene, const Ranks& ranks, con
   links.Tolerance = this->Tolerance;
   ViewFactorAssembly assembly(scene, this->Tolerance,
     this->Senders.empty() ? nullptr : &this->Senders);
-  Outcome outcome = Assemble(scene, ranks, monitor, assembly, links);
+  Outcome outcome = Assemble(scene, ranks, monitor, assembly, links.Matrix);
   outcome = outcome ? links.SumRows(ranks) : outcome;
   if (!outcome)
   {

@@ -6,6 +6,8 @@
 #define DenseViewFactors_h
 
 #include "Links/LinkBuilder.h"
+#include "vtkExchangeMatrix.h"
+#include "vtkSmartPointer.h"
 
 #include <vector>
 
@@ -18,6 +20,12 @@ public:
   /// left out, and openings are known by a few rays then. A closure needs whole rows and all
   /// senders.
   DenseViewFactors(double tolerance, bool enforceClosure, std::vector<bool> senders);
+
+  /// The rows and columns of these patches alone, in this rank's part of a matrix, to the
+  /// tolerance. Collective.
+  static Outcome FillRows(const PatchScene& scene, double tolerance,
+    const std::vector<bool>& patches, const Ranks& ranks, const Monitor& monitor,
+    vtkSmartPointer<vtkExchangeMatrix>& matrix);
 
   LinkKey GetKey() const override;
   Outcome Build(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor,

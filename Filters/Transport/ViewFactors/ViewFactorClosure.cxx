@@ -412,15 +412,17 @@ void Summarize(const ViewFactorClosure::Report& report, Links& links)
 class Balancing
 {
 public:
-  Balancing(Links& links, const Ranks& ranks)
-    : AllLinks(links), Hierarchy(links.Hierarchy), Areas(this->Hierarchy->GetAreas()),
+  Balancing(Links& links, const std::vector<double>& targets, const Ranks& ranks)
+    : AllLinks(links), Targets(targets), Hierarchy(links.Hierarchy),
+      Areas(this->Hierarchy->GetAreas()),
       Product(LinkOperators::MakeOnCPU(this->Hierarchy, 1, ranks)), Sums(this->Areas.size(), 1.0),
-      Open(this->Areas.size()),
+      Open(this->Areas.size()), FirstWeights(this->Hierarchy->GetWeights()),
       Good(this->Product && this->Product->SetVector(0, this->Sums.data()))
   {
     for (std::size_t row = 0; row < this->Open.size(); ++row)
     {
-      this->Open[row] = links.SkyFractions[row] + links.BackFaceFractions[row];
+      this->Open[row] =
+        (links.SkyFractions[row] + links.BackFaceFractions[row]) / this->GetOpenScale(row);
     }
   }
 
@@ -435,12 +437,13 @@ public:
         break;
       }
       last = report.Gap;
-      this->ScaleWeights([](double sum) { return sum > 0.0 ? 1.0 / std::sqrt(sum) : 1.0; });
+      this->ScaleWeights([](double sum, double target)
+        { return sum > 0.0 ? std::sqrt(target) / std::sqrt(sum) : 1.0; });
     }
     if (this->Good && report.Gap > ScaledGap)
     {
       // Some cannot be closed; none may be overfull, nor does this make another so.
-      this->ScaleWeights([](double sum) { return 1.0 / std::max(sum, 1.0); });
+      this->ScaleWeights([](double sum, double target) { return target / std::max(sum, target); });
       report.Gap = this->FindGap();
     }
     this->Finish(report);
@@ -453,6 +456,11 @@ private:
     return this->Hierarchy->GetWeights()[row] / this->Areas[row];
   }
 
+  double GetTarget(std::size_t row) const
+  {
+    return this->Targets.empty() ? 1.0 : this->Targets[row];
+  }
+
   // The rows as they are. One without links and openings stays empty.
   double FindGap()
   {
@@ -463,7 +471,8 @@ private:
     {
       this->Sums[row] /= this->Areas[row];
       const double whole = this->GetWhole(row);
-      gap = std::max(gap, whole > 0.0 ? std::abs(1.0 - whole) : 0.0);
+      const double target = this->GetTarget(row);
+      gap = std::max(gap, whole > 0.0 && target > 0.0 ? std::abs(target - whole) : 0.0);
     }
     return gap;
   }
@@ -479,7 +488,8 @@ private:
     std::vector<double> weights = this->Hierarchy->GetWeights();
     for (std::size_t row = 0; row < weights.size(); ++row)
     {
-      weights[row] *= scale(this->GetWhole(row));
+      const double target = this->GetTarget(row);
+      weights[row] *= target > 0.0 ? scale(this->GetWhole(row), target) : 1.0;
     }
     this->Hierarchy->SetWeights(weights);
   }
@@ -490,18 +500,21 @@ private:
     {
       report.Change =
         std::max(report.Change, std::abs(this->Sums[row] - this->AllLinks.RowSums[row]));
-      this->AllLinks.SkyFractions[row] *= this->GetOpenScale(row);
-      this->AllLinks.BackFaceFractions[row] *= this->GetOpenScale(row);
+      const double scale = this->Hierarchy->GetWeights()[row] / this->FirstWeights[row];
+      this->AllLinks.SkyFractions[row] *= scale;
+      this->AllLinks.BackFaceFractions[row] *= scale;
     }
     this->AllLinks.RowSums = this->Sums;
   }
 
   Links& AllLinks;
+  const std::vector<double>& Targets;
   vtkExchangeHierarchy* Hierarchy;
   const std::vector<double>& Areas;
   vtkSmartPointer<vtkCPULinkOperator> Product;
   std::vector<double> Sums; ///< of the rows
-  std::vector<double> Open; ///< fractions before
+  std::vector<double> Open; ///< fractions where a weight is the area
+  std::vector<double> FirstWeights;
   bool Good;
 };
 } // namespace
@@ -530,9 +543,11 @@ Outcome ViewFactorClosure::Close(Links& links, const std::vector<PartlyVisiblePa
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorClosure::Scale(Links& links, const Ranks& ranks, Report& report)
+Outcome ViewFactorClosure::Scale(Links& links, const std::vector<double>& targets,
+  const Ranks& ranks, Report& report)
 {
-  return Balancing(links, ranks).Run(report) ? Outcome::Done() : Outcome::FailedAsReported();
+  return Balancing(links, targets, ranks).Run(report) ? Outcome::Done()
+                                                      : Outcome::FailedAsReported();
 }
 
 //------------------------------------------------------------------------------
@@ -553,7 +568,7 @@ Outcome ViewFactorClosure::CloseMatrix(Links& links, const std::vector<PartlyVis
 Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const Ranks& ranks)
 {
   Report report;
-  Outcome scaled = Scale(links, ranks, report);
+  Outcome scaled = Scale(links, {}, ranks, report);
   if (scaled)
   {
     Summarize(report, links);

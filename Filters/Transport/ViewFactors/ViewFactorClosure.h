@@ -51,9 +51,10 @@ Outcome Close(Links& links, const std::vector<PartlyVisiblePair>& pairs,
  * For links between clusters: scale the weights of the patches, and what is open in a row by the
  * weight of its patch alone, until the rows are closed (symmetric scaling: Sinkhorn and Knopp
  * 1967). Where that cannot be none is left with more than 1. RowSums and fractions follow.
- * Collective.
+ * `targets` are what rows are to sum to instead of 1 (empty: 1 for all); a row whose target is 0
+ * keeps its weight. Collective.
  */
-Outcome Scale(Links& links, const Ranks& ranks, Report& report);
+Outcome Scale(Links& links, const std::vector<double>& targets, const Ranks& ranks, Report& report);
 
 ///@{
 /// The same with the report among the summaries of links ("ClosureChange", "ClosureGap").

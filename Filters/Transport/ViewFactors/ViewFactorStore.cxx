@@ -6,6 +6,8 @@
 #include "Support/Ranks.h"
 #include "ViewFactors/DenseViewFactors.h"
 #include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/RaySamples.h"
+#include "ViewFactors/SampledViewFactors.h"
 #include "ViewFactors/ViewFactorsFile.h"
 
 #include <algorithm>
@@ -14,41 +16,55 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
+ViewFactorStore::ViewFactorStore() : Samples(std::make_shared<RaySamples>()) {}
+
+//------------------------------------------------------------------------------
 Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSettings& settings,
   const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor)
 {
   this->Faces = SceneFaces();
-  if (!settings.Hierarchical && scene.GetOrder() != PatchScene::Order::Spatial)
+  if (settings.Method != LinkMethod::Hierarchical && scene.GetOrder() != PatchScene::Order::Spatial)
   {
-    return Outcome::Failed("A matrix needs the spatial order of the scene: set ClusterTree to "
-                           "Spatial or switch Hierarchical on.");
+    return Outcome::Failed("Links between patches need the spatial order of the scene: set "
+                           "ClusterTree to Spatial or LinkMethod to Hierarchical.");
   }
-  Outcome updated = Outcome::Done();
-  if (!this->LoadedFile.empty())
-  {
-    updated = this->CheckLoaded(scene, ranks);
-  }
-  else if (settings.Hierarchical)
-  {
-    // Clusters hold who sends and who does not.
-    updated =
-      this->Cache.Update(scene, HierarchicalViewFactors(settings.LinkTolerance), ranks, monitor);
-  }
-  else
-  {
-    // A closure needs whole rows.
-    const bool all = settings.EnforceClosure ||
-      std::all_of(senders.begin(), senders.end(), [](bool sends) { return sends; });
-    updated = this->Cache.Update(scene,
-      DenseViewFactors(settings.Tolerance, settings.EnforceClosure,
-        all ? std::vector<bool>() : senders),
-      ranks, monitor);
-  }
+  Outcome updated = this->LoadedFile.empty() ? this->Make(scene, settings, senders, ranks, monitor)
+                                             : this->CheckLoaded(scene, ranks);
   if (updated)
   {
     this->Faces = scene.GetFaces();
+    this->AreaUnit = scene.GetScale() * scene.GetScale();
   }
   return updated;
+}
+
+//------------------------------------------------------------------------------
+Outcome ViewFactorStore::Make(const PatchScene& scene, const ViewFactorSettings& settings,
+  const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor)
+{
+  // Clusters hold who sends and who does not, and rays meet both.
+  if (settings.Method == LinkMethod::Hierarchical)
+  {
+    return this->Cache.Update(scene, HierarchicalViewFactors(settings.LinkTolerance), ranks,
+      monitor);
+  }
+  if (settings.Method == LinkMethod::Sampled)
+  {
+    SamplingPlan plan = settings.Plan;
+    if (plan.RaysPerPatch == 0)
+    {
+      plan.RaysPerPatch = SampledViewFactors::GetRaysFor(settings.LinkTolerance);
+    }
+    const SampledViewFactors builder(plan, this->Samples);
+    return this->Cache.Update(scene, builder, ranks, monitor);
+  }
+  // A closure needs whole rows.
+  const bool all = settings.EnforceClosure ||
+    std::all_of(senders.begin(), senders.end(), [](bool sends) { return sends; });
+  return this->Cache.Update(scene,
+    DenseViewFactors(settings.Tolerance, settings.EnforceClosure,
+      all ? std::vector<bool>() : senders),
+    ranks, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -62,6 +78,12 @@ Outcome ViewFactorStore::CheckLoaded(const PatchScene& scene, const Ranks& ranks
       : Outcome::Failed("The view factors in \"" + this->LoadedFile +
           "\" were computed for another geometry: give the mesh that they belong to, or compute "
           "them (Load(nullptr)) and save them again."));
+}
+
+//------------------------------------------------------------------------------
+const RayHits& ViewFactorStore::GetHits() const
+{
+  return this->Samples->Hits;
 }
 
 //------------------------------------------------------------------------------
@@ -100,8 +122,9 @@ Outcome ViewFactorStore::Save(const std::string& fileName, const Ranks& ranks) c
   }
   if (this->GetLinks().Hierarchy)
   {
-    return Outcome::Failed(
-      "Links between clusters cannot be saved: switch Hierarchical off and update.");
+    return Outcome::Failed(this->GetLinks().IsSampled()
+        ? "Links from rays cannot be saved: set LinkMethod to Dense and update."
+        : "Links between clusters cannot be saved: switch Hierarchical off and update.");
   }
   if (!this->GetLinks().Matrix || !this->Cache.GetKey().Senders.empty())
   {

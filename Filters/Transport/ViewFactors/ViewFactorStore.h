@@ -10,8 +10,10 @@
 #include "Scene/SceneFaces.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "ViewFactors/SamplingPlan.h"
 #include "vtkType.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,19 +21,33 @@ namespace LightTransport
 {
 class PatchScene;
 class Ranks;
+class RayHits;
+struct RaySamples;
+
+/// Values of vtkRadiosity::LinkMethodType.
+enum class LinkMethod
+{
+  Dense = 1,
+  Hierarchical = 2,
+  Sampled = 3
+};
 
 /// Properties of vtkViewFactors.
 struct ViewFactorSettings
 {
   double Tolerance = 0.0;
   bool EnforceClosure = false;
-  bool Hierarchical = false;
+  LinkMethod Method = LinkMethod::Dense;
   double LinkTolerance = 0.0;
+  /// Of sampled links; without rays as many as LinkTolerance asks for.
+  SamplingPlan Plan = {};
 };
 
 class ViewFactorStore
 {
 public:
+  ViewFactorStore();
+
   /**
    * Bring the view factors up to date for a scene. `senders` (one per patch; empty for all) tells
    * which patches send anything: pairs of which neither does may be left out. Those of a file serve
@@ -42,10 +58,19 @@ public:
 
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
+  /// Whether it made them, and did not find them kept.
+  bool WereMade() const { return this->LoadedFile.empty() && this->Cache.WereMade(); }
+
+  /// What the rays of sampled links have met.
+  const RayHits& GetHits() const;
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j) const;
+  /// Their number, 0 after a failure.
+  vtkIdType GetNumberOfFaces() const { return this->Faces.GetNumberOfFaces(); }
+  /// In the input's unit squared.
+  double GetArea(vtkIdType face) const { return this->AreaUnit * this->Faces.GetArea(face); }
 
   ///@{ On one process: save what the last update computed; take it from a file until Forget or
   /// another file.
@@ -58,9 +83,13 @@ public:
 
 private:
   Outcome CheckLoaded(const PatchScene& scene, const Ranks& ranks) const;
+  Outcome Make(const PatchScene& scene, const ViewFactorSettings& settings,
+    const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
 
   LinkCache Cache;
-  SceneFaces Faces; ///< of the scene of the last update
+  std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
+  SceneFaces Faces;                    ///< of the scene of the last update
+  double AreaUnit = 1.0;               ///< and its unit
   std::string LoadedFile;
 };
 } // namespace LightTransport

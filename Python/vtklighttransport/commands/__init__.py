@@ -7,13 +7,13 @@ DESCRIPTION             what its own --help begins with
 add_options(parser)     its arguments; --quiet is there
 check(options)          wrong usage goes to options.parser.error, other hindrances raise Failure;
                         nothing is read, computed or written yet
-run(options, messages)  does it; returns the line that is printed unless --quiet
+run(options, messages)  does it; returns a Summary, whose text is printed unless --quiet
 """
 
 import importlib
 
-# In the order of the list of commands; `view_factors` would be the command view-factors.
-MODULES = ("radiosity", "scatter", "report")
+# In the order of the list of commands; `view_factors` is the command view-factors.
+MODULES = ("radiosity", "scatter", "view_factors", "mesh", "atlas", "exr_info", "report")
 
 
 def load_commands():

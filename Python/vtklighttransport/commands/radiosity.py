@@ -7,7 +7,7 @@ from vtklighttransport.shell.files import add_output, check_input, check_output,
 from vtklighttransport.shell.lights import add_lights, light_scene
 from vtklighttransport.shell.properties import (
     DEVICE, Choice, Number, add_arrays, add_properties, check_properties, choose_arrays,
-    make_filter)
+    give_values, make_filter)
 from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
 from vtklighttransport.shell.stages import Stage
 from vtklighttransport.summaries import get_summary
@@ -16,7 +16,8 @@ HELP = "diffuse interreflection: B = E + rho F B"
 DESCRIPTION = (
     "Adds the arrays Radiosity, Irradiance and NetFlux (flux per unit area). The mesh has the "
     "cell arrays Emission and Reflectance, or Temperature and Emissivity; with a light "
-    "Emission may be missing.")
+    "Emission may be missing. Each may be given instead as a value, of all patches or, with "
+    "REGION=VALUE, of a region (a solid of an STL, a block, a physical group); repeat for more.")
 PROPERTIES = (
     Choice("--solver", "Solver", "SOLVER_",
            "how the equation is solved; auto is conjugate gradients"),
@@ -24,7 +25,7 @@ PROPERTIES = (
            "error bound to stop at, as a fraction of the largest radiosity"),
     Number("--iterations", "MaximumNumberOfIterations", int, "iterations at most"),
     Number("--view-factor-tolerance", "ViewFactorTolerance", float,
-           "bound on the absolute error of each row of view factors"),
+           "bound on the absolute error of each row of view factors; 0 as the accuracy asks"),
     Number("--feature-angle", "FeatureAngle", float,
            "edges sharper than this keep their own point values, in degrees"),
     DEVICE,
@@ -50,7 +51,8 @@ def check(options):
 def run(options, messages):
     radiosity = make_filter(options, "vtkRadiosity", PROPERTIES)
     choose_arrays(options, radiosity, ARRAYS)
-    surface = light_scene(options, messages, read_scene(options, messages))
+    surface = give_values(options, ARRAYS, read_scene(options, messages))
+    surface = light_scene(options, messages, surface)
     result = Stage("radiosity", radiosity, options.quiet).run(messages, surface)
     return write_patches(
         options, messages, result,

@@ -5,7 +5,7 @@
 from vtklighttransport.shell.body import (
     BODY, MODEL, add_light_that_falls_in, light_body, make_scattering)
 from vtklighttransport.shell.files import (
-    add_output, check_input, check_output, is_image, read_file, write_patches)
+    add_output, check_input, check_output, is_image, read_image, write_patches)
 from vtklighttransport.shell.lights import has_lights
 from vtklighttransport.shell.properties import (
     DEVICE, Choice, Number, Switch, add_properties, check_properties)
@@ -84,14 +84,14 @@ def check_texels(options):
 def read_input(options, messages):
     """The surface, or the texels of one."""
     if is_image(options.input):
-        return read_file(options.input, "texels", options, messages)
+        return read_image(options.input, "texels", options, messages)
     return read_scene(options, messages)
 
 
 def run(options, messages):
     scattering = make_scattering(options, PROPERTIES)
     if options.medium:
-        scattering.SetInputData(1, read_file(options.medium, "image", options, messages))
+        scattering.SetInputData(1, read_image(options.medium, "image", options, messages))
     surface = light_body(options, messages, read_input(options, messages), scattering)
     result = Stage("scattering", scattering, options.quiet).run(messages, surface)
     return write_patches(options, messages, result, describe(result))

@@ -22,13 +22,13 @@ from vtklighttransport.report.page import write_page
 from vtklighttransport.report.record import Record
 from vtklighttransport.report.study import Study
 from vtklighttransport.shell.interrupts import tidying_up
-from vtklighttransport.shell.stages import Failure
+from vtklighttransport.shell.stages import Failure, Summary
 
 
 @tidying_up()
 def run(options, messages, subject, surface):
     """Measures, then writes the page, also of what an interrupted run has measured."""
-    record = Record(options.folder, subject.COLUMNS, options.quiet)
+    record = Record(options.folder, subject.COLUMNS, options.quiet or options.json)
     try:
         os.makedirs(options.folder, exist_ok=True)
         try:
@@ -46,4 +46,5 @@ def run(options, messages, subject, surface):
         raise Failure(f"cannot write {name}: {error.strerror}") from error
     if record.interrupted:
         raise KeyboardInterrupt
-    return f"{os.path.join(options.folder, 'report.html')}: {len(record.rows)} rows"
+    page = os.path.join(options.folder, "report.html")
+    return Summary(f"{page}: {len(record.rows)} rows", {"output": page, "rows": len(record.rows)})

@@ -3,10 +3,11 @@
 """The report of radiosity: ways to link patches, and solvers, beside dense links."""
 
 from vtklighttransport.arrays import relative_error
+from vtklighttransport.filters import find_choices
 from vtklighttransport.report.record import ITSELF
 from vtklighttransport.report.subject import (
     FIRST_COLUMNS, LAST_COLUMNS, Method, Subject, whole)
-from vtklighttransport.shell.properties import find_choices, find_class
+from vtklighttransport.shell.properties import find_class
 from vtklighttransport.summaries import find_summary, get_summary
 
 REFERENCE_SOLVER_TOLERANCE = 1e-8

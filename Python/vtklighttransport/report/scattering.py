@@ -12,10 +12,11 @@ import math
 
 import numpy
 
+from vtklighttransport.filters import find_choices
 from vtklighttransport.report.subject import (
     FIRST_COLUMNS, LAST_COLUMNS, Method, Subject, find_constants, whole)
-from vtklighttransport.shell.body import find_material
-from vtklighttransport.shell.properties import find_choices, find_class
+from vtklighttransport.lights import find_material
+from vtklighttransport.shell.properties import find_class
 from vtklighttransport.summaries import find_summary
 from vtkmodules.util.numpy_support import vtk_to_numpy
 

@@ -5,7 +5,7 @@
 import dataclasses
 import math
 
-from vtklighttransport.shell.properties import find_choices
+from vtklighttransport.filters import find_choices
 
 # Columns of the CSV, heading, alignment and format in print: those that every report begins and
 # ends with. Medians are taken of the columns of seconds.

@@ -5,6 +5,8 @@
 import argparse
 import re
 
+from vtklighttransport.materials import EVERYWHERE
+
 
 def parse_numbers(text, kind=float, name="numbers"):
     try:
@@ -15,6 +17,17 @@ def parse_numbers(text, kind=float, name="numbers"):
 
 def parse_whole_numbers(text):
     return parse_numbers(text, int, "whole numbers")
+
+
+def parse_material(text):
+    """A value or one for each band, of all patches or of a region; else the name of an array."""
+    region, found, numbers = text.rpartition("=")
+    if found:
+        return {region: parse_numbers(numbers)}
+    try:
+        return {EVERYWHERE: parse_numbers(text)}
+    except argparse.ArgumentTypeError:
+        return text
 
 
 def parse_light(text):

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What scattering and its report ask of a translucent body: material, and light that falls in."""
 
+from vtklighttransport.lights import find_material, take_light_of
 from vtklighttransport.shell.lights import add_lights, has_lights, light_scene
 from vtklighttransport.shell.properties import (
-    Choice, Color, InputArray, Number, add_arrays, choose_array, choose_arrays, make_filter)
-from vtkmodules.vtkCommonCore import reference
+    Choice, Color, InputArray, Number, add_arrays, choose_arrays, give_values,
+    make_filter)
 
 MODEL = Choice("--model", "Model", "MODEL_",
                "the diffuse reflectance profile of a flat surface, or photons in the body itself "
@@ -31,9 +32,9 @@ BODY = (
            "surface"),
 )
 IRRADIANCE = InputArray(
-    "--irradiance", 0,
-    "without a light: cell array (of texels: point array) of what falls in "
-    "[Irradiance, or TransmittedIrradiance]")
+    "--irradiance", 0, "Irradiance",
+    "without a light: what falls in (of texels: point array); where none is given, "
+    "TransmittedIrradiance too")
 
 
 def add_light_that_falls_in(parser):
@@ -46,22 +47,10 @@ def make_scattering(options, table):
     scattering = make_filter(options, "vtkSubsurfaceScattering", table)
     choose_arrays(options, scattering, [IRRADIANCE])
     if has_lights(options):
-        if find_material(scattering)[2] > 1.0:
-            scattering.SetIncidenceToTransmitted()
-        else:
-            choose_array(scattering, IRRADIANCE.index, "DirectIrradiance")
+        take_light_of(scattering)
     return scattering
 
 
 def light_body(options, messages, surface, scattering):
+    surface = give_values(options, [IRRADIANCE], surface)
     return light_scene(options, messages, surface, find_material(scattering)[2])
-
-
-def find_material(scattering):
-    """Reduced scattering, absorption and refractive index: of the material, or of the properties
-    where there is none."""
-    reduced = list(scattering.GetScatteringCoefficient())
-    absorption = list(scattering.GetAbsorptionCoefficient())
-    index = reference(scattering.GetRefractiveIndex())
-    scattering.GetMaterialProperties(scattering.GetMaterial(), reduced, absorption, index)
-    return reduced, absorption, index.get()

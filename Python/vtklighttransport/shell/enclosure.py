@@ -2,14 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What radiosity and its report ask of a scene: links, bands, what is outside, arrays."""
 
+from vtklighttransport.jobs import RADIOSITY_ARRAYS
 from vtklighttransport.shell.properties import Choice, InputArray, Number, NumberList, Switch
 
 ENCLOSURE = (
     Choice("--links", "LinkMethod", "LINK_METHOD_",
-           "a link for each pair of patches, or between clusters; auto is dense up to 8,192 "
-           "patches"),
+           "a link for each pair of patches, between clusters, or from rays (sampled); auto is "
+           "dense up to 8,192 patches"),
+    Number("--accuracy", "Accuracy", float,
+           "relative error of the radiosity by its links, without what is emitted"),
     Number("--link-tolerance", "LinkTolerance", float,
-           "relative error of the irradiance that hierarchical links are allowed"),
+           "relative error of the irradiance that hierarchical or sampled links are allowed; 0 as "
+           "the accuracy asks"),
+    Switch("--errors", "ComputeErrors", True, "arrays of standard errors, with sampled links"),
     Switch("--by-brightness", "RefineByBrightness", True,
            "refine hierarchical links where light is"),
     Switch("--two-sided", "TwoSided", True,
@@ -24,14 +29,12 @@ ENCLOSURE = (
     NumberList("--background-radiance", "BackgroundRadiance",
                "radiance that enters through them: a value, or one per band with commas between"),
 )
-ARRAYS = (
-    InputArray("--emission", 0, "cell array of emitted flux per area [Emission]"),
-    InputArray("--reflectance", 1, "cell array of diffuse reflectance, 0 to 1 [Reflectance]"),
-    InputArray("--temperature", 2, "cell array of temperatures in kelvin [Temperature]"),
-    InputArray("--emissivity", 3, "cell array of emissivity, 0 to 1 [Emissivity]"),
-    InputArray("--boundary-condition", 5,
-               "cell array: 0 where the temperature is given, 1 where the net flux is "
-               "[BoundaryCondition]"),
-    InputArray("--net-flux", 6,
-               "cell array of given net fluxes, W/m2; 0 without one [PrescribedNetFlux]"),
-)
+ARRAYS = tuple(InputArray(flag, *RADIOSITY_ARRAYS[keyword], text) for flag, keyword, text in (
+    ("--emission", "emission", "emitted flux per area"),
+    ("--reflectance", "reflectance", "diffuse reflectance, 0 to 1"),
+    ("--temperature", "temperature", "temperatures in kelvin"),
+    ("--emissivity", "emissivity", "emissivity, 0 to 1"),
+    ("--boundary-condition", "boundary_condition",
+     "0 where the temperature is given, 1 where the net flux is"),
+    ("--net-flux", "prescribed_net_flux", "given net fluxes, W/m2; 0 without one"),
+))

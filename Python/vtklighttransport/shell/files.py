@@ -4,59 +4,58 @@
 
 import contextlib
 import errno
-import importlib
 import os
+import warnings
 
+from vtklighttransport.meshes import READERS, check_extension, get_extension, read_mesh
 from vtklighttransport.replacement import check_place, replace_file
-from vtklighttransport.shell.stages import Failure, Stage
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
-
-READERS = {
-    ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
-    ".vtk": ("vtkIOLegacy", "vtkPolyDataReader"),
-    ".ply": ("vtkIOPLY", "vtkPLYReader"),
-    ".stl": ("vtkIOGeometry", "vtkSTLReader"),
-    ".obj": ("vtkIOGeometry", "vtkOBJReader"),
-}
-IMAGE_READERS = {".vti": ("vtkIOXML", "vtkXMLImageDataReader")}
+from vtklighttransport.shell.stages import Failure, Stage, Summary, telling_progress
+from vtklighttransport.summaries import list_summaries
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataReader, vtkXMLImageDataWriter, vtkXMLPolyDataWriter)
 
 
 def add_input(parser, *others):
     """`others` are texts of what may be read besides."""
-    parser.add_argument("input", help="; ".join(["surface mesh: " + ", ".join(READERS), *others]))
+    parser.add_argument("input", help="; ".join(
+        ["surface mesh: " + ", ".join(READERS) + ", and what meshio reads where it is there",
+         *others]))
 
 
 def check_input(options):
-    if get_extension(options.input) not in READERS:
-        options.parser.error(f"argument input: '{options.input}' is none of {', '.join(READERS)}")
+    try:
+        check_extension(options.input)
+    except ValueError as error:
+        options.parser.error(f"argument input: {error}")
 
 
 def is_image(file):
-    return get_extension(file) in IMAGE_READERS
-
-
-def get_extension(file):
-    return os.path.splitext(file)[1].lower()
-
-
-def make_reader(file):
-    """The reader for the file's extension."""
-    module, name = (READERS | IMAGE_READERS)[get_extension(file)]
-    reader = getattr(importlib.import_module("vtkmodules." + module), name)()
-    reader.SetFileName(file)
-    return reader
+    return get_extension(file) == ".vti"
 
 
 def read(options, messages):
-    return read_file(options.input, "surface", options, messages)
+    """The surface in the input file."""
+    with telling_progress("read", options.quiet) as bar, warnings.catch_warnings(record=True) as w:
+        warnings.simplefilter("always")
+        try:
+            surface = read_mesh(options.input, bar)
+        except (OSError, ValueError) as error:
+            raise Failure(str(error)) from error
+        if messages.errors:
+            raise Failure(f"cannot read {options.input}")
+    for warning in w:
+        messages.warn(str(warning.message))
+    return surface
 
 
-def read_file(file, kind, options, messages):
+def read_image(file, kind, options, messages):
     """What is in the file, which must not be empty."""
     if not os.path.isfile(file):
         raise Failure(f"cannot read {file}: no such file")
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(file)
     try:
-        data = Stage("read", make_reader(file), options.quiet).run(messages)
+        data = Stage("read", reader, options.quiet).run(messages)
     except Failure as failure:
         raise Failure(f"cannot read {file}") from failure
     if data.GetNumberOfPoints() == 0:
@@ -64,15 +63,21 @@ def read_file(file, kind, options, messages):
     return data
 
 
-def add_output(parser, *others):
-    parser.add_argument("output", help="; ".join(["result: .vtp", *others]))
+def add_output(parser, *others, kind=".vtp"):
+    parser.add_argument("output", help="; ".join(["result: " + kind, *others]))
 
 
-def check_output(options, extension=".vtp"):
-    if get_extension(options.output) != extension:
-        options.parser.error(f"argument output: '{options.output}' is not a {extension} file")
-    with naming(options.output):
-        check_place(options.output)
+def check_output(options, *extensions):
+    extensions = extensions or (".vtp",)
+    if get_extension(options.output) not in extensions:
+        options.parser.error(f"argument output: '{options.output}' is not a "
+                             f"{' or '.join(extensions)} file")
+    check_file(options.output)
+
+
+def check_file(file):
+    with naming(file):
+        check_place(file)
 
 
 @contextlib.contextmanager
@@ -108,9 +113,10 @@ def write(options, messages, data):
 
 
 def write_patches(options, messages, result, text):
-    """Writes what a filter has added to patches; returns the line that tells of it."""
+    """Writes what a filter has added to patches, and tells of it."""
     write(options, messages, result)
     kind, count = "patches", result.GetNumberOfCells()
     if is_image(options.output):
         kind, count = "texels", result.GetNumberOfPoints()
-    return f"{options.output}: {count} {kind}, {text}"
+    return Summary(f"{options.output}: {count} {kind}, {text}",
+                   {"output": options.output, kind: count, **list_summaries(result)})

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lights in place of an array of irradiance."""
 
+from vtklighttransport.lights import make_light
 from vtklighttransport.shell.arguments import parse_light
 from vtklighttransport.shell.properties import Number, Switch, add_properties, make_filter
 from vtklighttransport.shell.stages import Stage
@@ -26,22 +27,6 @@ def add_lights(parser):
 
 def has_lights(options):
     return bool(options.light or options.point_light)
-
-
-def make_light(position, intensity=1.0, positional=False):
-    """From a direction, infinitely far, or from a point."""
-    from vtkmodules.vtkRenderingCore import vtkLight
-    light = vtkLight()
-    light.SetLightTypeToSceneLight()
-    light.SetPosition(position)
-    light.SetFocalPoint(0.0, 0.0, 0.0)
-    light.SetIntensity(intensity)
-    if positional:
-        light.PositionalOn()
-        # Beyond 90 degrees the light has no cone.
-        light.SetConeAngle(180.0)
-        light.SetAttenuationValues(0.0, 0.0, 1.0)
-    return light
 
 
 def light_scene(options, messages, surface, refractive_index=1.0):

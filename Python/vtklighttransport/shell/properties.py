@@ -1,13 +1,16 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Options that set properties of filters, or choose their input arrays.
+"""Options that set properties of filters, choose their input arrays, or give these values.
 
 Tables of them are what a command offers. Defaults, ranges and choices come from the classes; where
 a class was not built, its options are left out.
 """
 
 import vtklighttransport as lt
-from vtklighttransport.shell.arguments import parse_numbers, refuse_value
+from vtklighttransport import filters
+from vtklighttransport.filters import find_choices, suggest
+from vtklighttransport.materials import set_cell_values
+from vtklighttransport.shell.arguments import parse_material, parse_numbers, refuse_value
 from vtklighttransport.shell.stages import Failure
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
@@ -121,24 +124,36 @@ DEVICE = Choice("--device", "Device", "DEVICE_",
 
 
 class InputArray:
-    """An option that names the cell array with an index of SetInputArrayToProcess."""
+    """An option for the cell array with an index of SetInputArrayToProcess, `name` by default: its
+    name, or its values."""
 
-    def __init__(self, flag, index, text):
+    def __init__(self, flag, index, name, text):
         self.flag = flag
         self.index = index
+        self.name = name
         self.text = text
         self.destination = f"array{index}"
 
+    def get_name(self, options):
+        """The name that was given, None where there is none."""
+        names = [given for given in getattr(options, self.destination) if isinstance(given, str)]
+        if len(names) > 1:
+            raise Failure(f"{self.flag} names two arrays, {names[0]} and {names[1]}: choose one")
+        return names[0] if names else None
+
+    def get_values(self, options):
+        """Values by regions."""
+        values = {}
+        for given in getattr(options, self.destination):
+            values.update({} if isinstance(given, str) else given)
+        return values
+
 
 def find_class(name):
-    if not hasattr(lt, name):
-        raise Failure(f"this build has no {name}: its module was switched off in CMake")
-    return getattr(lt, name)
-
-
-def find_choices(kind, prefix):
-    return {key[len(prefix):].lower().replace("_", "-"): getattr(kind, key)
-            for key in dir(kind) if key.startswith(prefix)}
+    try:
+        return filters.find_class(name)
+    except AttributeError as error:
+        raise Failure(str(error)) from error
 
 
 def keeps_value(model, name, value):
@@ -178,14 +193,43 @@ def make_filter(options, class_name, table):
 
 def add_arrays(parser, table):
     for array in table:
-        parser.add_argument(array.flag, metavar="NAME", dest=array.destination, help=array.text)
+        parser.add_argument(array.flag, metavar="NAME|VALUE|REGION=VALUE", type=parse_material,
+                            action="append", default=[], dest=array.destination,
+                            help=f"{array.text} [{array.name}]")
 
 
 def choose_arrays(options, algorithm, table):
     for array in table:
-        name = getattr(options, array.destination)
+        name = array.get_name(options)
         if name:
             choose_array(algorithm, array.index, name)
+
+
+def give_values(options, table, data):
+    """The surface with the arrays of which values were given. A name that is nearly that of an
+    array ends the run: filters do without some arrays."""
+    copy = data.NewInstance()
+    copy.ShallowCopy(data)
+    for array in table:
+        name, values = array.get_name(options), array.get_values(options)
+        if name:
+            check_name(array, name, data)
+        if values and not data.IsA("vtkPolyData"):
+            raise Failure(f"{array.flag}: values go with a surface; texels need an array of them")
+        if values:
+            try:
+                set_cell_values(copy, name or array.name, values)
+            except ValueError as error:
+                raise Failure(f"{array.flag}: {error}") from error
+    return copy
+
+
+def check_name(array, name, data):
+    attributes = data.GetCellData() if data.IsA("vtkPolyData") else data.GetPointData()
+    names = [attributes.GetArrayName(k) or "" for k in range(attributes.GetNumberOfArrays())]
+    near = suggest(name, names)
+    if name not in names and name.lower() != "none" and near:
+        raise Failure(f"{array.flag}: there is no array '{name}', did you mean '{near}'?")
 
 
 def choose_array(algorithm, index, name):

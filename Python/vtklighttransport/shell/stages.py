@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Filters with progress, errors as plain lines."""
+"""Filters with progress, errors as plain lines, and what is told at the end."""
 
-import re
-import signal
+import contextlib
+import dataclasses
 import sys
 import time
 
-from vtklighttransport.shell.interrupts import ends_process
+from vtklighttransport.filters import plain
+from vtklighttransport.progress import ProgressBar, update
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import (
     VTK_STRING, vtkLogger, vtkOutputWindow, vtkStringOutputWindow)
@@ -22,6 +23,7 @@ class Messages:
 
     def __init__(self):
         self.errors = []
+        self.warnings = []
         # Otherwise each message is on stderr a second time, with its place in the source.
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
         self.window = vtkStringOutputWindow()
@@ -37,7 +39,11 @@ class Messages:
 
     @calldata_type(VTK_STRING)
     def on_warning(self, _window, _event, text):
-        print("warning: " + plain(text), file=sys.stderr)
+        self.warn(plain(text))
+
+    def warn(self, text):
+        self.warnings.append(text)
+        print("warning: " + text, file=sys.stderr)
 
     def check(self):
         if self.errors:
@@ -50,53 +56,36 @@ class Messages:
         return text
 
 
+@dataclasses.dataclass
+class Summary:
+    """What a command has done: as text for people, as values for scripts."""
+
+    text: str
+    values: dict
+
+
+@contextlib.contextmanager
+def telling_progress(name, quiet):
+    """Gives a bar where there is a terminal, None where there is none, and a line at the end."""
+    shown = not quiet and sys.stderr.isatty()
+    begin = time.monotonic()
+    yield ProgressBar(name) if shown else None
+    if not quiet and not shown:
+        print(f"{name}: {time.monotonic() - begin:.1f} s", file=sys.stderr)
+
+
 class Stage:
     """One filter of the run, with its line of progress on stderr."""
-
-    WIDTH = 40
 
     def __init__(self, name, algorithm, quiet):
         self.name = name
         self.algorithm = algorithm
-        self.bar = not quiet and sys.stderr.isatty()
-        self.line = not quiet and not self.bar
-        self.aborted = False
-        algorithm.AddObserver("ProgressEvent", self.on_progress)
-
-    def on_progress(self, _algorithm, _event):
-        # A signal that a thread of a filter took Python does not see before it takes its lock anew.
-        time.sleep(0)
-        if self.bar:
-            fraction = min(max(self.algorithm.GetProgress(), 0.0), 1.0)
-            done = int(fraction * self.WIDTH)
-            print(f"\r{self.name:<20} [{'#' * done}{'.' * (self.WIDTH - done)}] {fraction:4.0%}",
-                  end="", file=sys.stderr, flush=True)
-
-    def on_interrupt(self, _signal, _frame):
-        self.aborted = True
-        self.algorithm.SetAbortExecute(1)
+        self.quiet = quiet
 
     def run(self, messages, data=None):
         if data is not None:
             self.algorithm.SetInputDataObject(0, data)
-        begin = time.monotonic()
-        if ends_process():
-            self.algorithm.Update()
-        else:
-            before = signal.signal(signal.SIGINT, self.on_interrupt)
-            self.algorithm.Update()
-            signal.signal(signal.SIGINT, before)
-        if self.bar:
-            print(file=sys.stderr)
-        if self.aborted:
-            raise KeyboardInterrupt
-        messages.check()
-        if self.line:
-            print(f"{self.name}: {time.monotonic() - begin:.1f} s", file=sys.stderr)
+        with telling_progress(self.name, self.quiet) as bar:
+            update(self.algorithm, bar)
+            messages.check()
         return self.algorithm.GetOutputDataObject(0)
-
-
-def plain(text):
-    """A VTK message without the place in the source and without line breaks."""
-    match = re.search(r"\((?:0x)?[0-9a-fA-F]+\): (.*)", text, re.DOTALL)
-    return " ".join((match.group(1) if match else text).split())

@@ -4,6 +4,7 @@
 #ifndef ScatteringScene_h
 #define ScatteringScene_h
 
+#include "vtkDirectIrradiance.h"
 #include "vtkOffScreenOpenGLRenderWindow.h"
 #include "vtkOpenGLAtlasTexture.h"
 #include "vtkOpenGLScatteredMap.h"
@@ -21,6 +22,7 @@
 #include "vtkIntArray.h"
 #include "vtkLight.h"
 #include "vtkMath.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -31,6 +33,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkTriangle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -175,6 +178,90 @@ inline std::vector<double> Read(vtkOpenGLAtlasTexture* map, int level = 0)
   }
   return { texels->GetPointer(0), texels->GetPointer(0) + texels->GetNumberOfValues() };
 }
+/// What differs between two maps, and where.
+struct Difference
+{
+  double Relative = 0.0; ///< L2, weighted by area
+  double Outliers = 0.0; ///< part of the area that is off by more than 5 % of the largest
+};
+
+inline Difference Compare(const std::vector<double>& map, const std::vector<double>& expected)
+{
+  double squares = 0.0;
+  double errors = 0.0;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < map.size(); ++k)
+  {
+    const double area = map[k | 3];
+    if (k % 4 < 3 && area > 0.0)
+    {
+      largest = std::max(largest, expected[k]);
+      squares += area * expected[k] * expected[k];
+      errors += area * std::pow(map[k] / area - expected[k], 2);
+    }
+  }
+  double off = 0.0;
+  double whole = 0.0;
+  for (std::size_t k = 0; k < map.size(); k += 4)
+  {
+    const double area = map[k + 3];
+    whole += area;
+    off += area > 0.0 && std::abs(map[k] / area - expected[k]) > 0.05 * largest ? area : 0.0;
+  }
+  return { std::sqrt(errors / squares), off / whole };
+}
+
+/// A ball, and what casts a shadow on it.
+inline vtkSmartPointer<vtkMultiBlockDataSet> Join(vtkPolyData* ball, vtkPolyData* blocker)
+{
+  auto scene = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  scene->SetBlock(0, ball);
+  if (blocker)
+  {
+    scene->SetBlock(1, blocker);
+  }
+  return scene;
+}
+
+/// The means over texels of a cell array of a ball that has two triangles for each texel.
+inline std::vector<double> AverageOverTexels(vtkPolyData* lit, const char* name, int size)
+{
+  vtkDataArray* values = lit->GetCellData()->GetArray(name);
+  std::vector<double> map(static_cast<std::size_t>(4) * size * size, 0.0);
+  for (vtkIdType pair = 0; pair < lit->GetNumberOfCells() / 2; ++pair)
+  {
+    const double areas[2] = { GetArea(lit, 2 * pair), GetArea(lit, 2 * pair + 1) };
+    const vtkIdType texel = GetTexel(pair, size);
+    for (int k = 0; k < 3; ++k)
+    {
+      map[static_cast<std::size_t>(4 * texel + k)] =
+        (areas[0] * values->GetComponent(2 * pair, k) +
+          areas[1] * values->GetComponent(2 * pair + 1, k)) /
+        (areas[0] + areas[1]);
+    }
+  }
+  return map;
+}
+
+/// Those of what vtkDirectIrradiance gives it; `blocker` casts a shadow on it.
+inline std::vector<double> GetTransmitted(vtkPolyData* ball, vtkPolyData* blocker,
+  const std::vector<vtkLight*>& lights, double index, int size, vtkImageData* environment = nullptr)
+{
+  vtkNew<vtkDirectIrradiance> filter;
+  filter->SetInputDataObject(Join(ball, blocker));
+  filter->SetShadows(blocker != nullptr);
+  filter->SetRefractiveIndex(index);
+  filter->SetEnvironment(environment);
+  for (vtkLight* light : lights)
+  {
+    filter->AddLight(light);
+  }
+  filter->Update();
+  auto* scene = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  return AverageOverTexels(vtkPolyData::SafeDownCast(scene->GetBlock(0)), "TransmittedIrradiance",
+    size);
+}
+
 } // namespace ScatteringScene
 
 #endif

@@ -215,8 +215,8 @@ bool TestCase(vtkOpenGLLinkOperator* device, const Case& setting)
     TestProduct(device, setting, 1) && TestProduct(device, setting, 2);
 }
 
-/// Rows in one or two bytes a link, with some links that stay as they are.
-bool TestCodes(vtkOpenGLLinkOperator* device, vtkExchangeHierarchy* hierarchy, int bands,
+/// `textures` hold the links.
+bool TestRows(vtkOpenGLLinkOperator* device, vtkExchangeHierarchy* hierarchy, int bands,
   int textures, const std::string& what, int maximumTextureSize = 0)
 {
   device->SetMaximumTextureSize(maximumTextureSize);
@@ -251,33 +251,58 @@ bool TestCompression(vtkOpenGLLinkOperator* device)
     const std::string what = ", coded, kernels: " + std::to_string(kernels);
     const auto adaptive = scene.MakeAdaptive(0.8);
     adaptive->CompressRows(0.0);
-    good = TestCodes(device, adaptive, kernels, 1, "adaptive" + what) && good;
+    good = TestRows(device, adaptive, kernels, 1, "adaptive" + what) && good;
     const auto kept = scene.MakeAdaptive(0.8);
     kept->CompressRows(0.01);
-    good = TestCodes(device, kept, kernels, 2, "adaptive, some kept" + what) && good;
+    good = TestRows(device, kept, kernels, 2, "adaptive, some kept" + what) && good;
     const auto uniform = scene.MakeUniform(5);
     uniform->CompressRows(0.0);
-    good = TestCodes(device, uniform, kernels, 1, "uniform" + what) && good;
+    good = TestRows(device, uniform, kernels, 1, "uniform" + what) && good;
     const auto all = scene.MakeAdaptive(0.0);
     all->CompressRows(0.0);
-    good = TestCodes(device, all, kernels, 1, "all pairs" + what) && good;
+    good = TestRows(device, all, kernels, 1, "all pairs" + what) && good;
   }
   const ClusterLinks colours(400, 3);
   const auto lights = colours.MakeAdaptive(0.8);
   lights->CompressRows(0.01);
-  good = TestCodes(device, lights, 9, 2, "coded, three lights of three kernels") && good;
+  good = TestRows(device, lights, 9, 2, "coded, three lights of three kernels") && good;
   const ClusterLinks shared(300, 1);
   const auto one = shared.MakeAdaptive(0.8);
   one->CompressRows(0.0);
-  good = TestCodes(device, one, 6, 1, "coded, one kernel for six bands") && good;
+  good = TestRows(device, one, 6, 1, "coded, one kernel for six bands") && good;
   const ClusterLinks large(1500, 2);
   const auto parts = large.MakeUniform(7);
   parts->CompressRows(0.0);
-  good = TestCodes(device, parts, 2, 2, "coded, several textures", 100) && good;
+  good = TestRows(device, parts, 2, 2, "coded, several textures", 100) && good;
   vtkNew<vtkExchangeHierarchy> odd;
   FillHierarchy(odd, { 300, 8, 5000, 3, 0, 1, 3 }, true);
   odd->CompressRows(0.0);
-  return TestCodes(device, odd, 3, 1, "coded, rows of nodes and patches") && good;
+  return TestRows(device, odd, 3, 1, "coded, rows of nodes and patches") && good;
+}
+
+/// What most patches are linked with is constants of the program: alone, beside rows of their own,
+/// with one kernel or many for one light or several, in more rounds than one, in many textures.
+bool TestCommonLinks(vtkOpenGLLinkOperator* device)
+{
+  bool good = true;
+  for (const int kernels : { 1, 2, 3, 4, 5 })
+  {
+    const ClusterLinks scene(600, kernels);
+    const std::string what = ", kernels: " + std::to_string(kernels);
+    good = TestRows(device, scene.MakeUniform(4), kernels, 1, "common links alone" + what) && good;
+    const auto mixed = scene.MakeUniformAround(5);
+    good = TestRows(device, mixed, kernels, 2, "common links and rows" + what) && good;
+    good = TestRows(device, mixed, 6 * kernels, 2, "six lights, common links" + what) && good;
+  }
+  const ClusterLinks shared(300, 1);
+  good = TestRows(device, shared.MakeUniform(1), 3, 1, "too few to fill a texel") && good;
+  good = TestRows(device, shared.MakeUniform(5), 7, 1, "one kernel for seven bands") && good;
+  const ClusterLinks parted(600, 3);
+  good =
+    TestRows(device, parted.MakeUniform(7), 3, 20, "common links in many textures", 64) && good;
+  // Of one round there may be 1,024.
+  const ClusterLinks large(6000, 1);
+  return TestRows(device, large.MakeUniform(11), 3, 2, "2,048 common links") && good;
 }
 
 /// A chain of nodes that each keep one patch: the patches of all levels, one line of texels each.
@@ -473,7 +498,7 @@ bool TestRadiosity()
 //------------------------------------------------------------------------------
 int TestOpenGLHierarchicalLinks(int, char*[])
 {
-  const Case cases[] = { { 1, 1, 0, 1, 0, 0 }, { 1, 1, 3, 1, 0, 1 }, { 5, 5, 20, 3, 0, 1 },
+  const Case cases[] = { { 1, 1, 0, 1, 0, 0 }, { 1, 1, 3, 1, 0, 1 }, { 5, 5, 20, 3, 0, 2 },
     { 5, 1, 20, 3, 0, 1 }, { 300, 300, 1000, 3, 0, 1 }, { 300, 8, 0, 3, 0, 0 },
     { 300, 8, 1000, 1, 0, 1 }, { 300, 8, 1000, 3, 0, 1 }, { 300, 1, 1000, 4, 0, 1 },
     { 300, 8, 1000, 5, 0, 1 }, { 300, 8, 1000, 8, 0, 1 }, { 300, 8, 1000, 32, 0, 1 },
@@ -491,6 +516,7 @@ int TestOpenGLHierarchicalLinks(int, char*[])
   }
   device->SetMaximumTextureSize(0);
   good = TestChain(device) && good;
+  good = TestCommonLinks(device) && good;
   good = TestCompression(device) && good;
   good = TestLongSums(device) && good;
   good = TestBytesRead() && good;

@@ -17,6 +17,7 @@
 #include "Scattering/ScatteringPatches.h"
 #include "Scattering/ScatteringReceiver.h"
 #include "Scattering/ScatteringRefinement.h"
+#include "Scattering/ScatteringRows.h"
 #include "Scene/PatchScene.h"
 #include "Shared/Monitor.h"
 #include "Support/Ranks.h"
@@ -159,14 +160,14 @@ public:
   }
 
   vtkSmartPointer<vtkExchangeHierarchy> Fill(RefinementOnDevice* device,
-    ScatteringRefinement::Summary& summary) const
+    ScatteringRows::Summary& summary) const
   {
     auto rows = vtkSmartPointer<vtkExchangeHierarchy>::New();
     rows->SetTree(this->Patches->Areas, this->Clusters->GetSlots().GetNodes(), 0, 1, 3);
     AirGaps gaps;
     CheckDone(gaps.Build(this->Scene), "gaps");
-    CheckDone(
-      this->Refinement->Fill(this->Profiles, gaps, Ranks(), Monitor(), device, rows, summary),
+    CheckDone(ScatteringRows(*this->Refinement, this->Profiles, gaps)
+                .Fill(Ranks(), Monitor(), device, rows, summary),
       "links");
     return rows;
   }
@@ -290,7 +291,7 @@ void TestLinks(const Case& setting)
   {
     return;
   }
-  ScatteringRefinement::Summary summaries[2];
+  ScatteringRows::Summary summaries[2];
   RefinementOnDevice device(refiner, choice.GetClusters());
   const auto expected = choice.Fill(nullptr, summaries[0]);
   const auto found = choice.Fill(&device, summaries[1]);

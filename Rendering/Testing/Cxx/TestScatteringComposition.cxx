@@ -5,28 +5,25 @@
  * them, or an error says why it cannot.
  */
 #include "LightTransportTesting.h"
+#include "PictureTesting.h"
 #include "ScatteringScene.h"
 #include "vtkRadiosityPass.h"
 
 #include "vtkCameraPass.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDualDepthPeelingPass.h"
-#include "vtkImageProcessingPass.h"
 #include "vtkLightsPass.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLFXAAPass.h"
 #include "vtkPlaneSource.h"
-#include "vtkRenderPassCollection.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkSSAAPass.h"
-#include "vtkSequencePass.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkToneMappingPass.h"
 #include "vtkTranslucentPass.h"
 
 #include <cmath>
-#include <initializer_list>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -34,6 +31,7 @@
 namespace
 {
 using namespace LightTransportTesting;
+using namespace PictureTesting;
 using namespace ScatteringScene;
 
 constexpr int Side = 64;
@@ -54,34 +52,12 @@ struct Picture : Scene
     this->Window->SetSize(Side, Side);
   }
 
-  /// Each red value from 0 to 1, of a part of the window's columns.
   std::vector<double> Draw(double left = 0.0, double right = 1.0)
   {
-    this->Window->Render();
-    const int* size = this->Window->GetSize();
-    const int first = static_cast<int>(left * size[0]);
-    const int end = static_cast<int>(right * size[0]);
-    vtkNew<vtkFloatArray> pixels;
-    this->Window->GetRGBAPixelData(first, 0, end - 1, size[1] - 1, 0, pixels);
-    std::vector<double> values;
-    for (vtkIdType pixel = 0; pixel < pixels->GetNumberOfTuples(); ++pixel)
-    {
-      values.push_back(pixels->GetComponent(pixel, 0));
-    }
-    return values;
+    return PictureTesting::Draw(this->Window, left, right);
   }
 
   double GetMean(double left = 0.0, double right = 1.0) { return Mean(this->Draw(left, right)); }
-
-  static double Mean(const std::vector<double>& values)
-  {
-    double sum = 0.0;
-    for (const double value : values)
-    {
-      sum += value;
-    }
-    return sum / static_cast<double>(values.size());
-  }
 };
 
 /// Of a picture without anything else.
@@ -89,18 +65,6 @@ double GetPlainMean()
 {
   static const double mean = []() { return Picture().GetMean(); }();
   return mean;
-}
-
-vtkSmartPointer<vtkRenderPass> MakeSequence(std::initializer_list<vtkRenderPass*> passes)
-{
-  vtkNew<vtkRenderPassCollection> collection;
-  for (vtkRenderPass* pass : passes)
-  {
-    collection->AddItem(pass);
-  }
-  auto sequence = vtkSmartPointer<vtkSequencePass>::New();
-  sequence->SetPasses(collection);
-  return sequence;
 }
 
 /// The same mean in a window of another size, too, and nothing is computed again.
@@ -132,16 +96,6 @@ void TestSequences()
   camera->SetDelegatePass(MakeSequence({ lights, scene.Pass }));
   scene.Renderer->SetPass(camera);
   CheckMean(scene, GetPlainMean(), "a camera and a sequence around");
-}
-
-void Wrap(vtkSSAAPass* outer, vtkRenderPass* inner)
-{
-  outer->SetDelegatePass(inner);
-}
-
-void Wrap(vtkImageProcessingPass* outer, vtkRenderPass* inner)
-{
-  outer->SetDelegatePass(inner);
 }
 
 /// What such a pass does to the mean of a picture that VTK shades (vtkSSAAPass makes bodies larger
@@ -199,8 +153,7 @@ void TestToneMapping()
         radiance <= 0.0031308 ? 12.92 * radiance : 1.055 * std::pow(radiance, 1.0 / 2.4) - 0.055;
       expected.push_back(std::pow(1.0 - std::exp(-std::pow(encoded, 2.2)), 1.0 / 2.2));
     }
-    CheckClose(scene.GetMean(), Picture::Mean(expected), 0.02,
-      "tone mapping at " + std::to_string(factor));
+    CheckClose(scene.GetMean(), Mean(expected), 0.02, "tone mapping at " + std::to_string(factor));
   }
   tone->ReleaseGraphicsResources(scene.Window);
 }
@@ -257,8 +210,7 @@ void TestPhysicallyBasedShading()
     reflected += std::pow(value, 2.2) / static_cast<double>(encoded.size());
   }
   Check(reflected > 0.001, "physically based shading is black");
-  CheckClose(Picture::Mean(together), GetPlainMean() + 6.0 * reflected, 0.02,
-    "physically based shading");
+  CheckClose(Mean(together), GetPlainMean() + 6.0 * reflected, 0.02, "physically based shading");
 }
 
 /// Each of two renderers of a window has a pass, and the other one's light is half as bright.

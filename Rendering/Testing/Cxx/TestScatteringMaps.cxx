@@ -7,10 +7,8 @@
  */
 #include "LightTransportTesting.h"
 #include "ScatteringScene.h"
-#include "vtkDirectIrradiance.h"
 
 #include "vtkAppendPolyData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPlaneSource.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkTriangleFilter.h"
@@ -27,78 +25,6 @@ using namespace LightTransportTesting;
 using namespace ScatteringScene;
 
 constexpr int Size = 128;
-
-/// What differs between two maps, and where.
-struct Difference
-{
-  double Relative = 0.0; ///< L2, weighted by area
-  double Outliers = 0.0; ///< part of the area that is off by more than 5 % of the largest
-};
-
-Difference Compare(const std::vector<double>& map, const std::vector<double>& expected)
-{
-  double squares = 0.0;
-  double errors = 0.0;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < map.size(); ++k)
-  {
-    const double area = map[k | 3];
-    if (k % 4 < 3 && area > 0.0)
-    {
-      largest = std::max(largest, expected[k]);
-      squares += area * expected[k] * expected[k];
-      errors += area * std::pow(map[k] / area - expected[k], 2);
-    }
-  }
-  double off = 0.0;
-  double whole = 0.0;
-  for (std::size_t k = 0; k < map.size(); k += 4)
-  {
-    const double area = map[k + 3];
-    whole += area;
-    off += area > 0.0 && std::abs(map[k] / area - expected[k]) > 0.05 * largest ? area : 0.0;
-  }
-  return { std::sqrt(errors / squares), off / whole };
-}
-
-/// The means over texels of what vtkDirectIrradiance gives the triangles of a ball that has two for
-/// each texel; `blocker` casts a shadow on it.
-std::vector<double> GetTransmitted(vtkPolyData* ball, vtkPolyData* blocker,
-  const std::vector<vtkLight*>& lights, double index, int size)
-{
-  vtkNew<vtkDirectIrradiance> filter;
-  vtkNew<vtkMultiBlockDataSet> scene;
-  scene->SetBlock(0, ball);
-  if (blocker)
-  {
-    scene->SetBlock(1, blocker);
-  }
-  filter->SetInputDataObject(scene);
-  filter->SetShadows(blocker != nullptr);
-  filter->SetRefractiveIndex(index);
-  for (vtkLight* light : lights)
-  {
-    filter->AddLight(light);
-  }
-  filter->Update();
-  auto* lit = vtkPolyData::SafeDownCast(
-    vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0))->GetBlock(0));
-  vtkDataArray* values = lit->GetCellData()->GetArray("TransmittedIrradiance");
-  std::vector<double> map(static_cast<std::size_t>(4) * size * size, 0.0);
-  for (vtkIdType pair = 0; pair < lit->GetNumberOfCells() / 2; ++pair)
-  {
-    const double areas[2] = { GetArea(lit, 2 * pair), GetArea(lit, 2 * pair + 1) };
-    const vtkIdType texel = GetTexel(pair, size);
-    for (int k = 0; k < 3; ++k)
-    {
-      map[static_cast<std::size_t>(4 * texel + k)] =
-        (areas[0] * values->GetComponent(2 * pair, k) +
-          areas[1] * values->GetComponent(2 * pair + 1, k)) /
-        (areas[0] + areas[1]);
-    }
-  }
-  return map;
-}
 
 void CheckLight(Scene& scene, vtkPolyData* blocker, double tolerance, double outliers,
   const std::string& what)

@@ -756,8 +756,34 @@ inline double Integrate(vtkDataArray* values, vtkDataArray* areas)
 }
 
 //------------------------------------------------------------------------------
+inline vtkSmartPointer<vtkImageData> ToTexels(const Surface& surface, int resolution)
+{
+  vtkNew<vtkSurfaceToAtlas> filter;
+  filter->SetInputData(surface);
+  filter->SetResolution(resolution);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+//------------------------------------------------------------------------------
+/// On the deepest level without leaks, each texel still has values of one chart, by cells' "Color".
+inline void CheckDeepestLevel(const Atlas& atlas, const Surface& surface, Checker& check)
+{
+  const auto level = static_cast<int>(meshTest::GetSummary(atlas.Output, "DeepestLeakFreeLevel"));
+  vtkSmartPointer<vtkImageData> coarse = ToTexels(surface, atlas.Resolution >> level);
+  vtkDataArray* charts = coarse->GetPointData()->GetArray("ChartId");
+  vtkDataArray* colors = coarse->GetPointData()->GetArray("Color");
+  vtkIdType mixed = charts && colors ? 0 : 1;
+  for (vtkIdType i = 0; charts && colors && i < coarse->GetNumberOfPoints(); ++i)
+  {
+    mixed += charts->GetTuple1(i) >= 0.0 && colors->GetTuple1(i) != charts->GetTuple1(i);
+  }
+  check.Equal(static_cast<double>(mixed), 0, 0, "texels of the deepest level that mix charts");
+}
+
+//------------------------------------------------------------------------------
 /// The integral of a random array is the same on the surface and in texels, both ways; a constant
-/// stays. On the deepest level without leaks, each texel still has values of one chart.
+/// stays.
 inline void CheckTransfer(const Atlas& atlas, Checker& check)
 {
   auto surface = Surface::New();
@@ -777,14 +803,6 @@ inline void CheckTransfer(const Atlas& atlas, Checker& check)
   }
   surface->GetCellData()->AddArray(constant);
   surface->GetCellData()->AddArray(color);
-  const auto toTexels = [&surface](int resolution)
-  {
-    vtkNew<vtkSurfaceToAtlas> filter;
-    filter->SetInputData(surface);
-    filter->SetResolution(resolution);
-    filter->Update();
-    return vtkSmartPointer<vtkImageData>(filter->GetOutput());
-  };
   const auto differs = [](vtkDataArray* values, double expected, vtkDataArray* where)
   {
     vtkIdType count = values ? 0 : 1;
@@ -796,7 +814,7 @@ inline void CheckTransfer(const Atlas& atlas, Checker& check)
   };
 
   const double area = atlas.Nodes[0].SurfaceArea;
-  vtkSmartPointer<vtkImageData> image = toTexels(0);
+  vtkSmartPointer<vtkImageData> image = ToTexels(surface, 0);
   vtkPointData* texels = image->GetPointData();
   check.True(image->GetDimensions()[0] == atlas.Resolution, "texels for the whole resolution");
   vtkDataArray* texelAreas = texels->GetArray("Area");
@@ -833,17 +851,7 @@ inline void CheckTransfer(const Atlas& atlas, Checker& check)
   }
   check.Equal(Integrate(points->GetArray("Random"), pointAreas) / area, mean, 1e-11,
     "mean of texels in points");
-
-  const auto level = static_cast<int>(meshTest::GetSummary(atlas.Output, "DeepestLeakFreeLevel"));
-  vtkSmartPointer<vtkImageData> coarse = toTexels(atlas.Resolution >> level);
-  vtkDataArray* charts = coarse->GetPointData()->GetArray("ChartId");
-  vtkDataArray* colors = coarse->GetPointData()->GetArray("Color");
-  vtkIdType mixed = charts && colors ? 0 : 1;
-  for (vtkIdType i = 0; charts && colors && i < coarse->GetNumberOfPoints(); ++i)
-  {
-    mixed += charts->GetTuple1(i) >= 0.0 && colors->GetTuple1(i) != charts->GetTuple1(i);
-  }
-  check.Equal(static_cast<double>(mixed), 0, 0, "texels of the deepest level that mix charts");
+  CheckDeepestLevel(atlas, surface, check);
 }
 
 //------------------------------------------------------------------------------

@@ -192,14 +192,14 @@ void CheckBijection(meshTest::Checker& check, const Disc& disc, const std::vecto
 
 //------------------------------------------------------------------------------
 // Only inner edges are halved, in the middle, and triangles know what they are a part of.
-void CheckHalving(meshTest::Checker& check, const Disc& disc, const Disc& halved,
+void CheckHalving(meshTest::Checker& check, const Disc& given, const Disc& halved,
   const std::string& name)
 {
-  const std::size_t size = disc.Points.size();
+  const std::size_t size = given.Points.size();
   check.True(halved.Points.size() == size + halved.HalvedEdges.size() &&
       halved.Sources.size() == halved.Triangles.size() &&
-      halved.Triangles.size() == disc.Triangles.size() + 2 * halved.HalvedEdges.size() &&
-      std::equal(disc.Points.begin(), disc.Points.end(), halved.Points.begin()),
+      halved.Triangles.size() == given.Triangles.size() + 2 * halved.HalvedEdges.size() &&
+      std::equal(given.Points.begin(), given.Points.end(), halved.Points.begin()),
     name + ": points or triangles are not those of halved edges");
   for (std::size_t i = 0; i < halved.HalvedEdges.size(); ++i)
   {
@@ -210,20 +210,20 @@ void CheckHalving(meshTest::Checker& check, const Disc& disc, const Disc& halved
         0.5 * (halved.Points[edge[0]][k] + halved.Points[edge[1]][k]), 0.0, name + ": a middle");
     }
   }
-  std::vector<double> areas(disc.Triangles.size(), 0.0);
+  std::vector<double> areas(given.Triangles.size(), 0.0);
   for (std::size_t i = 0; i < halved.Triangles.size(); ++i)
   {
     areas[halved.Sources[i]] += GetArea(halved, i);
   }
   for (std::size_t i = 0; i < areas.size(); ++i)
   {
-    const double area = GetArea(disc, i);
+    const double area = GetArea(given, i);
     check.Equal(areas[i], area, 1e-9 * area, name + ": area of the parts of a triangle");
   }
   std::set<Edge> borders[2];
   for (int k = 0; k < 2; ++k)
   {
-    const auto owners = GetEdgeOwners(k == 0 ? disc : halved);
+    const auto owners = GetEdgeOwners(k == 0 ? given : halved);
     for (const auto& owner : owners)
     {
       if (owners.count(Edge(owner.first.second, owner.first.first)) == 0)

@@ -15,7 +15,6 @@
 
 namespace
 {
-using atlasTest::Limits;
 using atlasTest::Surface;
 using meshTest::Checker;
 using meshTest::Vector;

@@ -11,6 +11,7 @@
  */
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiositySolution.h"
+#include "Radiosity/ShotPatches.h"
 #include "Radiosity/SolverEntry.h"
 #include "Radiosity/SolverSettings.h"
 #include "Scene/PatchScene.h"
@@ -31,30 +32,6 @@ namespace
 constexpr double SinglePrecision = 1e-7;
 // Shots between two reports.
 constexpr vtkIdType ShotsPerReport = 16;
-
-//------------------------------------------------------------------------------
-vtkDeviceShooter::Patches DescribePatches(const PatchScene& scene)
-{
-  vtkDeviceShooter::Patches patches;
-  for (const PatchScene::Vector& point : scene.GetPoints())
-  {
-    patches.Points.insert(patches.Points.end(), point.data(), point.data() + 3);
-  }
-  patches.Offsets.push_back(0);
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
-  {
-    const vtkIdType* corners = scene.GetCorners(patch);
-    const PatchScene::Vector& normal = scene.GetNormal(patch);
-    patches.Corners.insert(patches.Corners.end(), corners,
-      corners + scene.GetNumberOfCorners(patch));
-    patches.Offsets.push_back(static_cast<vtkIdType>(patches.Corners.size()));
-    patches.Normals.insert(patches.Normals.end(), normal.data(), normal.data() + 3);
-    patches.Roundings.push_back(scene.GetPlane(patch).Rounding);
-    patches.Slopes.push_back(scene.GetPlane(patch).Slope);
-  }
-  patches.Areas = scene.GetAreas();
-  return patches;
-}
 
 //------------------------------------------------------------------------------
 // Largest magnitudes of each band.

@@ -47,12 +47,29 @@ public:
   /// Links of all patches with the same clusters, as many nodes of one level as there are.
   vtkSmartPointer<vtkExchangeHierarchy> MakeUniform(int level) const
   {
-    std::vector<int> nodes;
-    for (int node = (1 << level) - 1; node < (2 << level) - 1; ++node)
-    {
-      nodes.push_back(node);
-    }
-    return this->Make(0, 1, [&](int, std::vector<int>& columns) { columns = nodes; });
+    return this->Make(0, 1,
+      [&](int, std::vector<int>& columns)
+      {
+        for (int node = (1 << level) - 1; node < (2 << level) - 1; ++node)
+        {
+          columns.push_back(node);
+        }
+      });
+  }
+
+  /// Likewise, but for the cluster that holds the receiver: it is divided down to patches.
+  vtkSmartPointer<vtkExchangeHierarchy> MakeUniformAround(int level) const
+  {
+    return this->Make(0, 1,
+      [&](int patch, std::vector<int>& columns)
+      {
+        for (int node = (1 << level) - 1; node < (2 << level) - 1; ++node)
+        {
+          const Range range = this->Ranges[node];
+          const bool holds = range.First <= patch && patch < range.Last;
+          holds ? this->Collect(node, patch, 0.0, columns) : columns.push_back(node);
+        }
+      });
   }
 
   int GetNumberOfPatches() const { return static_cast<int>(this->Areas.size()); }

@@ -573,7 +573,8 @@ void TestClosedScene()
   factors->SetClusterTreeToAtlas();
   factors->Update();
   ViewFactorStore store;
-  CheckDone(store.Update(Build(scene), { 0.0, false, true, 3e-2 }, {}, Ranks(), Monitor()),
+  CheckDone(store.Update(Build(scene), { 0.0, false, LinkMethod::Hierarchical, 3e-2 }, {}, Ranks(),
+              Monitor()),
     "links");
   for (const double sum : store.GetLinks().RowSums)
   {
@@ -648,8 +649,8 @@ void TestErrors()
 
   // A tree without blocks of 256 patches is none for a matrix.
   const PatchScene ordered = Build(MakeScene());
-  const Outcome refused =
-    ViewFactorStore().Update(ordered, { 1e-3, false, false, 1e-2 }, {}, Ranks(), Monitor());
+  const Outcome refused = ViewFactorStore().Update(ordered,
+    { 1e-3, false, LinkMethod::Dense, 1e-2 }, {}, Ranks(), Monitor());
   Check(refused.HasFailed() && refused.GetMessage().find("Hierarchical") != std::string::npos,
     "a matrix in the order of an atlas");
 }

@@ -153,10 +153,10 @@ void TestGivenFactors()
   vtkNew<vtkViewFactors> factors;
   factors->SetTolerance(1e-2);
   const auto give = [&](vtkRadiosity* filter) { filter->SetViewFactors(factors); };
-  CheckMessage(Solve(scene, Hierarchical, give), "switch Hierarchical of vtkViewFactors on");
+  CheckMessage(Solve(scene, Hierarchical, give), "LinkMethod of vtkViewFactors to Hierarchical");
   Check(Solve(scene, Auto, give).GetLinkMethod() == "Dense", "a given matrix decides");
   factors->HierarchicalOn();
-  CheckMessage(Solve(scene, Dense, give), "switch Hierarchical of vtkViewFactors off");
+  CheckMessage(Solve(scene, Dense, give), "LinkMethod of vtkViewFactors to Dense");
   Check(Solve(scene, Auto, give).GetLinkMethod() == "Hierarchical", "given links decide");
   CheckMessage(Solve(scene, Auto,
                  [&](vtkRadiosity* filter)

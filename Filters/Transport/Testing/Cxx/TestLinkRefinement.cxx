@@ -124,7 +124,8 @@ vtkSmartPointer<vtkViewFactors> MakeFactors(double linkTolerance, bool closed = 
 //------------------------------------------------------------------------------
 ViewFactorSettings MakeSettings(double linkTolerance, bool closed = false)
 {
-  return { MatrixTolerance, closed, linkTolerance > 0.0, linkTolerance };
+  return { MatrixTolerance, closed,
+    linkTolerance > 0.0 ? LinkMethod::Hierarchical : LinkMethod::Dense, linkTolerance };
 }
 
 //------------------------------------------------------------------------------

@@ -297,7 +297,7 @@ void TestDeviations()
 //------------------------------------------------------------------------------
 ViewFactorSettings MakeSettings(bool hierarchical)
 {
-  return { 1e-2, false, hierarchical, 1e-2 };
+  return { 1e-2, false, hierarchical ? LinkMethod::Hierarchical : LinkMethod::Dense, 1e-2 };
 }
 
 //------------------------------------------------------------------------------

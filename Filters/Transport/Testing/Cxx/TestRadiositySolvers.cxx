@@ -62,8 +62,8 @@ public:
   Case(vtkPolyData* data, bool closed)
   {
     CheckDone(this->Scene.Build(data, Ranks()), "scene");
-    CheckDone(
-      this->Factors.Update(this->Scene, { 1e-9, closed, false, 0.0 }, {}, Ranks(), Monitor()),
+    CheckDone(this->Factors.Update(this->Scene, { 1e-9, closed, LinkMethod::Dense, 0.0 }, {},
+                Ranks(), Monitor()),
       "view factors");
     this->Exchange = this->Factors.GetLinks().Matrix;
     const vtkIdType patches = this->Exchange->GetNumberOfPatches();

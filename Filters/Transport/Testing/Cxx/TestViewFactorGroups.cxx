@@ -61,7 +61,7 @@ struct Problem
 Links ComputeLinks(const PatchScene& scene)
 {
   ViewFactorStore store;
-  CheckDone(store.Update(scene, { 1e-8, false, false, 0.0 }, {}, Ranks(), Monitor()),
+  CheckDone(store.Update(scene, { 1e-8, false, LinkMethod::Dense, 0.0 }, {}, Ranks(), Monitor()),
     "view factors");
   Links result;
   result.Matrix = store.GetLinks().Matrix;

@@ -3,10 +3,11 @@
 """The report of radiosity: ways to link patches, and solvers."""
 
 from vtklighttransport.commands.report.values import Count, Tolerance, Tolerances
+from vtklighttransport.filters import find_choices
 from vtklighttransport.shell.enclosure import ARRAYS, ENCLOSURE
 from vtklighttransport.shell.properties import (
-    DEVICE, add_arrays, add_properties, check_properties, choose_arrays, find_choices, find_class,
-    make_filter)
+    DEVICE, add_arrays, add_properties, check_properties, choose_arrays, find_class,
+    give_values, make_filter)
 
 TITLE = "radiosity"
 CLASS = "vtkRadiosity"
@@ -57,6 +58,6 @@ def make_enclosure(options):
     return radiosity
 
 
-def light(_options, _messages, surface, _subject):
+def light(options, _messages, surface, _subject):
     """Scenes have their own light."""
-    return surface
+    return give_values(options, ARRAYS, surface)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef FeedbackBuffer_h
-#define FeedbackBuffer_h
+#ifndef VectorBuffer_h
+#define VectorBuffer_h
 
 #include "Shared/Outcome.h"
 #include "vtkType.h"
@@ -11,21 +11,22 @@
 namespace LightTransport
 {
 /// A buffer of OpenGL with records of as many vectors of four floats, which shaders write by
-/// transform feedback and read as attributes. In one context, which is current in all calls.
-class FeedbackBuffer
+/// transform feedback and read as attributes, or read as constants after a copy of texels. In one
+/// context, which is current in all calls.
+class VectorBuffer
 {
 public:
   static constexpr int FloatsPerVector = 4;
 
-  explicit FeedbackBuffer(int vectorsPerRecord) : Vectors(vectorsPerRecord) {}
-  FeedbackBuffer(const FeedbackBuffer&) = delete;
-  void operator=(const FeedbackBuffer&) = delete;
+  explicit VectorBuffer(int vectorsPerRecord) : Vectors(vectorsPerRecord) {}
+  VectorBuffer(const VectorBuffer&) = delete;
+  void operator=(const VectorBuffer&) = delete;
 
   /// Before the context goes.
   void Release();
 
   /// Exchange what two of the same records hold.
-  void Swap(FeedbackBuffer& other);
+  void Swap(VectorBuffer& other);
 
   /// Room for so many records; the first `kept` stay, others are undefined.
   Outcome Reserve(vtkIdType records, vtkIdType kept);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refinement/FeedbackBuffer.h"
+#include "Textures/VectorBuffer.h"
 
 #include "Context/OpenGLFunctions.h"
 #include "Device/DeviceErrors.h"
@@ -11,7 +11,7 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
-void FeedbackBuffer::Release()
+void VectorBuffer::Release()
 {
   if (this->Handle != 0)
   {
@@ -22,20 +22,20 @@ void FeedbackBuffer::Release()
 }
 
 //------------------------------------------------------------------------------
-void FeedbackBuffer::Swap(FeedbackBuffer& other)
+void VectorBuffer::Swap(VectorBuffer& other)
 {
   std::swap(this->Handle, other.Handle);
   std::swap(this->Capacity, other.Capacity);
 }
 
 //------------------------------------------------------------------------------
-vtkIdType FeedbackBuffer::GetBytesPerRecord() const
+vtkIdType VectorBuffer::GetBytesPerRecord() const
 {
   return static_cast<vtkIdType>(sizeof(float)) * FloatsPerVector * this->Vectors;
 }
 
 //------------------------------------------------------------------------------
-Outcome FeedbackBuffer::Reserve(vtkIdType records, vtkIdType kept)
+Outcome VectorBuffer::Reserve(vtkIdType records, vtkIdType kept)
 {
   if (records <= this->Capacity)
   {
@@ -66,7 +66,7 @@ Outcome FeedbackBuffer::Reserve(vtkIdType records, vtkIdType kept)
 }
 
 //------------------------------------------------------------------------------
-Outcome FeedbackBuffer::Upload(const std::vector<float>& values)
+Outcome VectorBuffer::Upload(const std::vector<float>& values)
 {
   const auto records = static_cast<vtkIdType>(values.size()) / (this->Vectors * FloatsPerVector);
   Outcome reserved = this->Reserve(records, 0);
@@ -80,7 +80,7 @@ Outcome FeedbackBuffer::Upload(const std::vector<float>& values)
 }
 
 //------------------------------------------------------------------------------
-void FeedbackBuffer::Download(vtkIdType records, std::vector<float>& values) const
+void VectorBuffer::Download(vtkIdType records, std::vector<float>& values) const
 {
   values.resize(static_cast<std::size_t>(records * this->Vectors * FloatsPerVector));
   if (records > 0)

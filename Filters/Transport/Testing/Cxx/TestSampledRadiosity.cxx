@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkRadiosity with links from rays: the accuracy that it is asked for, and what it says of its own
+// errors, against the matrix of all pairs.
+#include "RadiosityTesting.h"
+
+#include <functional>
+
+using namespace LightTransportTesting;
+
+namespace
+{
+using Settings = std::function<void(vtkRadiosity*)>;
+
+//------------------------------------------------------------------------------
+/// A run of a filter of its own, on the CPU.
+struct Solved
+{
+  std::string Messages;
+  vtkNew<vtkRadiosity> Filter;
+
+  Solved(
+    vtkPolyData* data, int linkMethod, const Settings& settings = [](vtkRadiosity*) {})
+  {
+    vtkNew<MessageLog> observer;
+    this->Filter->AddObserver(vtkCommand::ErrorEvent, observer);
+    this->Filter->AddObserver(vtkCommand::WarningEvent, observer);
+    this->Filter->SetInputData(data);
+    this->Filter->SetDeviceToCPU();
+    this->Filter->SetTolerance(1e-8);
+    this->Filter->SetLinkMethod(linkMethod);
+    this->Filter->SetViewFactorTolerance(1e-4);
+    settings(this->Filter);
+    this->Filter->Update();
+    this->Messages = observer->GetAllButVerdict();
+    this->Filter->RemoveAllObservers();
+  }
+
+  Vector Get(const char* name) const
+  {
+    vtkDataArray* array = this->Filter->GetPolyDataOutput()->GetCellData()->GetArray(name);
+    Check(array != nullptr, std::string(name) + " is there: " + this->Messages);
+    return array ? ToVector(GetValues(array)) : Vector();
+  }
+  double GetNumber(const char* name) const
+  {
+    return GetSummary(this->Filter->GetPolyDataOutput(), name);
+  }
+};
+
+constexpr int Dense = vtkRadiosity::LINK_METHOD_DENSE;
+constexpr int Sampled = vtkRadiosity::LINK_METHOD_SAMPLED;
+
+//------------------------------------------------------------------------------
+/// A room with a box in it, lit by a small lamp; open at the top or not.
+vtkSmartPointer<vtkPolyData> MakeScene(double reflectance, bool open = false)
+{
+  Surface room;
+  AddBox(room, { 0, 0, 0 }, { 4, 3, 2.5 }, 0.5, true);
+  AddBox(room, { 1.0, 1.0, 0.4 }, { 2.5, 2.0, 0.9 }, 0.4, false);
+  auto data = room.Get();
+  const vtkIdType lamp = data->GetNumberOfCells();
+  room.AddPolygon({ { 2, 1.5, 2.2 }, { 2, 1.6, 2.2 }, { 2.1, 1.6, 2.2 }, { 2.1, 1.5, 2.2 } });
+  data = room.Get();
+  if (open)
+  {
+    // The ceiling comes second of the pairs of walls of the last axis.
+    Surface floor;
+    AddBox(floor, { 1.0, 1.0, 0.1 }, { 2.5, 2.0, 0.9 }, 0.4, false);
+    floor.AddGrid({ 0, 0, 0 }, { 4, 0, 0 }, { 0, 3, 0 }, 8, 6);
+    data = floor.Get();
+  }
+  AddArray(data, "Reflectance", { reflectance });
+  AddArray(data, "Emission", { 0.0 })->SetValue(open ? 3 : lamp, 1.0);
+  return data;
+}
+
+//------------------------------------------------------------------------------
+/// sqrt(sum A (B - R)^2 / sum A (R - E)^2)
+double Compare(vtkPolyData* data, const Vector& found, const Vector& right)
+{
+  const Vector areas = ToVector(GetAreas(data));
+  const Vector emission = ToVector(GetValues(data->GetCellData()->GetArray("Emission")));
+  return std::sqrt(
+    areas.dot((found - right).cwiseAbs2()) / areas.dot((right - emission).cwiseAbs2()));
+}
+
+//------------------------------------------------------------------------------
+/// The accuracy is reached, and it is true.
+void TestAccuracy()
+{
+  for (const bool open : { false, true })
+  {
+    auto scene = MakeScene(0.7, open);
+    const Vector right = Solved(scene, Dense).Get("Radiosity");
+    for (const double accuracy : { 1e-1, 1e-2 })
+    {
+      const Solved run(scene, Sampled,
+        [&](vtkRadiosity* filter) { filter->SetAccuracy(accuracy); });
+      const double error = Compare(scene, run.Get("Radiosity"), right);
+      const double reached = run.GetNumber("AccuracyReached");
+      const std::string what = (open ? "open, " : "room, ") + std::to_string(accuracy) + ": said " +
+        std::to_string(reached) + ", is " + std::to_string(error);
+      Check(reached > 0.0 && reached <= accuracy, what);
+      Check(error < 2.0 * reached && error > 0.3 * reached, what);
+      Check(GetText(run.Filter->GetPolyDataOutput(), "LinkMethodUsed") == "Sampled", "method");
+      Check(run.GetNumber("ExactRows") >= 1.0 && run.GetNumber("RaysPerPatch") >= 64.0,
+        "the lamp's row is exact");
+      Check(run.Messages.empty(), "no messages: " + run.Messages);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Nine of ten patches are within two of their standard errors.
+void TestErrors()
+{
+  auto scene = MakeScene(0.7);
+  const Vector right = Solved(scene, Dense).Get("Irradiance");
+  const Solved run(scene, Sampled,
+    [](vtkRadiosity* filter)
+    {
+      filter->SetAccuracy(2e-2);
+      filter->ComputeErrorsOn();
+    });
+  const Vector found = run.Get("Irradiance");
+  const Vector errors = run.Get("IrradianceError");
+  Check(run.Get("RadiosityError").size() == errors.size() &&
+      run.Get("NetFluxError").size() == errors.size(),
+    "errors of each patch");
+  int one = 0, two = 0;
+  for (Eigen::Index patch = 0; patch < errors.size(); ++patch)
+  {
+    const double off = std::abs(found[patch] - right[patch]);
+    one += off <= errors[patch] ? 1 : 0;
+    two += off <= 2.0 * errors[patch] ? 1 : 0;
+  }
+  const double patches = static_cast<double>(errors.size());
+  Check(one > 0.5 * patches && one < 0.85 * patches,
+    "within one: " + std::to_string(one / patches));
+  Check(two > 0.85 * patches, "within two: " + std::to_string(two / patches));
+  const Solved dense(scene, Dense, [](vtkRadiosity* filter) { filter->ComputeErrorsOn(); });
+  Check(dense.Messages.find("Only sampled links know standard errors") != std::string::npos,
+    "a matrix has none: " + dense.Messages);
+}
+
+//------------------------------------------------------------------------------
+/// The links are there for all solvers, and for one that was given them.
+void TestSolvers()
+{
+  auto scene = MakeScene(0.5);
+  const auto ask = [](vtkRadiosity* filter) { filter->SetLinkTolerance(0.1); };
+  const Vector expected = Solved(scene, Sampled, ask).Get("Radiosity");
+  for (const int solver : GetSolvers())
+  {
+    if (solver == vtkRadiosity::SOLVER_GAUSS_SEIDEL)
+    {
+      continue; // needs a matrix
+    }
+    const Solved run(scene, Sampled,
+      [&](vtkRadiosity* filter)
+      {
+        ask(filter);
+        filter->SetSolver(solver);
+      });
+    Check((run.Get("Radiosity") - expected).cwiseAbs().maxCoeff() < 1e-7,
+      "solver " + std::to_string(solver) + " with sampled links: " + run.Messages);
+  }
+  vtkNew<vtkViewFactors> factors;
+  factors->SetLinkMethodToSampled();
+  factors->SetLinkTolerance(0.1);
+  const Solved given(scene, vtkRadiosity::LINK_METHOD_AUTO,
+    [&](vtkRadiosity* filter) { filter->SetViewFactors(factors); });
+  Check((given.Get("Radiosity") - expected).cwiseAbs().maxCoeff() < 1e-7, "given links");
+  Check(given.GetNumber("AccuracyReached") > 0.0, "errors of given links");
+}
+
+//------------------------------------------------------------------------------
+/// Nothing reflects; all of it does, and light leaves by openings; even light; no light.
+void TestExtremes()
+{
+  auto black = MakeScene(0.0);
+  const Solved dark(black, Sampled);
+  Check(dark.Get("Radiosity") == ToVector(GetValues(black->GetCellData()->GetArray("Emission"))),
+    "black patches send what they emit");
+  Check(dark.GetNumber("AccuracyReached") <= 1e-2, "the accuracy of H");
+
+  auto white = MakeScene(1.0, true);
+  const Solved bright(white, Sampled);
+  const Vector areas = ToVector(GetAreas(white));
+  const Vector radiosity = bright.Get("Radiosity");
+  const Vector emission = ToVector(GetValues(white->GetCellData()->GetArray("Emission")));
+  CheckClose(areas.dot(bright.Get("NetFlux")), areas.dot(emission), 1e-9,
+    "what is emitted leaves patches that reflect all");
+  Check(radiosity.minCoeff() >= 0.0, "no light below 0");
+
+  auto even = MakeRoom(4);
+  AddArray(even, "Reflectance", { 0.5 });
+  AddArray(even, "Emission", { 1.0 });
+  const Solved furnace(even, Sampled);
+  CheckClose((furnace.Get("Radiosity").array() - 2.0).abs().maxCoeff(), 0.0, 1e-7,
+    "even light in a closed room");
+  CheckClose(furnace.GetNumber("RaysPerPatch"), 64.0, 0.0, "needs few rays");
+
+  AddArray(even, "Emission", { 0.0 });
+  const Solved none(even, Sampled);
+  Check(none.Get("Radiosity").cwiseAbs().maxCoeff() == 0.0, "no light: " + none.Messages);
+}
+
+//------------------------------------------------------------------------------
+/// Light of the sky alone.
+void TestSky()
+{
+  auto scene = MakeScene(0.6, true);
+  AddArray(scene, "Emission", { 0.0 });
+  const auto sky = [](vtkRadiosity* filter) { filter->SetBackgroundRadiance(1.0); };
+  const Vector right = Solved(scene, Dense, sky).Get("Radiosity");
+  const Solved run(scene, Sampled, sky);
+  const double error = Compare(scene, run.Get("Radiosity"), right);
+  const double reached = run.GetNumber("AccuracyReached");
+  Check(reached <= 1e-2 && error < 2.0 * reached && error > 0.3 * reached,
+    "sky: said " + std::to_string(reached) + ", is " + std::to_string(error));
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+int TestSampledRadiosity(int, char*[])
+{
+  TestAccuracy();
+  TestErrors();
+  TestSolvers();
+  TestExtremes();
+  TestSky();
+  return Result();
+}

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * How often rays of the patches of this rank have met which other patches, the sky and back faces,
+ * and the links that follow: of two patches with areas A and N rays each
+ * G_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), the mean of what both directions say by their
+ * densities of rays. Pairs that are known exactly (BrightRows) are taken from there.
+ */
+#ifndef RayCounts_h
+#define RayCounts_h
+
+#include "Shared/Outcome.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkExchangeHierarchy;
+
+namespace LightTransport
+{
+class BrightRows;
+class PatchScene;
+class Ranks;
+class RayHits;
+struct Links;
+
+class RayCounts
+{
+public:
+  explicit RayCounts(const PatchScene& scene) : Scene(scene) {}
+
+  /// Count the first rays of each patch, `links.RaysPerPatch` of them; what becomes of openings
+  /// goes to `links`. Collective.
+  void Count(const RayHits& hits, const Ranks& ranks, Links& links);
+
+  /// What this rank's rays, and what it has of exact rows, add to the rows of a hierarchy over the
+  /// scene's tree, whose patches have these weights; without weights exact links are 0, and weights
+  /// are areas. Fails where there is no memory. Collective.
+  Outcome Store(const BrightRows& exact, const std::vector<double>& weights, const Ranks& ranks,
+    vtkExchangeHierarchy* hierarchy) const;
+
+private:
+  /// Rows of patches met, and how often.
+  struct Rows
+  {
+    std::vector<std::int64_t> Offsets;
+    std::vector<int> Columns; ///< ascending in each row
+    std::vector<int> Counts;
+
+    std::int64_t GetSize() const { return static_cast<std::int64_t>(this->Columns.size()); }
+    Rows Transpose() const;
+  };
+  struct Counter;
+  struct Merger;
+
+  const PatchScene& Scene;
+  int RaysPerPatch = 0;
+  Rows Met;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * How wrong sampled links are, from eight groups of their rays: what the links of each group alone,
+ * closed like those of all, would change of the irradiance. Errors of patches are not independent
+ * (what one patch sends all others receive), so groups are kept apart until the equation has been
+ * solved for each of them; the spread over the groups is then the error.
+ *
+ * The groups are parts of one sequence, which is evener than each of them: their spread says more
+ * than the error is. GetDeviation takes that into account, by what was measured.
+ */
+#ifndef RayErrors_h
+#define RayErrors_h
+
+#include "Shared/Outcome.h"
+
+#include <vector>
+
+namespace LightTransport
+{
+class PatchScene;
+class Ranks;
+class RayHits;
+struct Links;
+
+class RayErrors
+{
+public:
+  static constexpr int Groups = 8;
+
+  /// The hits that the links come from. All must outlive this.
+  RayErrors(const PatchScene& scene, const RayHits& hits, const Links& links, const Ranks& ranks);
+
+  /**
+   * For a radiosity (patches x bands), and the irradiance that enters through openings where there
+   * is nothing else (one per band; empty: none): the differences of the irradiance, patches x
+   * groups x bands. Collective.
+   */
+  Outcome FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
+    const std::vector<double>& background, std::vector<double>& differences) const;
+
+  /// Standard errors, patches x bands, from differences like those above: the variance of a patch
+  /// is the mean of its own and that of its neighbours in the tree that face alike, so that some
+  /// thirty differences tell it.
+  std::vector<double> GetDeviations(const std::vector<double>& differences) const;
+
+private:
+  struct Sums;
+
+  Outcome Close(const std::vector<double>& radiosity, int numberOfBands, const Sums& sums,
+    std::vector<double>& changes, std::vector<double>& received) const;
+
+  const PatchScene& Scene;
+  const RayHits& Hits;
+  const Links& AllLinks;
+  const Ranks& AllRanks;
+};
+} // namespace LightTransport
+
+#endif

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFactors/SampledViewFactors.h"
+
+#include "Links/Links.h"
+#include "Scene/PatchScene.h"
+#include "Support/Ranks.h"
+#include "ViewFactors/RayCounts.h"
+#include "ViewFactors/RaySamples.h"
+#include "ViewFactors/ViewFactorClosure.h"
+#include "vtkTimerLog.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace LightTransport
+{
+namespace
+{
+// The stages as fractions of the progress.
+constexpr double RaysDone = 0.6; // where there are exact rows
+constexpr double RowsDone = 0.95;
+// What rounding leaves of closed rows.
+constexpr double Rounding = 1e-12;
+// What is left of a row beside what is exact is at least this much.
+constexpr double SmallestRest = 1e-6;
+// Rays of which a tolerance is the error of the irradiance: (share / tolerance)^power.
+constexpr double ErrorOfOneRay = 0.5;
+constexpr double RayPower = 1.6;
+
+//------------------------------------------------------------------------------
+// What is left of each row beside its exact part; nothing of rows that are exact.
+std::vector<double> FindTargets(const BrightRows& exact)
+{
+  std::vector<double> targets = exact.GetSums();
+  for (std::size_t row = 0; row < targets.size(); ++row)
+  {
+    targets[row] =
+      exact.Has(static_cast<vtkIdType>(row)) ? 0.0 : std::max(1.0 - targets[row], SmallestRest);
+  }
+  return targets;
+}
+
+//------------------------------------------------------------------------------
+// What exact rows miss is what is open in them, if rays have met any opening.
+void SetOpenings(const BrightRows& exact, Links& links)
+{
+  for (std::size_t row = 0; row < links.SkyFractions.size(); ++row)
+  {
+    double& sky = links.SkyFractions[row];
+    double& back = links.BackFaceFractions[row];
+    const double met = sky + back;
+    if (exact.Has(static_cast<vtkIdType>(row)) && met > 0.0)
+    {
+      const double scale = std::max(0.0, 1.0 - exact.GetSums()[row]) / met;
+      sky *= scale;
+      back *= scale;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// What cannot be closed is light that nobody knows the way of: it leaves.
+void SendRestToSky(Links& links)
+{
+  double rest = 0.0;
+  for (std::size_t row = 0; row < links.RowSums.size(); ++row)
+  {
+    const double left =
+      1.0 - links.RowSums[row] - links.SkyFractions[row] - links.BackFaceFractions[row];
+    if (left > Rounding)
+    {
+      links.SkyFractions[row] += left;
+      rest = std::max(rest, left);
+    }
+  }
+  links.Summaries.emplace_back("ClosureRest", rest);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+SampledViewFactors::SampledViewFactors(SamplingPlan plan, std::shared_ptr<RaySamples> samples)
+  : Plan(std::move(plan)), Samples(std::move(samples))
+{
+}
+
+//------------------------------------------------------------------------------
+int SampledViewFactors::GetRaysFor(double tolerance)
+{
+  const double rays = std::pow(ErrorOfOneRay / tolerance, RayPower);
+  int count = RayHits::FewestRays;
+  while (count < rays && count < RayHits::MostRays)
+  {
+    count *= 2;
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+LinkKey SampledViewFactors::GetKey() const
+{
+  LinkKey key{ "SampledViewFactors",
+    { static_cast<double>(this->Plan.RaysPerPatch), this->Plan.Tolerance }, {} };
+  for (std::size_t patch = 0; patch < this->Plan.Bright.size(); ++patch)
+  {
+    if (this->Plan.Bright[patch])
+    {
+      key.Parameters.push_back(static_cast<double>(patch));
+    }
+  }
+  return key;
+}
+
+//------------------------------------------------------------------------------
+// Exact links are no part of what is scaled: first the others are, to what is left of each row,
+// then all together by what rounding and the errors of exact rows leave.
+Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, Links& links) const
+{
+  const BrightRows& exact = this->Samples->Exact;
+  if (!exact.IsEmpty())
+  {
+    ViewFactorClosure::Report report;
+    Outcome scaled = ViewFactorClosure::Scale(links, FindTargets(exact), ranks, report);
+    const std::vector<double> weights = links.Hierarchy->GetWeights();
+    scaled = scaled ? counts.Store(exact, weights, ranks, links.Hierarchy) : scaled;
+    scaled = scaled ? links.SumRows(ranks) : scaled;
+    if (!scaled)
+    {
+      return scaled;
+    }
+    SetOpenings(exact, links);
+  }
+  Outcome closed = ViewFactorClosure::ScaleHierarchy(links, ranks);
+  if (closed)
+  {
+    SendRestToSky(links);
+  }
+  return closed;
+}
+
+//------------------------------------------------------------------------------
+Outcome SampledViewFactors::Build(const PatchScene& scene, const Ranks& ranks,
+  const Monitor& monitor, Links& links) const
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
+  const bool hasBright =
+    std::find(this->Plan.Bright.begin(), this->Plan.Bright.end(), true) != this->Plan.Bright.end();
+  Outcome outcome = this->Samples->Hits.CastTo(this->Plan.RaysPerPatch, scene, ranks,
+    monitor.GetStage(0.0, hasBright ? RaysDone : RowsDone));
+  BrightRows& exact = this->Samples->Exact;
+  if (outcome)
+  {
+    outcome = exact.Fill(scene, hasBright ? this->Plan.Bright : std::vector<bool>(),
+      this->Plan.Tolerance, ranks, monitor.GetStage(RaysDone, RowsDone));
+  }
+  if (!outcome)
+  {
+    return outcome;
+  }
+  links.RaysPerPatch = this->Plan.RaysPerPatch;
+  links.ExactPatches = hasBright ? this->Plan.Bright : std::vector<bool>();
+  RayCounts counts(scene);
+  counts.Count(this->Samples->Hits, ranks, links);
+  links.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
+  outcome = counts.Store(exact, {}, ranks, links.Hierarchy);
+  outcome = outcome ? links.SumRows(ranks) : outcome;
+  if (!outcome)
+  {
+    return outcome;
+  }
+  links.RawRowSums = links.RowSums;
+  if (hasBright)
+  {
+    std::transform(links.RawRowSums.begin(), links.RawRowSums.end(), exact.GetSums().begin(),
+      links.RawRowSums.begin(), std::plus<double>());
+  }
+  // What rays that meet nothing else tell of an opening is all that rows are not sure of.
+  links.RowErrors = links.OpeningErrors;
+  outcome = this->Close(counts, ranks, links);
+  std::vector<double> sizes{ static_cast<double>(links.Hierarchy->GetNumberOfLinks()),
+    links.Hierarchy->GetNumberOfBytes() };
+  ranks.Sum(sizes);
+  const double rays = this->Plan.RaysPerPatch;
+  links.Summaries.insert(links.Summaries.begin(),
+    { { "RaysPerPatch", rays },
+      { "RaysCast", static_cast<double>(scene.GetNumberOfPatches()) * rays },
+      { "ExactRows",
+        static_cast<double>(std::count(this->Plan.Bright.begin(), this->Plan.Bright.end(), true)) },
+      { "NumberOfLinks", sizes[0] }, { "MatrixBytes", sizes[1] },
+      { "DenseMatrixBytes",
+        vtkExchangeMatrix::GetEstimatedBytes(scene.GetNumberOfPatches(), 1) } });
+  links.Summaries.emplace_back("ViewFactorSeconds", vtkTimerLog::GetUniversalTime() - begin);
+  return outcome ? monitor.Check(1.0) : outcome;
+}
+} // namespace LightTransport

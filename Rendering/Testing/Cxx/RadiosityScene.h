@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Actors in a window whose pass solves their radiosity, for tests of that.
+#ifndef RadiosityScene_h
+#define RadiosityScene_h
+
+#include "vtkOffScreenOpenGLRenderWindow.h"
+#include "vtkRadiosity.h"
+#include "vtkRadiosityPass.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkLight.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+
+namespace RadiosityScene
+{
+/// More than any solution of these tests takes.
+constexpr double Whole = 1e6;
+constexpr int Side = 64;
+
+inline vtkSmartPointer<vtkActor> MakeActor(vtkPolyData* surface)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
+/// `count` x `count` quadrilaterals on a square of side 2 around the origin, with its front towards
+/// +z.
+inline vtkSmartPointer<vtkPolyData> MakeSquare(int count)
+{
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(-1.0, -1.0, 0.0);
+  source->SetPoint1(1.0, -1.0, 0.0);
+  source->SetPoint2(-1.0, 1.0, 0.0);
+  source->SetResolution(count, count);
+  source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  source->Update();
+  return source->GetOutput();
+}
+
+/// A corner: a white floor and a red wall, by their properties, under a light, and a small lamp
+/// above, by its ambient color.
+struct Scene
+{
+  vtkNew<vtkOffScreenOpenGLRenderWindow> Window;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkLight> Light;
+  vtkSmartPointer<vtkActor> Floor = MakeActor(MakeSquare(6));
+  vtkSmartPointer<vtkActor> Wall = MakeActor(MakeSquare(6));
+  vtkSmartPointer<vtkActor> Lamp = MakeActor(MakeSquare(1));
+  vtkNew<vtkRadiosity> Radiosity;
+  vtkNew<vtkRadiosityPass> Pass;
+
+  Scene()
+  {
+    this->Floor->GetProperty()->SetDiffuseColor(0.8, 0.8, 0.7);
+    this->Wall->GetProperty()->SetDiffuseColor(0.9, 0.1, 0.1);
+    this->Wall->GetProperty()->SetDiffuse(0.75);
+    this->Wall->SetPosition(-1.0, 0.0, 1.0);
+    this->Wall->RotateY(90.0);
+    this->Lamp->SetScale(0.2);
+    this->Lamp->SetPosition(0.3, 0.0, 1.5);
+    this->Lamp->RotateX(180.0);
+    this->Lamp->GetProperty()->SetAmbient(1.0);
+    this->Lamp->GetProperty()->SetDiffuse(0.0);
+    for (vtkActor* actor : { this->Floor.Get(), this->Wall.Get(), this->Lamp.Get() })
+    {
+      this->Renderer->AddActor(actor);
+    }
+    this->Light->SetLightTypeToSceneLight();
+    this->Light->SetPosition(3.0, 1.0, 4.0);
+    this->Light->SetFocalPoint(0.0, 0.0, 0.0);
+    this->Light->SetIntensity(0.5);
+    this->Renderer->AddLight(this->Light);
+    vtkCamera* camera = this->Renderer->GetActiveCamera();
+    camera->SetPosition(4.0, -4.0, 4.0);
+    camera->SetFocalPoint(-0.3, 0.0, 0.6);
+    camera->SetViewUp(0.0, 0.0, 1.0);
+    camera->ParallelProjectionOn();
+    camera->SetParallelScale(2.0);
+    this->Renderer->ResetCameraClippingRange();
+    this->Window->SetMultiSamples(0);
+    this->Window->SetSize(Side, Side);
+    this->Window->AddRenderer(this->Renderer);
+    this->Pass->SetRadiosity(this->Radiosity);
+    this->Pass->SetFrameBudget(Whole);
+    this->Pass->SetOutputEncodingToLinear();
+    this->Pass->SetExposure(1.5);
+    this->Renderer->SetPass(this->Pass);
+  }
+  ~Scene() { this->Pass->ReleaseGraphicsResources(this->Window); }
+  Scene(const Scene&) = delete;
+  void operator=(const Scene&) = delete;
+
+  void ShootInstead()
+  {
+    this->Radiosity->SetSolverToSouthwell();
+    this->Radiosity->SetDeviceToOpenGL();
+    this->Radiosity->SetTolerance(1e-3);
+  }
+};
+} // namespace RadiosityScene
+
+#endif
