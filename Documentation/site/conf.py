@@ -45,8 +45,8 @@ CLASSES = {
 START = ["paraview", "python", "shell", "cpp", "gallery"]
 GUIDE = ["install", "arrays", "patches", "sheets", "view-factors", "many-patches", "heat",
          "scattering", "models", "opengl", "openexr", "report", "demonstration"]
-DESIGN = ["scene", "links", "view-factors", "clusters", "radiosity", "scattering", "meshing",
-          "opengl", "build"]
+DESIGN = ["scene", "links", "sampled-links", "view-factors", "clusters", "radiosity",
+          "scattering", "meshing", "opengl", "build"]
 # What the side bar holds: captions and pages below a page.
 CONTENTS = {
     "README": (
