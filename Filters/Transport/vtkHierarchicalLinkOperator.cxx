@@ -236,14 +236,14 @@ void GatherBands(Pass pass, int lights)
 }
 
 //------------------------------------------------------------------------------
-void GatherAll(const vtkExchangeHierarchy& hierarchy, int bands, const double* sent,
-  double* received)
+void GatherAll(const vtkExchangeHierarchy& hierarchy, int bands, const std::vector<double>& sent,
+  std::vector<double>& received)
 {
   const int kernels = hierarchy.GetNumberOfKernels();
   const int each = kernels > 1 ? kernels : bands;
   for (int first = 0; first < each; first += MaximumBands)
   {
-    const Pass pass{ hierarchy, bands, first, sent + first, received + first };
+    const Pass pass{ hierarchy, bands, first, sent.data() + first, received.data() + first };
     switch (std::min(each - first, MaximumBands))
     {
       case 1:
@@ -360,7 +360,7 @@ void vtkHierarchicalLinkOperator::MultiplyPart(const Vector& x, Vector& y)
   const int bands = this->NumberOfBands;
   this->SweepUp(x);
   this->Received.resize(this->Sent.size());
-  GatherAll(*this->Hierarchy, bands, this->Sent.data(), this->Received.data());
+  GatherAll(*this->Hierarchy, bands, this->Sent, this->Received);
   this->SweepDown(bands);
   const std::vector<double>& weights = this->Hierarchy->GetWeights();
   const double* patches =

@@ -29,9 +29,10 @@ constexpr std::size_t PartOfRows = 4;
 // Rows that are exact, at most, and patches of which they are a part at least.
 constexpr std::size_t MostRows = 4096;
 constexpr std::size_t PatchesPerRow = 4;
-// The tolerance of exact rows relative to the accuracy (errors of many pairs average out), and its
-// range.
+// The tolerance of exact rows relative to the accuracy, where errors of many pairs average out: in
+// a scene of as many patches or more. And its range.
 constexpr double RowTolerance = 10.0;
+constexpr double ManyPatches = 4000.0;
 constexpr double LeastTolerance = 1e-6;
 constexpr double MostTolerance = 0.1;
 
@@ -133,7 +134,9 @@ SamplingPlan SamplingPlan::Improve(const Trial& trial, double accuracy) const
     {
       better.Bright[order[k]] = true;
     }
-    better.Tolerance = std::min(std::max(RowTolerance * accuracy, LeastTolerance), MostTolerance);
+    const double averaged =
+      RowTolerance * std::min(1.0, std::sqrt(static_cast<double>(patches) / ManyPatches));
+    better.Tolerance = std::min(std::max(averaged * accuracy, LeastTolerance), MostTolerance);
   }
   if (better == *this && this->RaysPerPatch < RayHits::MostRays)
   {
