@@ -7,7 +7,8 @@
 
 Methods are auto, dense, hierarchical and sampled (LinkMethod; what a build lacks is left out), each
 at the tolerances of its table, and rays (plain Embree, PlainRays.h), view3d and pyviewfactor,
-which run where they are installed: View3D as a program on the path, pyviewfactor for small scenes.
+which run where they are installed: View3D as a program on the path, pyviewfactor 1.1 in the Python
+that --peer-python names (it wants another VTK than Debian's); both in small scenes.
 Lights are "lamp" (a small one), "even" (all patches send alike), "sky" (all that comes in through
 openings) and "sun" (what a low sun makes a crater reflect).
 
@@ -26,6 +27,7 @@ import pathlib
 import resource
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -54,9 +56,21 @@ TOLERANCES = {"dense": "ViewFactorTolerance", "hierarchical": "LinkTolerance", "
               "sampled": "Accuracy"}
 # Beyond these the dense matrix is not tried, nor other programs.
 DENSE_PATCHES = 10500
-PEER_PATCHES = 700
+PEER_PATCHES = 2800
 REFERENCE_RAYS = 65536
 SOLVER_TOLERANCE = 1e-6
+
+# In a process of its own, which may have another VTK. Compilation is start-up.
+PYVIEWFACTOR = """
+import sys, time, numpy, pyvista, pyviewfactor
+mesh = pyvista.read(sys.argv[1])
+compute = pyviewfactor.compute_viewfactor_matrix
+compute(mesh.extract_cells(range(4)).extract_surface(), obstacles=[mesh.triangulate()])
+begin = time.process_time()
+factors = compute(mesh, obstacles=[mesh.triangulate()])
+print(time.process_time() - begin)
+numpy.save(sys.argv[2], factors.T)
+"""
 
 Row = collections.namedtuple("Row", "seconds megabytes radiosity said")
 
@@ -146,7 +160,7 @@ def solve(scene, light, factors):
 
 def run_view3d(scene, light, setting):
     program = shutil.which("View3D") or shutil.which("view3d")
-    if not program or len(scene.areas) > 4 * PEER_PATCHES:
+    if not program or len(scene.areas) > PEER_PATCHES:
         return None
     with tempfile.TemporaryDirectory() as folder:
         given, found = os.path.join(folder, "in.vs3"), os.path.join(folder, "out.txt")
@@ -173,25 +187,18 @@ def run_view3d(scene, light, setting):
     return Row(seconds, 4e-6 * size ** 2, solve(scene, light, factors), "")
 
 
-def run_pyviewfactor(scene, light):
-    try:
-        import pyviewfactor
-        import pyvista
-    except ImportError:
-        return None
+def run_pyviewfactor(scene, light, options):
     if len(scene.areas) > PEER_PATCHES:
         return None
-    mesh = pyvista.wrap(scene.data)
-    cells = [mesh.extract_cells(k).extract_surface() for k in range(len(scene.areas))]
-    factors = np.zeros((len(cells), len(cells)))
-    begin = time.process_time()
-    for i, first in enumerate(cells):
-        for j, second in enumerate(cells[:i]):
-            if pyviewfactor.get_visibility(first, second)[0] and \
-                    pyviewfactor.get_obstruction(first, second, mesh)[0]:
-                factors[i, j] = pyviewfactor.compute_viewfactor(second, first)
-                factors[j, i] = factors[i, j] * scene.areas[i] / scene.areas[j]
-    return Row(time.process_time() - begin, 8e-6 * factors.size, solve(scene, light, factors), "")
+    with tempfile.TemporaryDirectory() as folder:
+        found = os.path.join(folder, "factors.npy")
+        done = subprocess.run([options.peer_python, "-c", PYVIEWFACTOR, scene.path, found],
+                              check=False, capture_output=True, text=True)
+        if done.returncode != 0:
+            return None
+        factors = np.load(found)
+    return Row(float(done.stdout.split()[-1]), 8e-6 * factors.size,
+               solve(scene, light, factors), "")
 
 
 def run(scene, light, method, setting, options):
@@ -203,7 +210,7 @@ def run(scene, light, method, setting, options):
         return run_rays(scene, light, int(setting), options.seed, options)
     if method == "view3d":
         return run_view3d(scene, light, setting)
-    return run_pyviewfactor(scene, light)
+    return run_pyviewfactor(scene, light, options)
 
 
 def find_reference(scene, light, options):
@@ -229,6 +236,7 @@ def parse():
     parser.add_argument("--settings", help="in place of those of each method")
     parser.add_argument("--reference", default="1e-4", help="tolerance of the dense reference")
     parser.add_argument("--dense-limit", type=int, default=8500, help="patches of dense references")
+    parser.add_argument("--peer-python", default=sys.executable, help="that has pyviewfactor")
     parser.add_argument("--seed", type=int, default=1, help="of plain rays")
     return parser.parse_args()
 
