@@ -748,6 +748,24 @@ void vtkRadiosity::Run::WriteErrors(const SceneOutput& output) const
   output.AddArray("RadiosityError", this->Errors.Radiosity, bands);
   output.AddArray("IrradianceError", this->Errors.Irradiance, bands);
   output.AddArray("NetFluxError", this->Errors.NetFlux, bands);
+  if (this->Materials.IsThermal())
+  {
+    // How much warmer it is where that much more arrives.
+    std::vector<double> more = this->Irradiance;
+    std::transform(more.begin(), more.end(), this->Errors.Irradiance.begin(), more.begin(),
+      std::plus<double>());
+    vtkIdType impossible = 0;
+    const auto compute = [&](const std::vector<double>& irradiance)
+    {
+      return this->Materials.ComputeTemperatures(this->Scene, irradiance, this->Solution.ErrorBound,
+        impossible);
+    };
+    std::vector<double> errors = compute(more);
+    const std::vector<double> temperatures = compute(this->Irradiance);
+    std::transform(errors.begin(), errors.end(), temperatures.begin(), errors.begin(),
+      std::minus<double>());
+    output.AddFaceArray("SurfaceTemperatureError", errors, 1);
+  }
 }
 
 //------------------------------------------------------------------------------

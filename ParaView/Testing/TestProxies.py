@@ -12,7 +12,7 @@ from paraview import servermanager
 from vtkmodules import vtkRenderingCore
 
 # What cannot be, or need not be, a property of a proxy.
-WITHOUT_PROPERTY = {"Brightness", "Controller", "ViewFactors"}
+WITHOUT_PROPERTY = {"Brightness", "Controller", "Hierarchical", "ViewFactors"}
 INPUTS = {"Environment"}  # ports
 FILTERS = ("vtkPatchMesher", "vtkSurfaceAtlas", "vtkSurfaceToAtlas", "vtkAtlasToSurface",
            "vtkViewFactors", "vtkDirectIrradiance", "vtkRadiosity", "vtkSubsurfaceScattering",

@@ -208,6 +208,38 @@ void TestExtremes()
 }
 
 //------------------------------------------------------------------------------
+/// Temperatures are as well known as what arrives, where they are not given.
+void TestTemperatures()
+{
+  auto room = MakeRoom(4);
+  AddArray(room, "Emissivity", { 0.7 });
+  vtkDoubleArray* temperature = AddArray(room, "Temperature", { 290.0 });
+  vtkDoubleArray* condition = AddArray(room, "BoundaryCondition", { 0.0 });
+  const vtkIdType patches = room->GetNumberOfCells();
+  for (vtkIdType patch = 0; patch < patches / 6; ++patch)
+  {
+    temperature->SetValue(patch, 350.0);
+    condition->SetValue(patches - 1 - patch, 1.0);
+  }
+  const Vector right = Solved(room, Dense).Get("SurfaceTemperature");
+  const Solved run(room, Sampled,
+    [](vtkRadiosity* filter)
+    {
+      filter->SetAccuracy(3e-2);
+      filter->ComputeErrorsOn();
+    });
+  const Vector found = run.Get("SurfaceTemperature");
+  const Vector errors = run.Get("SurfaceTemperatureError");
+  const auto adiabatic = static_cast<Eigen::Index>(patches / 6);
+  Check(errors.head(patches - adiabatic).cwiseAbs().maxCoeff() == 0.0 &&
+      errors.tail(adiabatic).minCoeff() > 0.0,
+    "errors of temperatures that are not given");
+  const double worst =
+    ((found - right).tail(adiabatic).array() / errors.tail(adiabatic).array()).abs().maxCoeff();
+  Check(worst < 4.5, "temperatures within their errors: " + std::to_string(worst));
+}
+
+//------------------------------------------------------------------------------
 /// Light of the sky alone.
 void TestSky()
 {
@@ -230,6 +262,7 @@ int TestSampledRadiosity(int, char*[])
   TestErrors();
   TestSolvers();
   TestExtremes();
+  TestTemperatures();
   TestSky();
   return Result();
 }
