@@ -64,7 +64,7 @@ std::string Describe(vtkActor* actor, vtkRenderer* renderer)
   const int place = actors->IsItemPresent(actor);
   return place > 0 ? "Actor " + std::to_string(place) + " of " +
       std::to_string(actors->GetNumberOfItems()) + " of the renderer: "
-                   : "An actor in an assembly: ";
+                   : "An actor in an assembly, or a block of composite data: ";
 }
 
 //------------------------------------------------------------------------------

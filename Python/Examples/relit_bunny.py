@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A window with a translucent bunny that is relit while it is looked at.
 
-    relit_bunny.py [--map 64] [--patches 3000] [--size 600] [--frames FOLDER]
+    relit_bunny.py [--map 128] [--patches 3000] [--size 600] [--frames FOLDER]
 
 The mouse turns the view. Left, Right, Up and Down move the light; + and - make it brighter and
 darker; sliders change the mean free path of light inside, and the albedo, for which links are made
@@ -48,7 +48,7 @@ class RelitBunny:
         self.scattering.SetMaterial(actor, self.material)
         self.scattering.SetIrradianceMapSize(max(4 * resolution, 128))
         self.scattering.SetScatteredMapSize(resolution)
-        self.scattering.SetExposure(5.0)
+        self.scattering.SetExposure(3.0)
         self.renderer = vtkRenderer()
         self.renderer.AutomaticLightCreationOff()
         self.renderer.AddLight(self.light)
@@ -158,7 +158,7 @@ def play(bunny, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--map", type=int, default=64, help="texels a side of what leaves")
+    parser.add_argument("--map", type=int, default=128, help="texels a side of what leaves")
     parser.add_argument("--patches", type=int, default=3000)
     parser.add_argument("--size", type=int, default=600, help="pixels a side")
     parser.add_argument("--frames", metavar="FOLDER", help="pictures in place of a window")

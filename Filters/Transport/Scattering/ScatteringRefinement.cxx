@@ -39,7 +39,7 @@ constexpr double MostFineLinks = 4096.0;
 constexpr int FineSteps = 6;
 ///@}
 /// The error is that much larger than what a sample misses beside finer links, at most: these have
-/// the same errors of values (the bunny, a plate and the dragon of 10 to 1,000 mean free paths).
+/// the same errors of values (the bunny and a plate of 10 to 1,000 mean free paths).
 constexpr double MarginOfSample = 1.2;
 /// Squared deviation of the profile from its mean over a cluster, as parts of it, that its pieces
 /// tell the mean of, over the tolerance of links.
