@@ -107,9 +107,10 @@ struct vtkOpenGLTransmittedMap::State
   vtkRenderer* Renderer = nullptr;
   vtkPolyData* Surface = nullptr;
   std::uint64_t SurfaceStamp = 0;
-  std::uint64_t ArrayStamp = 0;  ///< of light in arrays
-  std::uint64_t BumpStamp = 0;   ///< 0 without
-  std::uint64_t ShadowStamp = 0; ///< of what casts shadows
+  std::uint64_t ArrayStamp = 0; ///< of light in arrays
+  std::uint64_t BumpStamp = 0;  ///< 0 without
+  bool HasShadows = false;
+  std::uint64_t ShadowStamp = 0; ///< of what casts them
   vtkMTimeType OwnTime = 0;
   vtkMTimeType LightingTime = 0;
   std::array<double, 16> Matrix = {};
@@ -130,8 +131,8 @@ struct vtkOpenGLTransmittedMap::State
     const auto tie = [](const State& state)
     {
       return std::tie(state.Surface, state.SurfaceStamp, state.ArrayStamp, state.BumpStamp,
-        state.ShadowStamp, state.OwnTime, state.LightingTime, state.Matrix, state.Bounds,
-        state.Lights);
+        state.HasShadows, state.ShadowStamp, state.OwnTime, state.LightingTime, state.Matrix,
+        state.Bounds, state.Lights);
     };
     return tie(*this) == tie(other);
   }
@@ -318,7 +319,11 @@ Outcome vtkOpenGLTransmittedMap::Look(vtkActor* actor, vtkRenderer* renderer, St
   actor->ComputeMatrix();
   std::copy_n(actor->GetMatrix()->GetData(), 16, state.Matrix.begin());
   actor->GetBounds(state.Bounds.data());
-  if (this->Shadows)
+  state.HasShadows = this->Shadows &&
+    (lighting->RendererLights ||
+      (lighting->GetEnvironment() &&
+        lighting->EnvironmentMethod == vtkSurfaceLighting::ENVIRONMENT_METHOD_DIRECTIONS));
+  if (state.HasShadows)
   {
     this->Device->Shadow->Find(renderer);
     state.ShadowStamp = this->Device->Shadow->GetStamp();
@@ -339,7 +344,8 @@ Outcome vtkOpenGLTransmittedMap::Refresh(vtkActor* actor, vtkRenderer* renderer)
     return parts.HasFailed ? Outcome::FailedAsReported() : Outcome::Done();
   }
   const bool wasThere = static_cast<bool>(done);
-  done = done ? this->Draw(state) : done;
+  // Also a drawing that runs out of memory is not tried again and again.
+  done = done ? Attempt([&]() { return this->Draw(state); }, WithoutMemory) : done;
   parts.Drawn = state;
   // What cannot even begin is tried again each time, and told once.
   const bool isTold = !wasThere && isSame && parts.HasFailed && parts.Problem == done.GetMessage();
@@ -362,7 +368,7 @@ Outcome vtkOpenGLTransmittedMap::Draw(const State& state)
 {
   Parts& parts = *this->Device;
   AtlasTexture& texture = *this->Texture->Texture;
-  if (this->Shadows)
+  if (state.HasShadows)
   {
     parts.Shadow->Open(texture.GetEngine().GetWindow());
   }
@@ -392,7 +398,7 @@ Outcome vtkOpenGLTransmittedMap::Draw(const State& state)
       return allocated;
     }
   }
-  if (this->Shadows && !parts.Shadow->SetSize(this->ShadowMapSize))
+  if (state.HasShadows && !parts.Shadow->SetSize(this->ShadowMapSize))
   {
     return Outcome::Failed("A shadow map of " + std::to_string(this->ShadowMapSize) +
       " texels a side does not fit into " + texture.GetEngine().GetDeviceName() +
@@ -563,7 +569,7 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state, const Sum& sum)
   {
     setup.Bumps = parts.Bumps.Activate(state.Actor, state.Renderer);
   }
-  LightDrawing drawing(*parts.Drawing, this->Shadows ? parts.Shadow.get() : nullptr,
+  LightDrawing drawing(*parts.Drawing, state.HasShadows ? parts.Shadow.get() : nullptr,
     texture.GetTexels(), setup);
   Outcome drawn = Outcome::Done();
   for (const SceneLight& light : sum.Lights)
@@ -592,7 +598,7 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state, const Sum& sum)
 vtkOpenGLTransmittedMap::Box vtkOpenGLTransmittedMap::GetSceneBounds(const State& state) const
 {
   vtkBoundingBox scene(state.Bounds.data());
-  if (this->Shadows && vtkMath::AreBoundsInitialized(this->Device->Shadow->GetBounds()))
+  if (state.HasShadows && vtkMath::AreBoundsInitialized(this->Device->Shadow->GetBounds()))
   {
     scene.AddBounds(this->Device->Shadow->GetBounds());
   }

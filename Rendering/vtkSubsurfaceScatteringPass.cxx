@@ -4,7 +4,9 @@
 
 #include "Atlas/AtlasTexture.h"
 #include "Maps/AtlasDrawing.h"
+#include "Passes/BlockSurfaces.h"
 #include "Passes/RadianceShader.h"
+#include "Passes/StandIns.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/Fresnel.h"
 #include "vtkLightTransportPassesScatteringFS.h"
@@ -15,6 +17,8 @@
 
 #include "vtkActor.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -23,6 +27,7 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <array>
 
 using namespace LightTransport;
 
@@ -31,6 +36,8 @@ vtkStandardNewMacro(vtkSubsurfaceScatteringPass);
 namespace
 {
 constexpr double LargestIndex = 10.0;
+/// Stand-ins for blocks are where their actor is.
+constexpr std::array<double, 16> Identity = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 
 double GetMeanTransmittanceAt(double index)
 {
@@ -47,10 +54,13 @@ double GetIndex(vtkSubsurfaceScattering* material)
 }
 } // namespace
 
-/// An actor with a material, and its maps.
+/// An actor with a material, or a block of it, and its maps.
 struct vtkSubsurfaceScatteringPass::Body
 {
   vtkWeakPointer<vtkActor> Actor;
+  int Block = 0;
+  vtkWeakPointer<vtkActor>
+    Drawn; ///< the actor, or what stands in for it; nullptr for a hidden block
   vtkNew<vtkOpenGLTransmittedMap> Transmitted;
   vtkNew<vtkOpenGLScatteredMap> Scattered;
   double RefractiveIndex = 1.0;
@@ -70,7 +80,7 @@ struct vtkSubsurfaceScatteringPass::Body
 //------------------------------------------------------------------------------
 vtkSubsurfaceScatteringPass::vtkSubsurfaceScatteringPass()
   : vtkTransportPass(ArrayNames::ScatteredIrradiance),
-    Lighting(vtkSmartPointer<vtkSurfaceLighting>::New())
+    Lighting(vtkSmartPointer<vtkSurfaceLighting>::New()), Blocks(new StandIns)
 {
   this->SetRefractiveIndex(1.3);
 }
@@ -133,41 +143,63 @@ void vtkSubsurfaceScatteringPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Shadows: " << this->Shadows << "\n";
   os << indent << "ShadowMapSize: " << this->ShadowMapSize << "\n";
   os << indent << "ScatteredMapSize: " << this->ScatteredMapSize << "\n";
-  os << indent << "NumberOfMaterials: " << this->Bodies.size() << "\n";
+  os << indent << "NumberOfMaterials: " << this->GetNumberOfMaterials() << "\n";
 }
 
 //------------------------------------------------------------------------------
-vtkSubsurfaceScatteringPass::Body* vtkSubsurfaceScatteringPass::FindBody(vtkProp* actor)
+vtkSubsurfaceScatteringPass::Body* vtkSubsurfaceScatteringPass::FindBody(vtkProp* drawn)
 {
   const auto found = std::find_if(this->Bodies.begin(), this->Bodies.end(),
-    [actor](const std::unique_ptr<Body>& body) { return body->Actor.Get() == actor; });
+    [drawn](const std::unique_ptr<Body>& body) { return body->Drawn.Get() == drawn; });
+  return drawn && found != this->Bodies.end() ? found->get() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkSubsurfaceScatteringPass::Body* vtkSubsurfaceScatteringPass::FindBody(vtkActor* actor, int block)
+{
+  const auto found = std::find_if(this->Bodies.begin(), this->Bodies.end(),
+    [actor, block](const std::unique_ptr<Body>& body)
+    { return body->Actor.Get() == actor && body->Block == block; });
   return actor && found != this->Bodies.end() ? found->get() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkSubsurfaceScatteringPass::Body& vtkSubsurfaceScatteringPass::AddBody(vtkActor* actor, int block,
+  vtkSubsurfaceScattering* material)
+{
+  Body* body = this->FindBody(actor, block);
+  if (!body)
+  {
+    this->Bodies.push_back(std::make_unique<Body>());
+    body = this->Bodies.back().get();
+    body->Actor = actor;
+    body->Block = block;
+    body->Transmitted->ShareShadows(this->Bodies.front()->Transmitted);
+  }
+  body->Scattered->SetMaterial(material);
+  return *body;
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::RemoveBodies(vtkActor* actor, int firstBlock)
+{
+  this->Bodies.erase(std::remove_if(this->Bodies.begin(), this->Bodies.end(),
+                       [actor, firstBlock](const std::unique_ptr<Body>& body)
+                       { return body->Actor.Get() == actor && body->Block >= firstBlock; }),
+    this->Bodies.end());
 }
 
 //------------------------------------------------------------------------------
 void vtkSubsurfaceScatteringPass::SetMaterial(vtkActor* actor, vtkSubsurfaceScattering* material)
 {
-  Body* body = this->FindBody(actor);
-  if (!actor || (material && body && body->Scattered->GetMaterial() == material) ||
-    (!material && !body))
+  if (!actor || this->GetMaterial(actor) == material)
   {
     return;
   }
-  if (!material)
+  this->RemoveBodies(actor, material ? 1 : 0);
+  if (material)
   {
-    this->Bodies.erase(std::find_if(this->Bodies.begin(), this->Bodies.end(),
-      [body](const std::unique_ptr<Body>& other) { return other.get() == body; }));
-  }
-  else
-  {
-    if (!body)
-    {
-      this->Bodies.push_back(std::make_unique<Body>());
-      body = this->Bodies.back().get();
-      body->Actor = actor;
-      body->Transmitted->ShareShadows(this->Bodies.front()->Transmitted);
-    }
-    body->Scattered->SetMaterial(material);
+    this->AddBody(actor, 0, material).Drawn = actor;
   }
   this->MapsModified();
   this->Modified();
@@ -176,21 +208,28 @@ void vtkSubsurfaceScatteringPass::SetMaterial(vtkActor* actor, vtkSubsurfaceScat
 //------------------------------------------------------------------------------
 vtkSubsurfaceScattering* vtkSubsurfaceScatteringPass::GetMaterial(vtkActor* actor)
 {
-  Body* body = this->FindBody(actor);
+  Body* body = this->FindBody(actor, 0);
   return body ? body->Scattered->GetMaterial() : nullptr;
 }
 
 //------------------------------------------------------------------------------
-vtkOpenGLTransmittedMap* vtkSubsurfaceScatteringPass::GetTransmittedMap(vtkActor* actor)
+int vtkSubsurfaceScatteringPass::GetNumberOfMaterials()
 {
-  Body* body = this->FindBody(actor);
+  return static_cast<int>(std::count_if(this->Bodies.begin(), this->Bodies.end(),
+    [](const std::unique_ptr<Body>& body) { return body->Actor && body->Block == 0; }));
+}
+
+//------------------------------------------------------------------------------
+vtkOpenGLTransmittedMap* vtkSubsurfaceScatteringPass::GetTransmittedMap(vtkActor* actor, int block)
+{
+  Body* body = this->FindBody(actor, block);
   return body ? body->Transmitted.Get() : nullptr;
 }
 
 //------------------------------------------------------------------------------
-vtkOpenGLScatteredMap* vtkSubsurfaceScatteringPass::GetScatteredMap(vtkActor* actor)
+vtkOpenGLScatteredMap* vtkSubsurfaceScatteringPass::GetScatteredMap(vtkActor* actor, int block)
 {
-  Body* body = this->FindBody(actor);
+  Body* body = this->FindBody(actor, block);
   return body ? body->Scattered.Get() : nullptr;
 }
 
@@ -231,26 +270,85 @@ vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfScatteringRuns()
 // Those of actors that are drawn in this frame; others wait.
 bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
 {
-  this->Bodies.erase(std::remove_if(this->Bodies.begin(), this->Bodies.end(),
-                       [](const std::unique_ptr<Body>& body) { return !body->Actor; }),
-    this->Bodies.end());
+  this->RemoveBodies(nullptr, 0);
   bool isAnyThere = false;
   for (int index = 0; index < state->GetPropArrayCount(); ++index)
   {
-    Body* body = this->FindBody(state->GetPropArray()[index]);
-    if (!body)
+    auto* actor = vtkActor::SafeDownCast(state->GetPropArray()[index]);
+    if (!this->GetMaterial(actor))
     {
       continue;
     }
     isAnyThere = true;
-    const bool isMapped = this->Update(*body, state->GetRenderer());
-    if (isMapped != body->IsMapped)
+    this->FindDrawn(actor);
+    for (const std::unique_ptr<Body>& body : this->Bodies)
     {
-      body->IsMapped = isMapped;
-      this->MapsModified();
+      const bool isMapped =
+        body->Actor == actor && body->Drawn && this->Update(*body, state->GetRenderer());
+      if (body->Actor == actor && isMapped != body->IsMapped)
+      {
+        body->IsMapped = isMapped;
+        this->MapsModified();
+      }
     }
   }
   return isAnyThere;
+}
+
+//------------------------------------------------------------------------------
+// A body for each block, drawn by an actor that stands in for it.
+void vtkSubsurfaceScatteringPass::FindDrawn(vtkActor* actor)
+{
+  std::vector<BlockSurface> blocks;
+  if (!FindBlockSurfaces(actor->GetMapper(), blocks))
+  {
+    this->RemoveBodies(actor, 1);
+    this->FindBody(actor, 0)->Drawn = actor;
+    return;
+  }
+  this->RemoveBodies(actor, std::max(static_cast<int>(blocks.size()), 1));
+  this->FindBody(actor, 0)->Drawn = nullptr;
+  for (int index = 0; index < static_cast<int>(blocks.size()); ++index)
+  {
+    const BlockSurface& block = blocks[static_cast<std::size_t>(index)];
+    Body& body = this->AddBody(actor, index, this->GetMaterial(actor));
+    vtkActor* standIn = this->Blocks->Get(actor, block.Surface, Identity, index);
+    body.Drawn = block.IsVisible ? standIn : nullptr;
+    if (block.HasOpacity || block.HasColor)
+    {
+      vtkNew<vtkProperty> property;
+      property->DeepCopy(actor->GetProperty());
+      property->SetOpacity(block.HasOpacity ? block.Opacity : property->GetOpacity());
+      if (block.HasColor)
+      {
+        property->SetColor(block.Color[0], block.Color[1], block.Color[2]);
+      }
+      standIn->SetProperty(property);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::ReplaceProps(const vtkRenderState*, std::vector<vtkProp*>& props)
+{
+  std::vector<vtkProp*> drawn;
+  for (vtkProp* prop : props)
+  {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    int block = 0;
+    for (Body* body = this->FindBody(actor, block); body; body = this->FindBody(actor, ++block))
+    {
+      if (body->Drawn)
+      {
+        drawn.push_back(body->Drawn);
+      }
+    }
+    if (block == 0)
+    {
+      drawn.push_back(prop);
+    }
+  }
+  props.swap(drawn);
 }
 
 //------------------------------------------------------------------------------
@@ -269,7 +367,7 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
   body.Transmitted->SetShadowMapSize(this->ShadowMapSize);
   body.Transmitted->SetRefractiveIndex(index);
   body.Scattered->SetResolution(this->ScatteredMapSize);
-  return body.Transmitted->Update(body.Actor, renderer) && body.Scattered->Update(body.Transmitted);
+  return body.Transmitted->Update(body.Drawn, renderer) && body.Scattered->Update(body.Transmitted);
 }
 
 //------------------------------------------------------------------------------
@@ -323,5 +421,6 @@ void vtkSubsurfaceScatteringPass::ReleaseGraphicsResources(vtkWindow* window)
     body->Transmitted->ReleaseGraphicsResources();
     body->Scattered->ReleaseGraphicsResources();
   }
+  this->Blocks->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }

@@ -43,6 +43,11 @@
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
 
+namespace LightTransport
+{
+class StandIns;
+}
+
 class vtkActor;
 class vtkOpenGLScatteredMap;
 class vtkOpenGLTransmittedMap;
@@ -70,14 +75,19 @@ public:
   ///@{
   /**
    * Makes an actor translucent: the scattering of its surface is computed while it is drawn. The
-   * surface is one that vtkSurfaceAtlas made, the mapper a plain vtkPolyDataMapper of its own. The
-   * filter has the coefficients and says which links there are; nothing need be connected to it,
-   * and actors of one material may share it. MillimetersPerUnit is that of the mapper's input: the
-   * actor's matrix moves and turns it. nullptr takes the material away.
+   * surface is one that vtkSurfaceAtlas made, the mapper a vtkPolyDataMapper of its own, or one of
+   * composite data: each block with polygons is then a body of its own, which scatters no light
+   * into others, and is drawn with the property of the actor and what the mapper's attributes say
+   * of it. The filter has the coefficients and says which links there are; nothing need be
+   * connected to it, and actors of one material may share it. MillimetersPerUnit is that of the
+   * mapper's input: the actor's matrix moves and turns it. nullptr takes the material away.
    */
   void SetMaterial(vtkActor* actor, vtkSubsurfaceScattering* material);
   vtkSubsurfaceScattering* GetMaterial(vtkActor* actor);
   ///@}
+
+  /// Actors that have one.
+  int GetNumberOfMaterials();
 
   ///@{
   /**
@@ -118,9 +128,11 @@ public:
 
   ///@{
   /// The maps of an actor that has a material: their textures can be read
-  /// (vtkOpenGLAtlasTexture::ReadImage). nullptr for others. They follow the properties above.
-  vtkOpenGLTransmittedMap* GetTransmittedMap(vtkActor* actor);
-  vtkOpenGLScatteredMap* GetScatteredMap(vtkActor* actor);
+  /// (vtkOpenGLAtlasTexture::ReadImage). nullptr for others. They follow the properties above. Of
+  /// composite data, those of the block of that number among those with polygons, from the first
+  /// frame on.
+  vtkOpenGLTransmittedMap* GetTransmittedMap(vtkActor* actor, int block = 0);
+  vtkOpenGLScatteredMap* GetScatteredMap(vtkActor* actor, int block = 0);
   ///@}
 
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -130,6 +142,7 @@ protected:
   ~vtkSubsurfaceScatteringPass() override;
 
   bool UpdateMaps(const vtkRenderState* state) override;
+  void ReplaceProps(const vtkRenderState* state, std::vector<vtkProp*>& props) override;
   LightTransport::RadianceShader::Source GetSource(vtkProp* prop) override;
   void SetMap(vtkShaderProgram* program, vtkProp* prop,
     LightTransport::RadianceShader::Uniforms& uniforms) override;
@@ -145,11 +158,16 @@ private:
 
   struct Body;
 
-  Body* FindBody(vtkProp* actor);
+  Body* FindBody(vtkProp* drawn);
+  Body* FindBody(vtkActor* actor, int block);
+  Body& AddBody(vtkActor* actor, int block, vtkSubsurfaceScattering* material);
+  void RemoveBodies(vtkActor* actor, int firstBlock);
+  void FindDrawn(vtkActor* actor);
   bool Update(Body& body, vtkRenderer* renderer);
 
   vtkSmartPointer<vtkSurfaceLighting> Lighting;
   std::vector<std::unique_ptr<Body>> Bodies;
+  const std::unique_ptr<LightTransport::StandIns> Blocks;
   Body* Bound = nullptr; ///< whose textures are active
   int IrradianceMapSize = 512;
   int IrradianceSamples = 2;

@@ -189,6 +189,13 @@ struct GatherCodes
 };
 
 //------------------------------------------------------------------------------
+// Where all links join patches nothing goes up or down the tree.
+bool LinksClusters(const vtkExchangeHierarchy& hierarchy)
+{
+  return !hierarchy.IsSymmetric() || hierarchy.GetOffsets()[hierarchy.GetNumberOfNodes()] > 0;
+}
+
+//------------------------------------------------------------------------------
 template <int Count, int Lights>
 void GatherLights(const Pass& pass)
 {
@@ -229,14 +236,14 @@ void GatherBands(Pass pass, int lights)
 }
 
 //------------------------------------------------------------------------------
-void GatherAll(const vtkExchangeHierarchy& hierarchy, int bands, const double* sent,
-  double* received)
+void GatherAll(const vtkExchangeHierarchy& hierarchy, int bands, const std::vector<double>& sent,
+  std::vector<double>& received)
 {
   const int kernels = hierarchy.GetNumberOfKernels();
   const int each = kernels > 1 ? kernels : bands;
   for (int first = 0; first < each; first += MaximumBands)
   {
-    const Pass pass{ hierarchy, bands, first, sent + first, received + first };
+    const Pass pass{ hierarchy, bands, first, sent.data() + first, received.data() + first };
     switch (std::min(each - first, MaximumBands))
     {
       case 1:
@@ -295,6 +302,11 @@ void vtkHierarchicalLinkOperator::SweepUp(const Vector& x)
     }
   };
   Threads::For(0, this->NumberOfPatches, SlotsPerTask, weigh);
+  if (!LinksClusters(*this->Hierarchy))
+  {
+    std::fill(this->Sent.data(), patches, 0.0);
+    return;
+  }
   const auto sumUp = [&](vtkIdType begin, vtkIdType end)
   {
     for (vtkIdType node = begin; node < end; ++node)
@@ -318,6 +330,10 @@ void vtkHierarchicalLinkOperator::SweepUp(const Vector& x)
 //------------------------------------------------------------------------------
 void vtkHierarchicalLinkOperator::SweepDown(int bands)
 {
+  if (!LinksClusters(*this->Hierarchy))
+  {
+    return;
+  }
   const std::vector<vtkExchangeHierarchy::Node>& nodes = this->Hierarchy->GetNodes();
   const auto handDown = [&](vtkIdType begin, vtkIdType end)
   {
@@ -344,7 +360,7 @@ void vtkHierarchicalLinkOperator::MultiplyPart(const Vector& x, Vector& y)
   const int bands = this->NumberOfBands;
   this->SweepUp(x);
   this->Received.resize(this->Sent.size());
-  GatherAll(*this->Hierarchy, bands, this->Sent.data(), this->Received.data());
+  GatherAll(*this->Hierarchy, bands, this->Sent, this->Received);
   this->SweepDown(bands);
   const std::vector<double>& weights = this->Hierarchy->GetWeights();
   const double* patches =

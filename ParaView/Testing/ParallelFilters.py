@@ -23,6 +23,9 @@ scattering = simple.SubsurfaceScattering(
 results = {
     "radiosity": simple.Radiosity(Input=source, Device="CPU", Tolerance=1e-10),
     "scattering": simple.ViewFactors(Input=scattering)}
+if case in ("split", "empty", "ghosts"):
+    results["sampled"] = simple.Radiosity(
+        Input=source, Device="CPU", Tolerance=1e-10, LinkMethod="Sampled", ComputeErrors=1)
 for name, result in results.items():
     result.UpdatePipeline()
     write_surface(os.path.join(folder, name + ".vtp"), simple.servermanager.Fetch(result))

@@ -3,6 +3,7 @@
 """Whole jobs as functions, and as `light_transport` of PyVista's meshes."""
 
 import importlib.util
+import math
 import os
 import pathlib
 import subprocess
@@ -58,6 +59,22 @@ class TestJobs(unittest.TestCase):
         result = lt.radiosity(blocks, temperature={"floor": 600, "": 300}, emissivity=1.0)
         expected = STEFAN_BOLTZMANN * (600.0 ** 4 - 300.0 ** 4)
         self.assertAlmostEqual(get_values(result, "NetFlux")[0] / expected, 1.0, delta=1e-3)
+
+    def test_lists(self):
+        """Properties that are added one by one."""
+        body = make_cube(outside=True)
+        sky = STEFAN_BOLTZMANN * 250.0 ** 4
+        # That a body is seen from outside is what they are about.
+        warnings.simplefilter("ignore", lt.LightTransportWarning)
+        self.addCleanup(warnings.resetwarnings)
+        result = lt.radiosity(body, temperature=350, emissivity=0.6,
+                              background_radiance=sky / math.pi)
+        expected = 0.6 * (STEFAN_BOLTZMANN * 350.0 ** 4 - sky)
+        self.assertAlmostEqual(get_values(result, "NetFlux")[0], expected, delta=1e-9)
+        result = lt.radiosity(body, temperature=350, emissivity=0.6, band_limits=[0, 8, math.inf],
+                              background_radiance=[2 * sky / math.pi, sky / math.pi])
+        self.assertAlmostEqual(get_values(result, "TotalNetFlux")[0], expected - 1.2 * sky,
+                               delta=1e-9)
 
     def test_two_sided(self):
         sheet = make_surface([[(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]])

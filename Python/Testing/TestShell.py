@@ -5,12 +5,15 @@
 import importlib.util
 import json
 import math
+import os
 import unittest
 
 import vtklighttransport as lt
+from vtklighttransport.meshes import READERS, list_regions
 from vtklighttransport.progress import describe_time_left
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 from vtkmodules.vtkCommonCore import vtkFloatArray
+from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkTriangleFilter
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter
 
 from CommandTools import CommandTestCase
@@ -87,6 +90,83 @@ class TestShell(CommandTestCase):
         cube = self.save("cube.vtp", make_surface(make_box((0, 0, 0), (1, 1, 1))))
         result = self.run_command("radiosity", cube, self.path("new.vtp"), "--emission", "floor=1")
         self.check_failure(result, 1, "the mesh has no regions")
+
+    def test_files(self):
+        """What VTK writes is read, and of volumes the surface."""
+        from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+        from vtkmodules.vtkFiltersCore import vtkAppendFilter
+        from vtkmodules.vtkIOLegacy import vtkDataSetWriter
+        from vtkmodules.vtkIOPLY import vtkPLYWriter
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+        cube = make_surface(make_box((0, 0, 0), (1, 1, 1), outside=True))
+        triangles = vtkTriangleFilter()
+        triangles.SetInputData(cube)
+        grid = vtkAppendFilter()
+        grid.AddInputData(cube)
+        grid.Update()
+        self.assertIsInstance(grid.GetOutput(), vtkUnstructuredGrid)
+        for name, writer, source in (("a.vtk", vtkDataSetWriter(), grid),
+                                     ("b.vtk", vtkDataSetWriter(), triangles),
+                                     ("a.ply", vtkPLYWriter(), triangles),
+                                     ("a.vtu", vtkXMLUnstructuredGridWriter(), grid)):
+            writer.SetInputConnection(source.GetOutputPort())
+            writer.SetFileName(self.path(name))
+            if hasattr(writer, "SetDataModeToAscii"):
+                writer.SetDataModeToAscii()
+            writer.Write()
+            self.check_cube(lt.read_mesh(self.path(name)))
+        with open(self.path("a.obj"), "w", encoding="utf-8") as stream:
+            stream.writelines(f"v {cube.GetPoint(k)[0]} {cube.GetPoint(k)[1]} "
+                              f"{cube.GetPoint(k)[2]}\n" for k in range(24))
+            stream.writelines(f"f {4 * k + 1} {4 * k + 2} {4 * k + 3} {4 * k + 4}\n"
+                              for k in range(6))
+        self.check_cube(lt.read_mesh(self.path("a.obj")))
+        self.write_foam(make_box((0, 0, 0), (1, 1, 1), outside=True))
+        surface = lt.read_mesh(self.path("case.foam"))
+        self.check_cube(surface)
+        self.assertEqual(sorted(list_regions(surface).values()), ["floor", "walls"])
+
+    def check_cube(self, surface):
+        properties = vtkMassProperties()
+        triangles = vtkTriangleFilter()
+        triangles.SetInputData(surface)
+        properties.SetInputConnection(triangles.GetOutputPort())
+        properties.Update()
+        self.assertAlmostEqual(properties.GetSurfaceArea(), 6.0, delta=1e-5)
+        self.assertAlmostEqual(properties.GetVolume(), 1.0, delta=1e-5)
+
+    def write_foam(self, box):
+        """A case of OpenFOAM with one cell, whose faces are in two patches."""
+        corners = sorted({tuple(corner) for polygon in box for corner in polygon})
+        faces = [f"4({' '.join(str(corners.index(tuple(corner))) for corner in polygon)})"
+                 for polygon in box]
+        header = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
+        folder = self.path("constant", "polyMesh")
+        os.makedirs(folder)
+        os.makedirs(self.path("system"))
+        patches = ("floor { type wall; nFaces 1; startFace 0; } "
+                   "walls { type wall; nFaces 5; startFace 1; }")
+        for name, kind, rows in (
+                ("points", "vectorField", ["({} {} {})".format(*corner) for corner in corners]),
+                ("faces", "faceList", faces), ("owner", "labelList", ["0"] * 6),
+                ("neighbour", "labelList", []), ("boundary", "polyBoundaryMesh", [patches])):
+            count = 2 if name == "boundary" else len(rows)
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
+                stream.write(header.format(kind, name) + f"{count}\n(\n")
+                stream.write("\n".join(rows) + "\n)\n")
+        with open(self.path("system", "controlDict"), "w", encoding="utf-8") as stream:
+            stream.write(header.format("dictionary", "controlDict")
+                         + "startFrom latestTime;\nstartTime 0;\nendTime 1;\ndeltaT 1;\n"
+                           "writeControl timeStep;\nwriteInterval 1;\n")
+        with open(self.path("case.foam"), "w", encoding="utf-8"):
+            pass
+
+    def test_readers(self):
+        """Each is where it is looked for; a VTK may have been built without some modules."""
+        for extension, (module, name) in READERS.items():
+            if importlib.util.find_spec("vtkmodules." + module):
+                self.assertTrue(hasattr(importlib.import_module("vtkmodules." + module), name),
+                                extension)
 
     def test_blocks(self):
         faces = make_box((0, 0, 0), (1, 1, 1))

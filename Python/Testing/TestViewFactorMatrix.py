@@ -11,6 +11,7 @@ import warnings
 import numpy
 
 import vtklighttransport as lt
+from vtklighttransport.filters import find_choices
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
@@ -149,6 +150,17 @@ class TestViewFactorMatrix(FolderTestCase):
         matrix.factors.data[3] *= -1.0
         self.assertFalse(matrix.check().ok)
         self.assertTrue(matrix.repaired(closed=True).check().closed)
+
+    def test_links(self):
+        """Of every kind a matrix comes out, and its rows sum to 1."""
+        room = make_surface(make_box((0, 0, 0), (1, 1, 1), count=6))
+        exact = numpy.asarray(lt.view_factors(room, tolerance=1e-5))
+        for kind in find_choices(lt.vtkViewFactors, "LINK_METHOD_"):
+            matrix = lt.view_factors(room, link_method=kind)
+            numpy.testing.assert_allclose(matrix.sums + matrix.sky + matrix.back_faces, 1.0,
+                                          atol=1e-3)
+            self.assertLess(abs(matrix.check().reciprocity), 1e-12)
+            self.assertLess(abs(numpy.asarray(matrix) - exact).sum(axis=1).mean(), 0.2, kind)
 
     def test_files(self):
         matrix = lt.view_factors(make_surface(make_box((0, 0, 0), (1, 2, 3))[:5]))

@@ -6,8 +6,8 @@
     result = run_filter(radiosity, surface, progress=True)
 
 A keyword is the name of a property in small letters, `view_factor_tolerance` for
-ViewFactorTolerance. Values of enumerations are their names, "conjugate-gradient", or numbers. Needs
-no numpy.
+ViewFactorTolerance; what is added one by one may be a list, `band_limits=[0, 8, inf]`. Values of
+enumerations are their names, "conjugate-gradient", or numbers. Needs no numpy.
 """
 
 import difflib
@@ -46,7 +46,7 @@ def make_filter(name, **properties):
 
 def set_property(algorithm, keyword, value):
     name = find_property(algorithm, keyword)
-    if not hasattr(algorithm, "Set" + name):
+    if hasattr(algorithm, "Add" + name):
         for number in [value] if isinstance(value, (int, float)) else value:
             getattr(algorithm, "Add" + name)(number)
         return
@@ -67,6 +67,8 @@ def find_property(algorithm, keyword):
         match = re.fullmatch(r"(?:Set|Add)([A-Z]\w*)", name)
         if match and "To" + match[1] not in name and is_own(algorithm, name):
             names[to_keyword(match[1])] = match[1]
+            if name.startswith("Add"):
+                names[to_keyword(match[1]) + "s"] = match[1]
     if keyword not in names:
         near = suggest(keyword, names)
         raise TypeError(f"{type(algorithm).__name__} has no property '{keyword}'"

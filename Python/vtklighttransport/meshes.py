@@ -24,8 +24,8 @@ READERS = {
     ".vtu": ("vtkIOXML", "vtkXMLUnstructuredGridReader"),
     ".vts": ("vtkIOXML", "vtkXMLStructuredGridReader"),
     ".vtm": ("vtkIOXML", "vtkXMLMultiBlockDataReader"),
-    ".pvtp": ("vtkIOParallelXML", "vtkXMLPPolyDataReader"),
-    ".pvtu": ("vtkIOParallelXML", "vtkXMLPUnstructuredGridReader"),
+    ".pvtp": ("vtkIOXML", "vtkXMLPPolyDataReader"),
+    ".pvtu": ("vtkIOXML", "vtkXMLPUnstructuredGridReader"),
     ".vtkhdf": ("vtkIOHDF", "vtkHDFReader"),
     ".glb": ("vtkIOGeometry", "vtkGLTFReader"),
     ".gltf": ("vtkIOGeometry", "vtkGLTFReader"),
@@ -37,7 +37,6 @@ READERS = {
     ".cgns": ("vtkIOCGNSReader", "vtkCGNSReader"),
     ".e": ("vtkIOExodus", "vtkExodusIIReader"),
     ".exo": ("vtkIOExodus", "vtkExodusIIReader"),
-    ".facet": ("vtkIOGeometry", "vtkFacetReader"),
 }
 
 
@@ -105,7 +104,17 @@ def make_reader(file):
         reader.SetFileName(file)
     if name == "vtkSTLReader":
         reader.ScalarTagsOn()
+    if name == "vtkOpenFOAMReader":
+        choose_boundary(reader)
     return reader
+
+
+def choose_boundary(reader):
+    """The boundary, and not the outside of the volume too, which is the same place."""
+    reader.UpdateInformation()
+    for k in range(reader.GetNumberOfPatchArrays()):
+        name = reader.GetPatchArrayName(k)
+        reader.SetPatchArrayStatus(name, int("internalMesh" not in name))
 
 
 def name_solids(file, surface):

@@ -22,10 +22,8 @@ Outcome AtlasDrawing::FindSurface(vtkActor* actor, vtkPolyData*& surface)
   vtkPolyDataMapper* mapper = actor ? FindPlainMapper(actor->GetMapper()) : nullptr;
   if (!mapper)
   {
-    return Outcome::Failed(
-      "An actor with a material needs a vtkPolyDataMapper with a surface that "
-      "vtkSurfaceAtlas made; composite data has one atlas for each block: give "
-      "each an actor.");
+    return Outcome::Failed("An actor with a material needs a vtkPolyDataMapper with a surface that "
+                           "vtkSurfaceAtlas made, or one of composite data with such blocks.");
   }
   mapper->Update();
   surface = mapper->GetInput();

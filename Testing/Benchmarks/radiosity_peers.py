@@ -161,7 +161,9 @@ def run_view3d(scene, light, setting):
                 file.write("S %d %d %d %d %d 0 0 1 s%d\n" % (index + 1, *corners, index + 1))
             file.write("End of data\n")
         begin = find_children_seconds()
-        subprocess.run([program, given, found], check=True, capture_output=True)
+        # It leaves a log where it runs.
+        subprocess.run([os.path.abspath(program), given, found], check=True, cwd=folder,
+                       capture_output=True)
         seconds = find_children_seconds() - begin
         size = len(scene.areas)
         with open(found, encoding="ascii") as file:

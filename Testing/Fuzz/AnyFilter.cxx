@@ -15,6 +15,7 @@
 #include "vtkNew.h"
 #include "vtkPatchMesher.h"
 #include "vtkPointData.h"
+#include "vtkRadianceTransfer.h"
 #include "vtkRadiosity.h"
 #include "vtkSingleScattering.h"
 #include "vtkSubsurfaceScattering.h"
@@ -202,6 +203,17 @@ vtkSmartPointer<vtkAlgorithm> MakeDirectIrradiance(Choices& choices, const Room&
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkAlgorithm> MakeRadianceTransfer(Choices& choices, const Room&)
+{
+  auto transfer = vtkSmartPointer<vtkRadianceTransfer>::New();
+  transfer->SetDegree(choices.Among({ 4, 0, 5, 99 }));
+  transfer->SetSamples(choices.Among({ 64, 1, -1 }));
+  transfer->SetShadows(!choices.Chance(4));
+  transfer->SetRefractiveIndex(Choose(choices, 1.0, 1.5));
+  return transfer;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkAlgorithm> MakeRadiosity(Choices& choices, const Room&)
 {
   auto radiosity = vtkSmartPointer<vtkRadiosity>::New();
@@ -348,7 +360,7 @@ const FilterKind& ChooseFilter(Choices& choices)
     { MakeDirectIrradiance, true, false, nothing },
     { MakeRadiosity, true, false, { false, { "Emission", "Reflectance" } } },
     { MakeSubsurfaceScattering, true, false, { true, { "Irradiance", "TransmittedIrradiance" } } },
-    { MakeSingleScattering, true, false, closed } };
+    { MakeSingleScattering, true, false, closed }, { MakeRadianceTransfer, true, false, nothing } };
   return kinds[choices.Index(static_cast<int>(std::size(kinds)))];
 }
 } // namespace LightTransportFuzz

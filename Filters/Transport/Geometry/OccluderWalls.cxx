@@ -324,6 +324,7 @@ OccluderWalls::OccluderWalls(const PatchScene& scene)
   std::transform(this->WallOf.begin(), this->WallOf.end(), this->WallOf.begin(),
     [&](vtkIdType first) { return numbers[first]; });
   this->FindNodes(scene);
+  this->FindBorders();
 }
 
 //------------------------------------------------------------------------------
@@ -356,15 +357,27 @@ void OccluderWalls::FindNodes(const PatchScene& scene)
 }
 
 //------------------------------------------------------------------------------
+void OccluderWalls::FindBorders()
+{
+  for (vtkIdType wall = 0; wall < this->GetNumberOfPatches(); ++wall)
+  {
+    const int count = this->GetNumberOfCorners(wall);
+    for (int corner = 0; corner < count; ++corner)
+    {
+      const Vector& begin = this->GetCorner(wall, corner);
+      const Vector edge = this->GetCorner(wall, (corner + 1) % count) - begin;
+      this->Inwards.push_back(this->GetNormal(wall).cross(edge).normalized());
+      this->Heights.push_back(this->Inwards.back().dot(begin));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 bool OccluderWalls::IsInside(vtkIdType wall, const Vector& place) const
 {
-  const int count = this->GetNumberOfCorners(wall);
-  const Vector& normal = this->GetNormal(wall);
-  for (int corner = 0; corner < count; ++corner)
+  for (vtkIdType k = this->Offsets[wall]; k < this->Offsets[wall + 1]; ++k)
   {
-    const Vector& begin = this->GetCorner(wall, corner);
-    const Vector edge = this->GetCorner(wall, (corner + 1) % count) - begin;
-    if (normal.cross(edge).dot(place - begin) < -BorderRounding * edge.norm())
+    if (this->Inwards[k].dot(place) < this->Heights[k] - BorderRounding)
     {
       return false;
     }

@@ -43,9 +43,14 @@ private:
 
   bool IsInside(vtkIdType wall, const Vector& place) const;
   void FindNodes(const PatchScene& scene);
+  void FindBorders();
 
   std::vector<vtkIdType> WallOf;
   std::vector<int> Nodes;
+  ///@{ Of the edge behind each corner: the direction inwards, and the height of the edge along it.
+  std::vector<Vector> Inwards;
+  std::vector<double> Heights;
+  ///@}
 };
 } // namespace LightTransport
 

@@ -43,6 +43,9 @@ constexpr double ShareOfValues = 0.3;
 constexpr double ShareOfAreas = 0.1;
 constexpr double ShareOfNeighbours = 0.3 / 40.0;
 ///@}
+/// Of these, where clusters are chosen for one light: errors of links are then near the tolerance
+/// themselves, and those of values come on top.
+constexpr double ShareWhereLit = 1.0 / 3.0;
 /// Pairs of patches that take as long as a link from a cluster, about.
 constexpr double PairsPerLink = 20.0;
 
@@ -211,11 +214,12 @@ Outcome ScatteringLinks::LinkClusters(Task& task) const
   Links& links = task.Result;
   links.Tolerance = this->GetTolerance(false);
   const ScatteringPatches patches(task.Scene, task.Scale);
+  const double ofValues = links.Tolerance * (this->Choice.Light.empty() ? 1.0 : ShareWhereLit);
   const ScatteringIntegrals integrals(task.Profiles, RoundingMargin * task.Scale,
-    ShareOfValues * links.Tolerance);
+    ShareOfValues * ofValues);
   const double reference = integrals.GetLargestShare(patches.TotalArea);
-  const double allowed = links.Tolerance * reference;
-  const ScatteringClusters::Tolerances factors{ ShareOfValues * links.Tolerance,
+  const double allowed = ofValues * reference;
+  const ScatteringClusters::Tolerances factors{ ShareOfValues * ofValues,
     ShareOfAreas * allowed / patches.TotalArea, ShareOfNeighbours * allowed };
   const ScatteringClusters clusters(task.Scene, patches, integrals, factors);
   ScatteringRefinement refinement(clusters, task.Areas, this->Choice.Light, reference,

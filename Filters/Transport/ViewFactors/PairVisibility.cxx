@@ -120,11 +120,15 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     HeightRounding + std::max(scene.GetEdgeRounding(i), scene.GetEdgeRounding(j));
   this->NumberOfPoints = 0;
   this->Walls = &walls;
-  this->SelectOccluders(occluders);
-  this->WalledOff = this->FindHidingWall();
-  if (this->Occluders.empty() || this->WalledOff)
+  this->WalledOff = this->IsHiddenByOne(occluders);
+  if (this->WalledOff)
   {
-    return this->WalledOff;
+    return true;
+  }
+  this->SelectOccluders(occluders);
+  if (this->Occluders.empty())
+  {
+    return false;
   }
   this->AreClose = open > 0.0 && AreCloseTogether(this->Outer, this->Inner);
   this->IsExactReady = false;
@@ -155,20 +159,16 @@ void PairVisibility::SelectOccluders(const std::vector<ShaftCuller::Occluder>& o
 }
 
 //------------------------------------------------------------------------------
-bool PairVisibility::FindHidingWall()
+bool PairVisibility::IsHiddenByOne(const std::vector<ShaftCuller::Occluder>& occluders)
 {
-  if (this->Occluders.empty())
-  {
-    return false;
-  }
   const Polygon* const polygons[2] = { &this->Outer, &this->Inner };
   for (int end = 0; end < 2; ++end)
   {
     const auto first = polygons[end]->Corners.begin();
     this->Ends[end].assign(first, first + polygons[end]->Count);
   }
-  return std::any_of(this->Occluders.begin(), this->Occluders.end(),
-    [this](const Occluder& occluder)
+  return std::any_of(occluders.begin(), occluders.end(),
+    [this](const ShaftCuller::Occluder& occluder)
     { return this->Walls->HidesAll(occluder.Wall, this->Ends[0], this->Ends[1], false); });
 }
 

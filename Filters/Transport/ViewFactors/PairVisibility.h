@@ -79,7 +79,7 @@ private:
   };
 
   void SelectOccluders(const std::vector<ShaftCuller::Occluder>& occluders);
-  bool FindHidingWall();
+  bool IsHiddenByOne(const std::vector<ShaftCuller::Occluder>& occluders);
   void ChooseOuter();
   void SetFrame();
   void AddTarget();

@@ -11,6 +11,7 @@
 #include "Support/Ranks.h"
 #include "ViewFactors/BrightRows.h"
 #include "ViewFactors/RayHits.h"
+#include "vtkSMPThreadLocal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,10 +72,12 @@ struct RayCounts::Counter
   Links& AllLinks;
   vtkIdType NumberOfPatches;
   std::vector<Rows> Turns;
+  vtkSMPThreadLocal<std::vector<int>> Counts; ///< of each patch, 0 between rows
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
-    std::vector<int> counts(this->NumberOfPatches, 0);
+    std::vector<int>& counts = this->Counts.Local();
+    counts.resize(this->NumberOfPatches, 0);
     std::vector<int> met;
     Rows& rows = this->Turns[(begin - this->Hits.GetFirst()) / RowsPerTurn];
     rows.Offsets.push_back(0);
@@ -125,7 +128,7 @@ void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
   }
   const vtkIdType mine = hits.GetLast() - hits.GetFirst();
   Counter counter{ hits, links, patches,
-    std::vector<Rows>((mine + RowsPerTurn - 1) / RowsPerTurn) };
+    std::vector<Rows>((mine + RowsPerTurn - 1) / RowsPerTurn), {} };
   Threads::For(hits.GetFirst(), hits.GetLast(), RowsPerTurn, counter);
   this->Met = Rows();
   this->Met.Offsets.assign(hits.GetFirst() + 1, 0);

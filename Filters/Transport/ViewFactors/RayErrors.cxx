@@ -48,20 +48,18 @@ RayErrors::RayErrors(const PatchScene& scene, const RayHits& hits, const Links& 
 }
 
 //------------------------------------------------------------------------------
-Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
-  const std::vector<double>& background, std::vector<double>& differences) const
+// A group to a thread: none of them writes what another does.
+void RayErrors::SumHits(const std::vector<double>& radiosity, int numberOfBands, Sums& sums) const
 {
   const std::vector<double>& areas = this->Scene.GetAreas();
   const std::vector<double>& weights = this->AllLinks.Hierarchy->GetWeights();
   const std::size_t patches = areas.size();
   const int rays = this->AllLinks.RaysPerPatch;
-  Sums sums;
   for (auto* values : { &sums.Rows, &sums.Sky, &sums.Open })
   {
     values->assign(patches * Groups, 0.0);
   }
   sums.Received.assign(patches * Groups * numberOfBands, 0.0);
-  // A group to a thread: none of them writes what another does.
   const auto count = [&](vtkIdType begin, vtkIdType end)
   {
     for (vtkIdType group = begin; group < end; ++group)
@@ -111,6 +109,16 @@ Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int num
   {
     this->AllRanks.Sum(*values);
   }
+}
+
+//------------------------------------------------------------------------------
+Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
+  const std::vector<double>& background, std::vector<double>& differences) const
+{
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const std::size_t patches = areas.size();
+  Sums sums;
+  this->SumHits(radiosity, numberOfBands, sums);
   std::vector<double> changes, received;
   if (Outcome closed = this->Close(radiosity, numberOfBands, sums, changes, received); !closed)
   {

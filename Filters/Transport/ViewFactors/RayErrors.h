@@ -47,6 +47,7 @@ public:
 private:
   struct Sums;
 
+  void SumHits(const std::vector<double>& radiosity, int numberOfBands, Sums& sums) const;
   Outcome Close(const std::vector<double>& radiosity, int numberOfBands, const Sums& sums,
     std::vector<double>& changes, std::vector<double>& received) const;
 

@@ -17,14 +17,22 @@ namespace
 constexpr double VariancePower = 1.24;
 // What is aimed at, of the accuracy: an error that is estimated comes out larger now and then.
 constexpr double Aim = 0.95;
-// The cost of an exact pair, in rays.
+// The cost of an exact pair, in rays, and what it costs that there are any at all, in rays of each
+// patch.
 constexpr double RaysPerPair = 30.0;
+constexpr double RaysForRows = 150.0;
+// Patches that are nearly as bright as the last that gets an exact row are of the same lamp, which
+// should not be left in part; so many more rows at most, beside a part of their number.
+constexpr double AsBright = 0.5;
+constexpr std::size_t MoreRows = 12;
+constexpr std::size_t PartOfRows = 4;
 // Rows that are exact, at most, and patches of which they are a part at least.
 constexpr std::size_t MostRows = 4096;
 constexpr std::size_t PatchesPerRow = 4;
-// The tolerance of exact rows relative to the accuracy (errors of many pairs average out), and its
-// range.
+// The tolerance of exact rows relative to the accuracy, where errors of many pairs average out: in
+// a scene of as many patches or more. And its range.
 constexpr double RowTolerance = 10.0;
+constexpr double ManyPatches = 4000.0;
 constexpr double LeastTolerance = 1e-6;
 constexpr double MostTolerance = 0.1;
 
@@ -99,7 +107,8 @@ SamplingPlan SamplingPlan::Improve(const Trial& trial, double accuracy) const
     {
       rays *= 2;
     }
-    const double cost = RaysPerPair * static_cast<double>(rows) + rays;
+    const double cost =
+      (rows > 0 ? RaysForRows + RaysPerPair * static_cast<double>(rows) : 0.0) + rays;
     if (cost < least)
     {
       least = cost;
@@ -108,9 +117,16 @@ SamplingPlan SamplingPlan::Improve(const Trial& trial, double accuracy) const
     }
     left -= rows < patches ? variances[order[rows]] : 0.0;
   }
+  const std::size_t more = bestRows + bestRows / PartOfRows + MoreRows;
+  while (bestRows > 0 && bestRows < std::min(more, mostRows) &&
+    variances[order[bestRows]] > AsBright * variances[order[bestRows - 1]])
+  {
+    ++bestRows;
+  }
   SamplingPlan better;
   better.RaysPerPatch = std::max(bestRays, this->RaysPerPatch);
   better.Bright = this->Bright;
+  better.Tolerance = this->Tolerance;
   if (bestRows > 0)
   {
     better.Bright.resize(patches, false);
@@ -118,7 +134,9 @@ SamplingPlan SamplingPlan::Improve(const Trial& trial, double accuracy) const
     {
       better.Bright[order[k]] = true;
     }
-    better.Tolerance = std::min(std::max(RowTolerance * accuracy, LeastTolerance), MostTolerance);
+    const double averaged =
+      RowTolerance * std::min(1.0, std::sqrt(static_cast<double>(patches) / ManyPatches));
+    better.Tolerance = std::min(std::max(averaged * accuracy, LeastTolerance), MostTolerance);
   }
   if (better == *this && this->RaysPerPatch < RayHits::MostRays)
   {

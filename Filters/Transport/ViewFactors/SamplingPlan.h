@@ -5,7 +5,7 @@
  * with fewer rays, and how wrong that is, follows what keeps an accuracy in the least time: the
  * square of the error comes from the patches by A B^2 (what differs from the mean, which closed
  * rows carry without error), and falls with the power 1.24 of the number of rays; a row costs what
- * some thirty rays of all patches do.
+ * some thirty rays of all patches do, and the first of them a hundred more.
  */
 #ifndef SamplingPlan_h
 #define SamplingPlan_h

@@ -122,8 +122,9 @@ Outcome ViewFactorStore::Save(const std::string& fileName, const Ranks& ranks) c
   }
   if (this->GetLinks().Hierarchy)
   {
-    return Outcome::Failed(
-      "Links between clusters cannot be saved: switch Hierarchical off and update.");
+    return Outcome::Failed(this->GetLinks().IsSampled()
+        ? "Links from rays cannot be saved: set LinkMethod to Dense and update."
+        : "Links between clusters cannot be saved: switch Hierarchical off and update.");
   }
   if (!this->GetLinks().Matrix || !this->Cache.GetKey().Senders.empty())
   {

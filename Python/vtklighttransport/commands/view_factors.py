@@ -6,7 +6,7 @@ from vtklighttransport.meshes import list_regions
 from vtklighttransport.shell.files import (
     add_output, check_input, check_output, get_extension, naming, write)
 from vtklighttransport.shell.properties import (
-    Number, Switch, add_properties, check_properties, choose_array, make_filter)
+    Choice, Number, Switch, add_properties, check_properties, choose_array, make_filter)
 from vtklighttransport.shell.scene import add_scene, check_mesh, read_scene
 from vtklighttransport.shell.stages import Failure, Stage, Summary
 from vtklighttransport.summaries import get_summary, list_summaries
@@ -18,6 +18,10 @@ DESCRIPTION = (
     "between groups of patches.")
 PROPERTIES = (
     Number("--tolerance", "Tolerance", float, "bound on the absolute error of each row"),
+    Choice("--links", "LinkMethod", "LINK_METHOD_",
+           "pairs integrated, links between clusters, or counts of rays"),
+    Number("--link-tolerance", "LinkTolerance", float,
+           "error that the last two are allowed, relative"),
     Switch("--closure", "EnforceClosure", True,
            "make each row sum to 1 with what it sees of the sky"),
     Switch("--two-sided", "TwoSided", True, "each polygon is two faces; backs are rows n to 2 n"),

@@ -10,10 +10,8 @@
 #include "vtkRadiosityPass.h"
 
 #include "vtkCameraPass.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkDualDepthPeelingPass.h"
 #include "vtkLightsPass.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLFXAAPass.h"
 #include "vtkPlaneSource.h"
@@ -300,15 +298,6 @@ void CheckRefusal(Picture& scene, const std::string& message)
 
 void TestRefusals()
 {
-  {
-    Picture scene;
-    vtkNew<vtkMultiBlockDataSet> blocks;
-    blocks->SetBlock(0, scene.Ball);
-    vtkNew<vtkCompositePolyDataMapper2> mapper;
-    mapper->SetInputDataObject(blocks);
-    scene.Actor->SetMapper(mapper);
-    CheckRefusal(scene, "give each an actor");
-  }
   {
     Picture scene;
     scene.Ball->GetPointData()->RemoveArray("AtlasCoordinates");

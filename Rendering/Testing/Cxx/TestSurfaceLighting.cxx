@@ -1,24 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What lights translucent surfaces besides the renderer's lights, against vtkDirectIrradiance:
- * environments by each method, arrays; light at corners, bumps; what is computed again when; what
- * is refused.
+ * What lights translucent surfaces besides lights and environments, against vtkDirectIrradiance:
+ * arrays; light at corners, bumps; bodies that share a shadow map; what is refused.
  */
-#include "EnvironmentTesting.h"
-#include "LightTransportTesting.h"
-#include "ScatteringScene.h"
-#include "vtkRadianceTransfer.h"
-#include "vtkSurfaceLighting.h"
+#include "LitScene.h"
 
-#include "vtkPlaneSource.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkTexture.h"
-#include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <array>
-#include <iostream>
 #include <string>
 
 namespace
@@ -26,174 +18,6 @@ namespace
 using namespace EnvironmentTesting;
 using namespace LightTransportTesting;
 using namespace ScatteringScene;
-
-constexpr int Size = 128;
-constexpr double Index = 1.3;
-
-/// Without the renderer's lights; links are few, since they are not what is tested.
-struct LitScene : Scene
-{
-  vtkSurfaceLighting* Lighting;
-  vtkSmartPointer<vtkPolyData> Plate; ///< casts a shadow
-
-  explicit LitScene(int side = Size / ChartsPerSide) : Scene(side)
-  {
-    this->Lighting = this->Pass->GetLighting();
-    this->Lighting->RendererLightsOff();
-    this->Material->SetLinkMethodToUniform();
-    this->Material->SetNumberOfLinks(4);
-    this->Pass->SetScatteredMapSize(16);
-    this->Pass->SetShadowMapSize(1024);
-    vtkNew<vtkPlaneSource> plane;
-    plane->SetOrigin(-1.5, -1.5, 1.6);
-    plane->SetPoint1(0.6, -1.5, 1.6);
-    plane->SetPoint2(-1.5, 1.5, 1.3);
-    vtkNew<vtkTriangleFilter> triangles;
-    triangles->SetInputConnection(plane->GetOutputPort());
-    triangles->Update();
-    this->Plate = triangles->GetOutput();
-  }
-
-  void AddPlate()
-  {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(this->Plate);
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    this->Renderer->AddActor(actor);
-  }
-
-  std::vector<double> Draw()
-  {
-    this->Window->Render();
-    return Read(this->Pass->GetTransmittedMap(this->Actor)->GetTexture());
-  }
-
-  /// Puts the ball's transfer, with the plate's shadow, where it is drawn.
-  void AddTransfer(bool hasShadows, int degree = 4)
-  {
-    vtkNew<vtkRadianceTransfer> transfer;
-    transfer->SetInputDataObject(Join(this->Ball, hasShadows ? this->Plate.Get() : nullptr));
-    transfer->SetRefractiveIndex(Index);
-    transfer->SetDegree(degree);
-    transfer->SetSamples(256);
-    transfer->Update();
-    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(transfer->GetOutputDataObject(0));
-    auto* lit = vtkPolyData::SafeDownCast(blocks->GetBlock(0));
-    vtkDataArray* values = lit->GetCellData()->GetArray("RadianceTransfer");
-    this->Ball->GetCellData()->AddArray(values);
-  }
-};
-
-double CheckMap(const std::vector<double>& map, const std::vector<double>& expected,
-  double tolerance, const std::string& what)
-{
-  if (!Check(map.size() == expected.size(), what + ": there is no map"))
-  {
-    return 1.0;
-  }
-  const Difference difference = Compare(map, expected);
-  std::cout << what << ": relative error " << difference.Relative << ", texels off by 5 % "
-            << difference.Outliers << "\n";
-  Check(difference.Relative <= tolerance, what + ": the map is off");
-  return difference.Relative;
-}
-
-/// The largest difference of two maps over the largest value.
-double GetDifference(const std::vector<double>& a, const std::vector<double>& b, double factor = 1)
-{
-  double largest = 0.0;
-  double difference = a.size() == b.size() && !a.empty() ? 0.0 : 1e30;
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-  {
-    if (k % 4 < 3)
-    {
-      largest = std::max(largest, std::abs(b[k]));
-      difference = std::max(difference, std::abs(a[k] - factor * b[k]));
-    }
-  }
-  return difference / std::max(largest, 1e-30);
-}
-
-/// Over the surface.
-double GetMean(const std::vector<double>& map)
-{
-  double sum = 0.0;
-  double area = 0.0;
-  for (std::size_t k = 0; k < map.size(); k += 4)
-  {
-    sum += map[k];
-    area += map[k + 3];
-  }
-  return sum / area;
-}
-
-/// Harmonics of degree 2 in skies that they hold better and worse.
-void TestHarmonics()
-{
-  LitScene scene;
-  for (const auto& sky : { std::make_pair(MakeSky(64, GetSoftSky), 0.01),
-         std::make_pair(MakeSky(64, GetSunnySky), 0.06) })
-  {
-    scene.Lighting->SetEnvironment(sky.first);
-    CheckMap(scene.Draw(), GetTransmitted(scene.Ball, nullptr, {}, Index, Size, sky.first),
-      sky.second, "harmonics");
-  }
-}
-
-/// More directions come nearer, with shadows and without. Samples of this ball that lie in its
-/// dents are darker than they should be, from all sides: see vtkOpenGLTransmittedMap.
-void TestDirections()
-{
-  LitScene scene;
-  const auto sky = MakeSky(64, GetSunnySky);
-  scene.Lighting->SetEnvironment(sky);
-  scene.Lighting->SetEnvironmentMethodToDirections();
-  scene.Pass->ShadowsOff();
-  scene.Lighting->SetNumberOfEnvironmentDirections(128);
-  CheckMap(scene.Draw(), GetTransmitted(scene.Ball, nullptr, {}, Index, Size, sky), 0.01,
-    "128 directions");
-  scene.Pass->ShadowsOn();
-  scene.AddPlate();
-  const std::vector<double> expected =
-    GetTransmitted(scene.Ball, scene.Plate, {}, Index, Size, sky);
-  double before = 1.0;
-  for (const int count : { 8, 48 })
-  {
-    scene.Lighting->SetNumberOfEnvironmentDirections(count);
-    const double error =
-      CheckMap(scene.Draw(), expected, 1.0, std::to_string(count) + " directions, shadows");
-    Check(error < 0.75 * before, "more directions are not better");
-    before = error;
-  }
-  Check(before < 0.05, "48 directions are off");
-}
-
-/// The surface's own shadows, and those of what was beside it.
-void TestTransfer()
-{
-  LitScene scene;
-  const auto sky = MakeSky(64, GetSoftSky);
-  scene.Lighting->SetEnvironment(sky);
-  scene.Lighting->SetEnvironmentMethodToTransfer();
-  scene.AddTransfer(true);
-  CheckMap(scene.Draw(), GetTransmitted(scene.Ball, scene.Plate, {}, Index, Size, sky), 0.015,
-    "transfer");
-  const auto sunny = MakeSky(64, GetSunnySky);
-  scene.Lighting->SetEnvironment(sunny);
-  const std::vector<double> expected =
-    GetTransmitted(scene.Ball, scene.Plate, {}, Index, Size, sunny);
-  double before = 1.0;
-  for (const int degree : { 2, 5 })
-  {
-    scene.AddTransfer(true, degree);
-    const double error = CheckMap(scene.Draw(), expected, 0.5,
-      "transfer of degree " + std::to_string(degree) + " with a sun");
-    Check(error < before, "a higher degree is not better");
-    before = error;
-  }
-  Check(before < 0.06, "transfer with a sun");
-}
 
 /// Irradiance that is there already: of one band and of three, that has entered or not.
 void TestArrays()
@@ -366,65 +190,6 @@ void TestBumps()
   Check(GetDifference(scene.Draw(), plain) == 0.0, "bumps that are off");
 }
 
-/// Turning sky and ball together changes nothing, more light is more light, and only the first step
-/// and the application of the links run again.
-void TestProperties()
-{
-  LitScene scene(16);
-  scene.Pass->ShadowsOff();
-  const auto sky = MakeSky(32, GetSoftSky);
-  const auto brighter = MakeSky(32,
-    [](const Direction& w)
-    {
-      Direction value = GetSoftSky(w);
-      for (double& band : value)
-      {
-        band *= 4.0;
-      }
-      return value;
-    });
-  scene.AddTransfer(false);
-  for (const int method : { vtkSurfaceLighting::ENVIRONMENT_METHOD_HARMONICS,
-         vtkSurfaceLighting::ENVIRONMENT_METHOD_DIRECTIONS,
-         vtkSurfaceLighting::ENVIRONMENT_METHOD_TRANSFER })
-  {
-    const std::string what = "method " + std::to_string(method);
-    scene.Lighting->SetEnvironment(sky);
-    scene.Lighting->SetEnvironmentMethod(method);
-    scene.Lighting->SetNumberOfEnvironmentDirections(32);
-    const std::vector<double> before = scene.Draw();
-    std::array<vtkIdType, 3> runs = { scene.Pass->GetNumberOfIrradianceRuns(),
-      scene.Pass->GetNumberOfLinkRuns(), scene.Pass->GetNumberOfScatteringRuns() };
-    const auto check = [&](vtkIdType more, const std::string& change)
-    {
-      runs[0] += more;
-      runs[2] += more;
-      Check(scene.Pass->GetNumberOfIrradianceRuns() == runs[0] &&
-          scene.Pass->GetNumberOfLinkRuns() == runs[1] &&
-          scene.Pass->GetNumberOfScatteringRuns() == runs[2],
-        what + ": wrong runs: " + change);
-    };
-    scene.Draw();
-    check(0, "nothing");
-    scene.Lighting->SetEnvironmentUp(0.0, 0.6, 0.8);
-    Check(GetDifference(scene.Draw(), before) > 0.05, what + ": a turn changes nothing");
-    check(1, "the sky turns");
-    scene.Actor->RotateX(-vtkMath::DegreesFromRadians(std::atan2(0.6, 0.8)));
-    const double difference = GetDifference(scene.Draw(), before);
-    Check(difference < 1e-5,
-      what + ": sky and ball turned together: " + std::to_string(difference));
-    check(1, "the ball turns");
-    scene.Actor->SetOrientation(0.0, 0.0, 0.0);
-    scene.Lighting->SetEnvironmentUp(0.0, 0.0, 1.0);
-    scene.Lighting->SetEnvironment(brighter);
-    Check(GetDifference(scene.Draw(), before, 4.0) < 1e-5, what + ": light is not linear");
-    check(1, "another sky");
-    scene.Renderer->GetActiveCamera()->Azimuth(20.0);
-    scene.Draw();
-    check(0, "the camera moves");
-  }
-}
-
 /// Two bodies share a shadow map; maps keep their textures.
 void TestSharing()
 {
@@ -463,6 +228,26 @@ void TestSharing()
   scene.Light->SetPosition(3.0, 1.0, 1.0);
   scene.Window->Render();
   Check(!Read(texture).empty(), "the first body has gone");
+}
+
+/// A window without a context is told of once, and looked at again each time.
+void TestLateContext()
+{
+  LitScene scene(8);
+  vtkNew<vtkOpenGLTransmittedMap> map;
+  vtkNew<vtkTest::ErrorObserver> observer;
+  map->AddObserver(vtkCommand::ErrorEvent, observer);
+  map->SetResolution(16);
+  Check(!map->Update(scene.Actor, scene.Renderer) &&
+      observer->CheckErrorMessage("No OpenGL context") == 0,
+    "a window that has not been drawn");
+  observer->Clear();
+  Check(!map->Update(scene.Actor, scene.Renderer) && !observer->GetError(),
+    "the same window is told of twice");
+  scene.Window->Render();
+  Check(map->Update(scene.Actor, scene.Renderer) && !observer->GetError() &&
+      map->GetNumberOfRuns() == 1,
+    "a window that has been drawn by now");
 }
 
 /// Each error names the actor, and is told once.
@@ -528,15 +313,12 @@ void TestErrors()
 //------------------------------------------------------------------------------
 int TestSurfaceLighting(int, char*[])
 {
-  TestHarmonics();
-  TestDirections();
-  TestTransfer();
   TestArrays();
   TestFilterThatRunsAgain();
   TestCorners();
   TestBumps();
-  TestProperties();
   TestSharing();
+  TestLateContext();
   TestErrors();
   return Result();
 }

@@ -18,6 +18,7 @@
 #include "vtkImageData.h"
 #include "vtkLight.h"
 #include "vtkPointData.h"
+#include "vtkRadianceTransfer.h"
 #include "vtkRadiosity.h"
 #include "vtkSMPTools.h"
 #include "vtkSubsurfaceScattering.h"
@@ -331,6 +332,9 @@ void TestDirect()
       direct->SetEnvironment(sky);
     },
     "DirectIrradiance", "direct irradiance")
+    .Abort();
+  Runs<vtkRadianceTransfer>([&](vtkRadianceTransfer* transfer) { transfer->SetInputData(room); },
+    "RadianceTransfer", "radiance transfer")
     .Abort();
 }
 } // namespace

@@ -29,7 +29,7 @@ struct Solved
     this->Filter->SetDeviceToCPU();
     this->Filter->SetTolerance(1e-8);
     this->Filter->SetLinkMethod(linkMethod);
-    this->Filter->SetViewFactorTolerance(1e-4);
+    this->Filter->SetViewFactorTolerance(1e-3);
     settings(this->Filter);
     this->Filter->Update();
     this->Messages = observer->GetAllButVerdict();

@@ -90,6 +90,73 @@ void TestHalfOccluded()
 }
 
 //------------------------------------------------------------------------------
+// A bowl of triangles whose rim lies in a plain of `width` times its radius; 1 for none.
+vtkSmartPointer<vtkPolyData> MakeBowl(double width, double depth)
+{
+  constexpr int rings = 8, sectors = 17;
+  const auto at = [=](int ring, int sector)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * (sector % sectors) / sectors;
+    const double radius = ring <= rings ? static_cast<double>(ring) / rings
+                                        : 1.0 + (width - 1.0) * (ring - rings) / rings;
+    const double height = ring < rings ? depth * (radius * radius - 1.0) : 0.0;
+    return Point{ radius * std::cos(angle), radius * std::sin(angle), height };
+  };
+  Surface bowl;
+  for (int sector = 0; sector < sectors; ++sector)
+  {
+    bowl.AddPolygon({ at(0, 0), at(1, sector), at(1, sector + 1) });
+    for (int ring = 1; ring < (width > 1.0 ? 2 * rings : rings); ++ring)
+    {
+      const Point a = at(ring, sector), b = at(ring + 1, sector), c = at(ring + 1, sector + 1),
+                  d = at(ring, sector + 1);
+      bowl.AddPolygon({ a, b, c });
+      bowl.AddPolygon({ a, c, d });
+    }
+  }
+  return bowl.Get();
+}
+
+//------------------------------------------------------------------------------
+// What can stand between nothing costs nothing: the plain around a bowl sees nothing, and the bowl
+// is not looked at from points because of it. Sums of its rows are those of the bowl alone.
+void TestPlainAroundBowl()
+{
+  for (const double depth : { 0.2, 1.5 })
+  {
+    const std::string what = ", depth " + std::to_string(depth);
+    const auto bowl = Compute(MakeBowl(1.0, depth));
+    const auto crater = Compute(MakeBowl(3.0, depth));
+    const auto get = [](vtkViewFactors* factors, const char* name)
+    { return GetSummary(factors->GetPolyDataOutput(), name); };
+    CheckClose(get(crater, "PairsLookedAt"), 0.0, 0.0, "pairs looked at past the plain" + what);
+    CheckClose(get(crater, "PairsUnobstructed"), get(bowl, "PairsUnobstructed"), 0.0,
+      "pairs with nothing between them" + what);
+    CheckClose(GetCell(crater, "ViewFactorSum", 0), GetCell(bowl, "ViewFactorSum", 0), Single,
+      "sum of a row" + what);
+  }
+}
+
+//------------------------------------------------------------------------------
+// A wall hides what is behind it however finely it is cut: no pair is looked at from points.
+void TestWalls()
+{
+  for (const int cuts : { 1, 4 })
+  {
+    const std::string what = ", cut into " + std::to_string(cuts);
+    Surface plates;
+    plates.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 5, 5);
+    plates.AddGrid({ 0, 0, 2 }, { 0, 1, 0 }, { 1, 0, 0 }, 5, 5);
+    plates.AddGrid({ -1, -1, 1 }, { 3, 0, 0 }, { 0, 3, 0 }, cuts, cuts);
+    const auto factors = Compute(plates.Get());
+    vtkPolyData* output = factors->GetPolyDataOutput();
+    CheckClose(GetSummary(output, "PairsHidden"), 625.0, 0.0, "pairs hidden by a wall" + what);
+    CheckClose(GetSummary(output, "PairsLookedAt"), 0.0, 0.0, "pairs looked at" + what);
+    CheckClose(GetCell(factors, "ViewFactorSum", 0), 0.0, 0.0, "what a hidden patch sees" + what);
+  }
+}
+
+//------------------------------------------------------------------------------
 void TestOpenings()
 {
   // An open box: a room without its ceiling. The floor misses exactly what the ceiling would take.
@@ -202,6 +269,8 @@ int TestViewFactors(int, char*[])
 {
   TestClosure();
   TestHalfOccluded();
+  TestPlainAroundBowl();
+  TestWalls();
   TestOpenings();
   TestSlanted();
   TestThinWall();

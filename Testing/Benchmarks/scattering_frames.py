@@ -1,0 +1,199 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scattering while drawing: error and time over the sizes of both maps, and frame times by step.
+
+    scattering_frames.py sizes [--entering 128,256,512,1024] [--leaving 64,128,256]
+    scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000]
+
+`sizes` compares what leaves, on the triangles, with that of the largest two sizes; of the largest
+size of what leaves with --filter also with vtkSubsurfaceScattering on the texel image of the same
+map (all links the same). `frames` draws sizes x sizes pixels with maps of that size. The bunny of
+marble, 1 unit is 3 mm, a directional light with shadow maps; CPU seconds of the process, medians of
+frames in which only that step's cause has changed. ScatteringProductBenchmark has the same links
+beside a plain shader.
+"""
+
+import argparse
+import pathlib
+import sys
+import time
+
+import numpy as np
+import vtklighttransport as lt
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "Python" / "Examples"))
+from translucent_bunny import (  # noqa: E402 (found by the line before)
+    BUNNY, MIDDLE, look_at_bunny, make_actor, make_surface)
+
+FRAMES = 5
+
+
+class Scene:
+    def __init__(self, surface, pixels, entering, leaving, method, links, compress=False):
+        self.surface = surface
+        self.actor = make_actor(surface)
+        self.material = lt.vtkSubsurfaceScattering()
+        self.material.SetMaterialToMarble()
+        self.material.SetMillimetersPerUnit(3.0)
+        getattr(self.material, f"SetLinkMethodTo{method}")()
+        self.material.SetNumberOfLinks(links)
+        self.material.SetCompressLinks(compress)
+        self.light = vtkLight()
+        self.light.SetLightTypeToSceneLight()
+        self.light.SetFocalPoint(*MIDDLE)
+        self.scattering = lt.vtkSubsurfaceScatteringPass()
+        self.scattering.SetMaterial(self.actor, self.material)
+        self.scattering.SetIrradianceMapSize(entering)
+        self.scattering.SetScatteredMapSize(leaving)
+        self.renderer = vtkRenderer()
+        self.renderer.AutomaticLightCreationOff()
+        self.renderer.AddLight(self.light)
+        self.renderer.AddActor(self.actor)
+        self.renderer.SetPass(self.scattering)
+        self.window = lt.vtkOffScreenOpenGLRenderWindow()
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(pixels, pixels)
+        self.window.AddRenderer(self.renderer)
+        look_at_bunny(self.renderer)
+        self.turn = 0.7
+        self.put_light()
+
+    def put_light(self):
+        self.light.SetPosition(MIDDLE[0] + 20.0 * np.sin(self.turn), MIDDLE[1] + 14.0,
+                               MIDDLE[2] + 20.0 * np.cos(self.turn))
+
+    def draw(self):
+        begin = time.process_time()
+        self.window.Render()
+        self.window.WaitForCompletion()
+        return time.process_time() - begin
+
+    def get_frame(self, change):
+        """The median of frames, each after a change."""
+        seconds = []
+        for _ in range(FRAMES):
+            change()
+            seconds.append(self.draw())
+        return float(np.median(seconds))
+
+    def move_light(self):
+        self.turn += 0.01
+        self.put_light()
+
+    def turn_camera(self):
+        self.renderer.GetActiveCamera().Azimuth(1.0)
+
+    def read(self):
+        """What leaves, on the triangles."""
+        image = vtkImageData()
+        self.scattering.GetScatteredMap(self.actor).GetTexture().ReadImage(image, "Leaving")
+        back = lt.vtkAtlasToSurface()
+        back.SetInputData(0, self.surface)
+        back.SetInputData(1, image)
+        back.Update()
+        return vtk_to_numpy(back.GetOutput().GetCellData().GetArray("Leaving")).astype(float)
+
+    def compare_with_filter(self):
+        """Relative L2 of what leaves against the filter on the CPU: same texels, same light."""
+        leaving = self.scattering.GetScatteredMap(self.actor)
+        entering = vtkImageData()
+        self.scattering.GetTransmittedMap(self.actor).GetTexture().ReadImage(
+            entering, "TransmittedIrradiance")
+        texels = vtkImageData()
+        texels.DeepCopy(leaving.GetTexels())
+        image = vtkImageData()
+        leaving.GetTexture().ReadImage(image, "Leaving")
+        found = vtk_to_numpy(image.GetPointData().GetArray("Leaving")).astype(float)
+        texels.GetPointData().AddArray(
+            entering.GetPointData().GetArray("TransmittedIrradiance"))
+        scattering = lt.vtkSubsurfaceScattering()
+        scattering.SetMaterial(self.material.GetMaterial())
+        scattering.SetMillimetersPerUnit(3.0)
+        scattering.SetLinkMethod(self.material.GetLinkMethod())
+        scattering.SetNumberOfLinks(self.material.GetNumberOfLinks())
+        scattering.SetIncidenceToTransmitted()
+        scattering.SetDeviceToCPU()
+        scattering.SetInputData(texels)
+        scattering.Update()
+        points = scattering.GetOutputDataObject(0).GetPointData()
+        expected = vtk_to_numpy(points.GetArray("ScatteredIrradiance")).astype(float)
+        areas = vtk_to_numpy(points.GetArray("Area"))[:, None]
+        return np.sqrt((areas * (found - expected) ** 2).sum() / (areas * expected ** 2).sum())
+
+
+def get_areas(surface):
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    a, b, c = (points[corners[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1)[:, None]
+
+
+def show_sizes(arguments):
+    surface = make_surface(BUNNY, arguments.patches, max(arguments.leaving))
+    areas = get_areas(surface)
+    results = {}
+    for leaving in arguments.leaving:
+        scene = Scene(surface, 256, max(arguments.entering), leaving, "Adaptive", 64)
+        links = scene.draw()
+        for entering in arguments.entering:
+            scene.scattering.SetIrradianceMapSize(entering)
+            scene.turn = 0.7
+            scene.put_light()
+            scene.draw()
+            results[entering, leaving] = (
+                scene.read(), links, scene.get_frame(scene.move_light))
+        if arguments.filter and leaving == max(arguments.leaving):
+            scene.scattering.SetIrradianceMapSize(leaving)
+            scene.draw()
+            print(f"{leaving}: {scene.compare_with_filter():.1e} from the filter", flush=True)
+    best = results[max(arguments.entering), max(arguments.leaving)][0]
+    for (entering, leaving), (found, first, frame) in results.items():
+        error = np.sqrt((areas * (found - best) ** 2).sum() / (areas * best ** 2).sum())
+        print(f"entering {entering}, leaving {leaving}: error {100 * error:.2f} %, first frame "
+              f"{first:.2f} CPU s, light moves {frame:.3f} CPU s", flush=True)
+
+
+def show_frames(arguments):
+    for size in arguments.sizes:
+        surface = make_surface(BUNNY, arguments.patches, size)
+        for method, compress in (("Uniform", False), ("Adaptive", False), ("Adaptive", True)):
+            for links in arguments.links:
+                scene = Scene(surface, size, size, size, method, links, compress)
+                first = scene.draw()
+                camera = scene.get_frame(scene.turn_camera)
+                light = scene.get_frame(scene.move_light)
+                scene.scattering.ShadowsOff()
+                scene.draw()
+                unshaded = scene.get_frame(scene.move_light)
+                name = method + (", coded" if compress else "")
+                print(f"{size}, {surface.GetNumberOfCells()} triangles, {name} {links}: first "
+                      f"{first:.1f}, camera {camera:.3f}, light {light:.3f}, without shadows "
+                      f"{unshaded:.3f} CPU s", flush=True)
+
+
+def main():
+    def numbers(text):
+        return [int(number) for number in text.split(",")]
+
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("sizes", "frames"))
+    parser.add_argument("--entering", type=numbers, default=[128, 256, 512, 1024])
+    parser.add_argument("--leaving", type=numbers, default=[64, 128, 256])
+    parser.add_argument("--sizes", type=numbers, default=[512, 1024])
+    parser.add_argument("--links", type=numbers, default=[16, 64])
+    parser.add_argument("--patches", type=int, default=6000)
+    parser.add_argument("--filter", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.what == "sizes":
+        show_sizes(arguments)
+    else:
+        show_frames(arguments)
+
+
+if __name__ == "__main__":
+    main()
