@@ -127,8 +127,8 @@ void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
     values->assign(patches, 0.0);
   }
   const vtkIdType mine = hits.GetLast() - hits.GetFirst();
-  Counter counter{ hits, links, patches,
-    std::vector<Rows>((mine + RowsPerTurn - 1) / RowsPerTurn), {} };
+  Counter counter{ hits, links, patches, std::vector<Rows>((mine + RowsPerTurn - 1) / RowsPerTurn),
+    {} };
   Threads::For(hits.GetFirst(), hits.GetLast(), RowsPerTurn, counter);
   this->Met = Rows();
   this->Met.Offsets.assign(hits.GetFirst() + 1, 0);
