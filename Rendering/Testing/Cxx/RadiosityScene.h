@@ -103,11 +103,11 @@ struct Scene
   Scene(const Scene&) = delete;
   void operator=(const Scene&) = delete;
 
-  void ShootInstead()
+  void ShootInstead(double tolerance = 1e-3)
   {
     this->Radiosity->SetSolverToSouthwell();
     this->Radiosity->SetDeviceToOpenGL();
-    this->Radiosity->SetTolerance(1e-3);
+    this->Radiosity->SetTolerance(tolerance);
   }
 };
 } // namespace RadiosityScene

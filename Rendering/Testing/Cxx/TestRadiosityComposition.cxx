@@ -35,8 +35,7 @@ struct Solved : Scene
   {
     if (byShots)
     {
-      this->ShootInstead();
-      this->Radiosity->SetTolerance(0.05);
+      this->ShootInstead(0.5);
     }
   }
   double GetMean(double left = 0.0, double right = 1.0)

@@ -228,7 +228,7 @@ void TestRuns(bool byShots)
   Scene scene;
   if (byShots)
   {
-    scene.ShootInstead();
+    scene.ShootInstead(0.5);
   }
   // An annotation: not lit.
   auto beside = MakeActor(MakeSquare(2));
