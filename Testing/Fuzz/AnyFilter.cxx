@@ -320,7 +320,7 @@ vtkSmartPointer<vtkAlgorithm> MakeSubsurfaceScattering(Choices& choices, const R
   scattering->SetDropLinksThroughAir(choices.Chance(3));
   scattering->SetCompressLinks(choices.Chance(3));
   scattering->SetCompressionTolerance(ChooseTolerance(choices, { 0.0, 1e-2, 1e-300, 1e300 }));
-  scattering->SetNumberOfPhotons(choices.Among({ 300, 100, 100, 30, 1, -1 }));
+  scattering->SetNumberOfPhotons(choices.Among({ 1000, 100, 100, 300, 1, -1 }));
   if (scattering->GetNumberOfPhotons() == 0)
   {
     // As many as the error asks for: none of them is to be scattered very often.
@@ -344,8 +344,8 @@ vtkSmartPointer<vtkAlgorithm> MakeSingleScattering(Choices& choices, const Room&
   auto scattering = vtkSmartPointer<vtkSingleScattering>::New();
   ChooseMedium(choices, scattering.Get());
   ChooseLighting(choices, scattering);
-  scattering->SetNumberOfSamples(choices.Among({ 8, 1, -1 }));
-  scattering->SetMinimumContribution(ChooseTolerance(choices, { 1e-1, 1e-2, 1e9 }));
+  scattering->SetNumberOfSamples(choices.Among({ 16, 64, 1, -1 }));
+  scattering->SetMinimumContribution(ChooseTolerance(choices, { 1e-2, 1e-3, 1e9 }));
   return scattering;
 }
 } // namespace

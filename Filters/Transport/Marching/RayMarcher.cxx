@@ -24,6 +24,8 @@ constexpr double ScatteringsPerRay = 8.0;
 constexpr double Steps[3] = { 0.8191725133961645, 0.6710436067037893, 0.5497004779019703 };
 /// Coordinates of scenes are worth that, as MeshBoundary says.
 constexpr double Margin = 4e-6;
+/// Where edges of bodies meet a ray may leave one and enter the other for ever, losing nothing.
+constexpr int MostRoundsInPlace = 16;
 
 //------------------------------------------------------------------------------
 void Scale(const double* values, double factor, double scaled[LightBands])
@@ -105,6 +107,7 @@ bool RayMarcher::GoOn(const InsidePath& path, Ray& ray, PhotonRandom& random) co
   {
     return false;
   }
+  const Vector before = ray.Position;
   double mean = 0.0;
   for (int band = 0; band < LightBands; ++band)
   {
@@ -115,7 +118,13 @@ bool RayMarcher::GoOn(const InsidePath& path, Ray& ray, PhotonRandom& random) co
   ray.Position = exit.Position;
   ray.Direction = exit.Direction;
   ray.Patch = exit.Patch;
-  return ray.Part > this->LeastWeight && ray.Enter(this->Boundary, this->Interface, random);
+  if (ray.Part <= this->LeastWeight || !ray.Enter(this->Boundary, this->Interface, random))
+  {
+    return false;
+  }
+  const bool hasMoved = (ray.Position - before).norm() > Margin;
+  ray.RoundsInPlace = hasMoved ? 0 : ray.RoundsInPlace + 1;
+  return ray.RoundsInPlace < MostRoundsInPlace;
 }
 
 //------------------------------------------------------------------------------

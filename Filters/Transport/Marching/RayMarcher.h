@@ -99,6 +99,7 @@ private:
   {
     double Weights[LightBands] = {}; ///< what reaches its start, or its end, of each band
     double Part = 1.0;               ///< what is left of it since then, on average
+    int RoundsInPlace = 0;           ///< that it has entered where it had entered before
   };
 
   void AddScattered(const InsidePath& path, double number, const Ray& ray, const Sample& sample,

@@ -657,6 +657,22 @@ void TestMinimumContribution()
 }
 
 //------------------------------------------------------------------------------
+/// Where edges of bodies meet, rays that leave one and enter another at once come to an end.
+void TestTouchingEdges()
+{
+  Surface bodies;
+  AddBox(bodies, { 1, 0, 0 }, { 2, 1, 1 }, 1);
+  AddBox(bodies, { 2, 0, 0 }, { 3, 1, 1e-6 }, 1);
+  AddBox(bodies, { 1, 1, 0 }, { 2, 2, 1 }, 1);
+  Run run(bodies.Get());
+  run.SetMedium({ 1, 1, 10 }, 0.0, 1.0);
+  run.Filter->SetNumberOfSamples(1024);
+  run.AddLight({ 1, 2, 3 }, false);
+  run.Filter->Update();
+  Check(run.Errors->GetAll().empty() && run.GetFlux(1) > 0.0, "edges that touch");
+}
+
+//------------------------------------------------------------------------------
 void TestMedia()
 {
   auto box = MakeBox({ 0, 0, 0 }, { 1, 1, 1 }, 2);
@@ -789,6 +805,7 @@ int TestSingleScattering(int, char*[])
   TestLights();
   TestErrors();
   TestMinimumContribution();
+  TestTouchingEdges();
   TestRanks();
   return Result();
 }
