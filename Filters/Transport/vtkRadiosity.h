@@ -331,8 +331,8 @@ public:
   /// How often links have been made: not where kept ones served, and not by shots.
   vtkGetMacro(NumberOfLinkRuns, vtkIdType);
 
-  /// All properties of another one, view factors that were given included; neither its input nor
-  /// its links.
+  /// All properties of another one, view factors that were given included; neither its input and
+  /// the names of its arrays, nor its controller, nor its links.
   void CopyProperties(vtkRadiosity* source);
 
   ///@{

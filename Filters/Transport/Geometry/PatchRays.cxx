@@ -35,6 +35,8 @@ constexpr float CertainHeight = 2e-6f;
 // Distance from the rim, where a ray may start beyond a neighbour: beside what coordinates are
 // worth, twice.
 constexpr float RimWidth = 16.0f * Lift;
+// The cosine from which on two normals are those of surfaces that face each other.
+constexpr float Facing = 0.95f;
 
 /// A part of a patch that Embree knows.
 struct Facet
@@ -210,6 +212,15 @@ LT_CLONES void MakeRays(const RayPattern::Packet& packet, const Frame& frame, Bu
   SetNumbers(packet, frame, bundle);
   frame.Fan.empty() ? SetPoints(frame, bundle) : SetPointsOfFan(frame, bundle);
   SetRays(frame, bundle);
+}
+
+//------------------------------------------------------------------------------
+// Whether a part does not just face what has this frame: then it is no other surface in its place.
+bool IsAside(const Facet& facet, const Frame& frame)
+{
+  return facet.Normal[0] * frame.Normal[0] + facet.Normal[1] * frame.Normal[1] +
+    facet.Normal[2] * frame.Normal[2] >
+    -Facing;
 }
 
 //------------------------------------------------------------------------------
@@ -464,6 +475,8 @@ bool PatchRays::Internals::IsAtRim(vtkIdType patch, const Vector& origin, double
 }
 
 //------------------------------------------------------------------------------
+// What starts on the plane of a neighbour, as far as coordinates tell, passes it. Where it then
+// meets nothing in front, it would find a gap in the corner of a closed room.
 PatchRays::Hit PatchRays::Internals::Judge(vtkIdType patch, const Frame& frame,
   const Bundle& bundle, int lane) const
 {
@@ -483,20 +496,26 @@ PatchRays::Hit PatchRays::Internals::Judge(vtkIdType patch, const Frame& frame,
   {
     return Sky;
   }
-  if (isMet && !isRough)
+  const Facet* facet = isMet ? &this->Facets[bundle.Rays.hit.primID[lane]] : nullptr;
+  const float distance = ray.tfar[lane];
+  const float cosine = facet ? -(direction[0] * facet->Normal[0] + direction[1] * facet->Normal[1] +
+                                 direction[2] * facet->Normal[2])
+                             : 0.0f;
+  if (facet && !isRough)
   {
-    const Facet& facet = this->Facets[bundle.Rays.hit.primID[lane]];
-    const float distance = ray.tfar[lane];
-    const float cosine = -(direction[0] * facet.Normal[0] + direction[1] * facet.Normal[1] +
-      direction[2] * facet.Normal[2]);
-    const Hit hit = cosine > 0.0f ? facet.Patch : facet.Twin;
-    if (distance * std::abs(cosine) > facet.Height + facet.Slope * distance && hit >= 0 &&
-      hit != patch && facet.Patch != patch)
+    const Hit hit = cosine > 0.0f ? facet->Patch : facet->Twin;
+    if (distance * std::abs(cosine) > facet->Height + facet->Slope * distance && hit >= 0 &&
+      hit != patch && facet->Patch != patch)
     {
       return hit;
     }
   }
-  return this->Decide(patch, getOrigin(), Vector(direction[0], direction[1], direction[2]));
+  const Vector origin = getOrigin();
+  const Hit decided = this->Decide(patch, origin, Vector(direction[0], direction[1], direction[2]));
+  const bool meetsNeighbour = decided < 0 && facet && cosine > 0.0f && facet->Patch != patch &&
+    !this->IsNarrow[patch] && IsAside(*facet, frame) &&
+    this->Scene->GetPlane(facet->Patch).GetCertainHeight(origin) == 0.0;
+  return meetsNeighbour ? facet->Patch : decided;
 }
 
 //------------------------------------------------------------------------------

@@ -4,7 +4,8 @@
  * Many rays from patches, evenly over each patch and around its normal, sixteen at a time through
  * polygons in single precision. What that cannot decide (hits from behind, near the start, of
  * patches that share their place with others, rays that start at the rim of a patch) SceneRayCaster
- * does: so hits are what they are everywhere. The same rays for the same scene.
+ * does: so hits are what they are everywhere, but that rays from the plane of a neighbour do not
+ * pass it into nothing. The same rays for the same scene.
  * Thread-safe after Build.
  */
 #ifndef PatchRays_h

@@ -11,6 +11,9 @@
 #include "vtkViewFactors.h"
 
 #include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using namespace LightTransportTesting;
 
@@ -493,6 +496,66 @@ void TestBlackOccluder()
   // Both have the error of their view factors.
   CheckClose(Compare(whole, part), 0.0, 3e-4, "a black occluder");
 }
+
+//------------------------------------------------------------------------------
+// What PrintSelf tells of the filter's own properties, a line each.
+std::vector<std::string> PrintProperties(vtkRadiosity* radiosity)
+{
+  std::ostringstream text;
+  radiosity->PrintSelf(text, vtkIndent());
+  std::istringstream lines(text.str());
+  std::vector<std::string> properties;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const bool isOwn = !properties.empty() || line.find("FeatureAngle:") == 0;
+    if (isOwn && line.find("ProgressInterval:") != 0 && line.find("Controller:") != 0)
+    {
+      properties.push_back(line);
+    }
+  }
+  return properties;
+}
+
+//------------------------------------------------------------------------------
+// A copy has all properties of its source: the test has to change each that PrintSelf knows, and so
+// finds one that was forgotten.
+void TestCopies()
+{
+  vtkNew<vtkViewFactors> factors;
+  vtkNew<vtkRadiosity> source, copy;
+  const std::vector<std::string> before = PrintProperties(copy);
+  source->SetFeatureAngle(10.0);
+  source->SetSolverToJacobi();
+  source->SetTolerance(1e-3);
+  source->SetMaximumNumberOfIterations(7);
+  source->AddBandLimit(4.0);
+  source->SetBackgroundTemperature(300.0);
+  source->SetBackgroundRadiance(2.0);
+  source->SetLinkMethodToSampled();
+  source->SetLinkTolerance(0.02);
+  source->SetAccuracy(0.03);
+  source->ComputeErrorsOn();
+  source->SetClusterTreeToAtlas();
+  source->RefineByBrightnessOn();
+  source->SetDeviceToCPU();
+  source->SetViewFactorTolerance(0.04);
+  source->EnforceClosureOn();
+  source->TwoSidedOn();
+  source->SetViewFactors(factors);
+  const std::vector<std::string> given = PrintProperties(source);
+  copy->CopyProperties(source);
+  const std::vector<std::string> copied = PrintProperties(copy);
+  if (!Check(before.size() == given.size() && given.size() == copied.size() && given.size() > 10,
+        "properties are printed"))
+  {
+    return;
+  }
+  for (std::size_t k = 0; k < given.size(); ++k)
+  {
+    Check(given[k] != before[k], "the test changes this property: " + before[k]);
+    Check(given[k] == copied[k], given[k] + " is copied, not: " + copied[k]);
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -510,5 +573,6 @@ int TestRadiosity(int, char*[])
   TestMirrors();
   TestSenders();
   TestBlackOccluder();
+  TestCopies();
   return Result();
 }

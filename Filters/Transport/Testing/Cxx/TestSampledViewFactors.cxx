@@ -131,6 +131,17 @@ void TestRows()
 }
 
 //------------------------------------------------------------------------------
+/// Nothing gets out of a closed room: rays that start on the plane of a wall, as far as single
+/// precision tells, meet it.
+void TestCorners()
+{
+  const std::vector<double> sky =
+    GetCellValues(Sample(MakeBoxes(true, 6e4).Get(), 1e-2), "SkyFraction");
+  CheckClose(*std::max_element(sky.begin(), sky.end()), 0.0, 0.0,
+    "sky in a room in single precision at an offset");
+}
+
+//------------------------------------------------------------------------------
 /// Two rooms that share a wall, which is meshed differently on both sides: none sees the other.
 void TestSharedWall()
 {
@@ -251,6 +262,7 @@ void TestRanks()
 int TestSampledViewFactors(int, char*[])
 {
   TestRows();
+  TestCorners();
   TestSharedWall();
   TestErrors();
   TestThreads();

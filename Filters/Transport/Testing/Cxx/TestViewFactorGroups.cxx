@@ -87,16 +87,16 @@ std::string Join(const std::vector<std::string>& names)
 //------------------------------------------------------------------------------
 void CheckRows(vtkTable* table, const std::vector<std::string>& names)
 {
-  for (const std::string& row : names)
+  for (const std::string& group : names)
   {
-    double sum = GetEntry(table, row, "Sky") + GetEntry(table, row, "BackFace");
-    for (const std::string& column : names)
+    double sum = GetEntry(table, group, "Sky") + GetEntry(table, group, "BackFace");
+    for (const std::string& other : names)
     {
-      sum += GetEntry(table, row, column);
-      CheckClose(GetEntry(table, row, "Area") * GetEntry(table, row, column),
-        GetEntry(table, column, "Area") * GetEntry(table, column, row), 1e-12, "reciprocity");
+      sum += GetEntry(table, group, other);
+      CheckClose(GetEntry(table, group, "Area") * GetEntry(table, group, other),
+        GetEntry(table, other, "Area") * GetEntry(table, other, group), 1e-12, "reciprocity");
     }
-    CheckClose(sum, 1.0, 1e-12, "row sum of " + row);
+    CheckClose(sum, 1.0, 1e-12, "row sum of " + group);
   }
 }
 
