@@ -292,6 +292,9 @@ void TestErrors()
   scene.Ball->GetFieldData()->AddArray(recorded);
   scene.Lighting->Modified();
   expect("refractive index of 1,");
+  scene.Lighting->SetEnvironmentUp(0.0, 0.6, 0.8);
+  scene.Window->Render();
+  Check(!observer->GetWarning(), "a sky that turns repeats a warning");
   scene.Lighting->SetEnvironment(nullptr);
   scene.Lighting->SetIrradianceArray("Nothing");
   expect("no cell or point array \"Nothing\"");
