@@ -157,6 +157,10 @@ struct vtkOpenGLTransmittedMap::Parts
   State Drawn; ///< what the last drawing, or attempt, was made for
   bool HasFailed = false;
   std::string Problem; ///< of the last attempt
+  ///@{ Refractive indices that a warning has told of: of an array, and of the material.
+  double ToldOf = 0.0;
+  double ToldFor = 0.0;
+  ///@}
   vtkTimeStamp RunTime;
   std::uint64_t Shape = 0; ///< that was last taken; stays when the device's memory goes
   vtkTimeStamp SurfaceTime;
@@ -536,16 +540,22 @@ Outcome vtkOpenGLTransmittedMap::ReadIrradiance(const State& state, Sum& sum)
 }
 
 //------------------------------------------------------------------------------
+// Once: lights may change with each frame.
 void vtkOpenGLTransmittedMap::WarnOfIndex(const State& state)
 {
+  Parts& parts = *this->Device;
   vtkDataArray* recorded = state.Surface->GetFieldData()->GetArray(ArrayNames::RefractiveIndex);
-  if (recorded && recorded->GetNumberOfValues() > 0 &&
-    std::abs(recorded->GetComponent(0, 0) - this->RefractiveIndex) > 1e-9)
+  const double index = recorded && recorded->GetNumberOfValues() > 0 ? recorded->GetComponent(0, 0)
+                                                                     : this->RefractiveIndex;
+  const bool isTold = parts.ToldOf == index && parts.ToldFor == this->RefractiveIndex;
+  if (std::abs(index - this->RefractiveIndex) > 1e-9 && !isTold)
   {
+    parts.ToldOf = index;
+    parts.ToldFor = this->RefractiveIndex;
     vtkWarningMacro(<< Describe(state.Actor, state.Renderer)
-                    << "What enters was computed for a refractive index of "
-                    << recorded->GetComponent(0, 0) << ", but that of the material is "
-                    << this->RefractiveIndex << ": compute it again for that.");
+                    << "What enters was computed for a refractive index of " << index
+                    << ", but that of the material is " << this->RefractiveIndex
+                    << ": compute it again for that.");
   }
 }
 

@@ -16,7 +16,8 @@
  * Backs get nothing.
  *
  * Shadows are those of all visible actors that are drawn as surfaces, wherever the camera looks,
- * also of what is translucent; a part of a vtkAssembly where it is itself. They come from shadow
+ * also of what is translucent; a part of a vtkAssembly where it is itself; glyphs cast none. They
+ * come from shadow
  * maps of ShadowMapSize texels over what is lit: one for each light, or six where a point light has
  * the surface all about. A sample is compared with the map where the plane of its triangle is seen
  * at the map's own texel, so triangles cast no shadow on themselves however slanted, and the bias

@@ -284,6 +284,7 @@ void vtkSubsurfaceRepresentation::Attach()
   }
   if (IsRenderedInParts())
   {
+    this->Detach();
     this->WarnOnce(
       "Drawn as usual: several ranks have a part of the surface each. Apply the filter "
       "Subsurface Scattering, and color by its array.");
@@ -292,6 +293,7 @@ void vtkSubsurfaceRepresentation::Attach()
   ViewPass* pass = ViewPass::Get(this->Renderer);
   if (!pass)
   {
+    this->Detach();
     this->WarnOnce("Drawn as usual: the view has render passes of its own. Switch them off.");
     return;
   }
@@ -301,7 +303,17 @@ void vtkSubsurfaceRepresentation::Attach()
   pass->SetExposure(this->Exposure);
   pass->SetShadows(this->CastShadows);
   pass->SetMaterial(this->Actor, this->Scattering);
-  // Light that has been scattered takes their place.
+  this->TakeColors();
+}
+
+//------------------------------------------------------------------------------
+// Light that has been scattered takes their place, until the surface is drawn as usual again.
+void vtkSubsurfaceRepresentation::TakeColors()
+{
+  const double ambient = this->Property->GetAmbient();
+  const double diffuse = this->Property->GetDiffuse();
+  this->UsualAmbient = ambient > 0.0 ? ambient : this->UsualAmbient;
+  this->UsualDiffuse = diffuse > 0.0 ? diffuse : this->UsualDiffuse;
   this->Property->SetAmbient(0.0);
   this->Property->SetDiffuse(0.0);
 }
@@ -330,4 +342,6 @@ void vtkSubsurfaceRepresentation::Detach()
     this->Pass->Leave(this->Renderer);
   }
   this->Pass = nullptr;
+  this->Property->SetAmbient(this->UsualAmbient);
+  this->Property->SetDiffuse(this->UsualDiffuse);
 }

@@ -88,6 +88,7 @@ private:
   void WarnOnce(const char* message);
   void Attach();
   void Detach();
+  void TakeColors();
 
   const vtkNew<vtkSubsurfaceScattering> Scattering;
   vtkSmartPointer<ViewPass> Pass;
@@ -99,6 +100,10 @@ private:
   int ScatteredMapSize = 128;
   double Exposure = 1.0;
   bool CastShadows = true;
+  ///@{ Of the property, before scattered light took their place.
+  double UsualAmbient = 0.0;
+  double UsualDiffuse = 1.0;
+  ///@}
   bool HasWarned = false;
 };
 

@@ -7,6 +7,7 @@ Without a display: the project's own off-screen window is ParaView's before the 
 
 import vtklighttransport as lt
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass
 
 PROBLEMS = []
 
@@ -94,6 +95,14 @@ check(draw().max() == 0.0, "hidden, and something is seen")
 check(get_pass() is None, "hidden, and its pass stays")
 simple.Show(atlas, view)
 check(abs(get_mean()[0] - after[0]) < 0.01 * after[0], "another picture after it was hidden")
+
+# A pass that is not known: the surface is drawn with the colours that it had.
+renderer = view.GetClientSideObject().GetRenderer()
+before = renderer.GetPass()
+renderer.SetPass(vtkRenderStepsPass())
+check(get_mean().min() > 1.0, "with another pass the surface is dark")
+renderer.SetPass(before)
+check(abs(get_mean()[0] - after[0]) < 0.01 * after[0], "another picture after another pass")
 
 display.SetRepresentationType("Surface")
 display.Specular = 0.0

@@ -7,6 +7,7 @@
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceMemory.h"
 #include "Maps/SceneUniforms.h"
+#include "Passes/PlainMapper.h"
 #include "Shared/BitHash.h"
 #include "vtkLightTransportMapsLightView.h"
 #include "vtkLightTransportMapsShadowFS.h"
@@ -42,7 +43,7 @@ namespace
 bool CastsShadows(vtkActor* actor)
 {
   return actor->GetVisibility() && actor->GetMapper() &&
-    actor->GetMapper()->GetNumberOfInputConnections(0) > 0 &&
+    actor->GetMapper()->GetNumberOfInputConnections(0) > 0 && DrawsItsInput(actor->GetMapper()) &&
     actor->GetProperty()->GetRepresentation() == VTK_SURFACE &&
     actor->GetProperty()->GetOpacity() > 0.0;
 }
@@ -82,7 +83,6 @@ std::uint64_t GetShapeStamp(vtkDataObject* data)
     });
   return hash.Get();
 }
-
 } // namespace
 
 //------------------------------------------------------------------------------

@@ -95,7 +95,8 @@ void Collect(vtkDataObject* data, Attributes* attributes, BlockSurface block,
 bool FindBlockSurfaces(vtkMapper* mapper, std::vector<BlockSurface>& blocks)
 {
   blocks.clear();
-  if (!mapper || mapper->GetNumberOfInputConnections(0) == 0 || FindPlainMapper(mapper))
+  if (!mapper || mapper->GetNumberOfInputConnections(0) == 0 || FindPlainMapper(mapper) ||
+    !DrawsItsInput(mapper))
   {
     return false;
   }

@@ -24,8 +24,9 @@ struct BlockSurface
   ///@}
 };
 
-/// False where the mapper is one of a single surface, or nothing is connected to it. Otherwise all
-/// blocks that have polygons, in order; what an inner block is set to holds for those below.
+/// False where the mapper is one of a single surface or of glyphs, or nothing is connected to it.
+/// Otherwise all blocks that have polygons, in order; what an inner block is set to holds for those
+/// below.
 bool FindBlockSurfaces(vtkMapper* mapper, std::vector<BlockSurface>& blocks);
 } // namespace LightTransport
 

@@ -17,6 +17,12 @@ inline vtkPolyDataMapper* FindPlainMapper(vtkMapper* mapper)
     ? plain
     : nullptr;
 }
+
+/// Of glyphs the input is where they are, and not what is drawn.
+inline bool DrawsItsInput(vtkMapper* mapper)
+{
+  return !mapper->IsA("vtkGlyph3DMapper");
+}
 } // namespace LightTransport
 
 #endif

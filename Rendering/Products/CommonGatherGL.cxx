@@ -130,6 +130,7 @@ Outcome CommonGatherGL::Draw(const Group& target, int firstLine, const Group& se
     // As in HierarchicalProductGL::GatherLinks.
     glFlush();
   }
+  this->LetGoOfConstants();
   return used;
 }
 
@@ -168,6 +169,16 @@ void CommonGatherGL::SetConstants(vtkShaderProgram* program, int round)
     glUniformBlockBinding(handle, glGetUniformBlockIndex(handle, name.c_str()), binding);
     glBindBufferRange(GL_UNIFORM_BUFFER, binding, this->Constants.GetHandle(),
       group * bytesOfGroup + round * bytes, bytes);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Other programs of this context begin with the same places.
+void CommonGatherGL::LetGoOfConstants()
+{
+  for (int group = 0; group < this->Vectors.Groups; ++group)
+  {
+    glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(group), 0);
   }
 }
 } // namespace LightTransport

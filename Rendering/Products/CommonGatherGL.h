@@ -47,6 +47,7 @@ private:
   void Upload(const HierarchyLayout& tables, const ProductGL::Pause& pause);
   Outcome Hear(const Group& sent);
   void SetConstants(vtkShaderProgram* program, int round);
+  void LetGoOfConstants();
 
   FloatTextures& Engine;
   const FloatVectors::Layout Vectors;

@@ -77,6 +77,16 @@ vtkPolyData* GetBlock(vtkMultiBlockDataSet* blocks, std::size_t index)
 }
 
 //------------------------------------------------------------------------------
+/// What went wrong in drawing the means of shots.
+Outcome Describe(const Outcome& drawn)
+{
+  return drawn ? drawn
+               : Outcome::Failed("OpenGL failed in drawing the radiosity at points with " +
+                   drawn.GetMessage() +
+                   ": set Device of the vtkRadiosity to CPU, or use actors of fewer polygons.");
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkMultiBlockDataSet> Copy(vtkDataObject* blocks)
 {
   auto copy = vtkSmartPointer<vtkMultiBlockDataSet>::New();
@@ -167,7 +177,7 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
   const Keys& old = this->Known;
   const bool isSame = this->IsKnown && keys.Shape == old.Shape && keys.Material == old.Material &&
     keys.Light == old.Light && keys.Radiosity == old.Radiosity && keys.Shadows == old.Shadows &&
-    keys.UsesAmbient == old.UsesAmbient;
+    keys.UsesAmbient == old.UsesAmbient && this->Actors.AreOfActorsOf(found);
   if (!isSame)
   {
     this->Work.Stop();
@@ -183,7 +193,7 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
     this->State = Progress::Shooting;
   }
   const auto getLeft = [&]()
-  { return std::max(begin + seconds - vtkTimerLog::GetUniversalTime(), LeastSeconds); };
+  { return std::max(LeastSeconds, begin + seconds - vtkTimerLog::GetUniversalTime()); };
   Outcome done = Outcome::Done();
   if (this->State == Progress::Computing && this->Work.RunFor(getLeft()))
   {
@@ -215,7 +225,6 @@ void ProgressiveSolution::Restart(const Keys& keys, const Settings& settings)
   this->Estimate = nullptr;
   this->Solution = nullptr;
   this->ReadBack = nullptr;
-  this->ReadShots = -1;
   this->Shots = 0;
   if (this->Actors.GetMembers().empty())
   {
@@ -382,8 +391,8 @@ Outcome ProgressiveSolution::BeginShots(vtkRenderer* renderer)
   }
   this->Means =
     std::make_unique<GroupMeans>(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
-  return this->Means->Upload(this->Problem.Starts, this->Problem.Members, this->Problem.Parts,
-    static_cast<int>(radiosity->GetWidth()));
+  return Describe(this->Means->Upload(this->Problem.Starts, this->Problem.Members,
+    this->Problem.Parts, static_cast<int>(radiosity->GetWidth())));
 }
 
 //------------------------------------------------------------------------------
@@ -403,6 +412,7 @@ Outcome ProgressiveSolution::Shoot(vtkRenderer* renderer, double seconds, bool u
     // Taking the scene has cost the whole frame.
     return this->ShowShots(usesAmbient);
   }
+  this->ReadBack = nullptr;
   const double end = begin + seconds;
   for (double now = begin; now < end && this->State == Progress::Shooting;)
   {
@@ -437,7 +447,7 @@ Outcome ProgressiveSolution::ShowShots(bool usesAmbient)
     scales[band] = static_cast<float>(this->Shooter->GetBandScale(band));
   }
   const Outcome drawn =
-    radiosity ? this->Means->Draw(radiosity, scales) : Outcome::FailedAsReported();
+    radiosity ? Describe(this->Means->Draw(radiosity, scales)) : Outcome::FailedAsReported();
   return drawn ? drawn : this->Fail(drawn.GetMessage());
 }
 
@@ -505,16 +515,16 @@ vtkPolyData* ProgressiveSolution::GetOutput(vtkActor* actor, int block)
   const bool isShot = this->State == Progress::Shooting || this->State == Progress::Done;
   if (this->IsByShots && isShot && this->GetGroups())
   {
-    if (this->ReadShots != this->Shots || this->State == Progress::Shooting)
+    if (!this->ReadBack)
     {
       std::vector<double> irradiance(this->Problem.Source.size());
-      this->ReadBack = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+      auto readBack = vtkSmartPointer<vtkMultiBlockDataSet>::New();
       if (!this->Shooter->GetIrradiance(irradiance.data()) ||
-        !this->Filter->WriteShots(this->Scene, irradiance, this->Shots, this->ReadBack))
+        !this->Filter->WriteShots(this->Scene, irradiance, this->Shots, readBack))
       {
         return nullptr;
       }
-      this->ReadShots = this->Shots;
+      this->ReadBack = readBack;
     }
     output = this->ReadBack;
   }
@@ -528,7 +538,6 @@ void ProgressiveSolution::ReleaseGraphicsResources()
   this->BytesRead += this->Shooter->GetNumberOfBytesRead();
   this->Shooter = vtkSmartPointer<vtkOpenGLShooter>::New();
   this->ReadBack = nullptr;
-  this->ReadShots = -1;
   if (this->IsByShots && this->State == Progress::Done && this->Estimate)
   {
     this->State = Progress::Shooting;

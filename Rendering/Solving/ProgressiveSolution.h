@@ -137,9 +137,8 @@ private:
   vtkRadiosity::ShotProblem Problem;
   vtkSmartPointer<vtkMultiBlockDataSet> Estimate; ///< nullptr until there is one
   vtkSmartPointer<vtkMultiBlockDataSet> Solution;
-  vtkSmartPointer<vtkMultiBlockDataSet> ReadBack;
-  vtkIdType ReadShots = -1; ///< that it is of
-  vtkIdType Shots = 0;      ///< of this solution
+  vtkSmartPointer<vtkMultiBlockDataSet> ReadBack; ///< of all shots so far; else nullptr
+  vtkIdType Shots = 0;                            ///< of this solution
   vtkIdType UncheckedShots = 0;
 
   /// What is shown, and what it is of.

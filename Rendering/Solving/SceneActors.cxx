@@ -43,8 +43,9 @@ std::string Describe(vtkActor* actor, int number)
 {
   return "Actor " + std::to_string(number) + " of the renderer takes no part in its radiosity: a " +
     std::string(actor->GetMapper()->GetClassName()) +
-    " draws it, which has no polygons, or blocks of an opacity below 1. Give each of its surfaces "
-    "an actor with a vtkPolyDataMapper, or switch off its property's Lighting.";
+    " draws it, which has no polygons, triangle strips, or blocks of an opacity below 1. Give each "
+    "of its surfaces an actor with a vtkPolyDataMapper, behind a vtkTriangleFilter for strips, or "
+    "switch off its property's Lighting.";
 }
 
 //------------------------------------------------------------------------------
@@ -113,7 +114,7 @@ void SceneActors::Find(vtkRenderer* renderer, const Names& names,
   vtkPropCollection* props = renderer->GetViewProps();
   vtkCollectionSimpleIterator place;
   props->InitTraversal(place);
-  int number = -1;
+  int number = 0;
   while (vtkProp* prop = props->GetNextProp(place))
   {
     auto* actor = vtkActor::SafeDownCast(prop);
@@ -150,6 +151,10 @@ bool SceneActors::AddBlocks(vtkActor* actor)
     mapper->Update();
     BlockSurface all;
     all.Surface = mapper->GetInput();
+    if (all.Surface && all.Surface->GetNumberOfStrips() > 0)
+    {
+      return false;
+    }
     if (all.Surface && all.Surface->GetNumberOfPolys() > 0)
     {
       this->Add(actor, all, 0);
@@ -158,10 +163,13 @@ bool SceneActors::AddBlocks(vtkActor* actor)
   }
   std::vector<BlockSurface> blocks;
   FindBlockSurfaces(actor->GetMapper(), blocks);
-  const bool isOpaque = std::all_of(blocks.begin(), blocks.end(),
+  const bool canTakePart = std::all_of(blocks.begin(), blocks.end(),
     [](const BlockSurface& block)
-    { return !block.IsVisible || !block.HasOpacity || block.Opacity >= 1.0; });
-  if (blocks.empty() || !isOpaque)
+    {
+      return !block.IsVisible ||
+        ((!block.HasOpacity || block.Opacity >= 1.0) && block.Surface->GetNumberOfStrips() == 0);
+    });
+  if (blocks.empty() || !canTakePart)
   {
     return false;
   }
@@ -211,6 +219,14 @@ void SceneActors::Add(vtkActor* actor, const BlockSurface& block, int number)
     cells->GetArray(this->ArrayNames.Reflectance.c_str()) });
   this->MaterialKey = material.Get();
   this->Members.push_back(member);
+}
+
+//------------------------------------------------------------------------------
+bool SceneActors::AreOfActorsOf(const SceneActors& other) const
+{
+  return std::equal(this->Members.begin(), this->Members.end(), other.Members.begin(),
+    other.Members.end(),
+    [](const Member& a, const Member& b) { return a.Actor.Get() == b.Actor.Get(); });
 }
 
 //------------------------------------------------------------------------------

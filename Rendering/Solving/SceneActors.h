@@ -52,6 +52,10 @@ public:
   void Find(vtkRenderer* renderer, const Names& names, std::vector<std::string>& refusals);
 
   const std::vector<Member>& GetMembers() const { return this->Members; }
+
+  /// Whether they are surfaces of the very same actors, whatever these are made of.
+  bool AreOfActorsOf(const SceneActors& other) const;
+
   ///@{ Other numbers where points, polygons or places have changed; what actors are made of; lights
   /// of the renderer that are scene lights, and on.
   std::uint64_t GetShapeKey() const { return this->ShapeKey; }

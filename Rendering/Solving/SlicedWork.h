@@ -3,7 +3,8 @@
 /**
  * Work that knows nothing of frames, done a while at a time: it has a thread of its own, which runs
  * only while the caller waits for it. So the two never meet, and need no locks for what they share;
- * what the work is at stays on its stack. The work says GoesOn now and then.
+ * what the work is at stays on its stack. The work says GoesOn now and then. Threads that help it
+ * may end what they are at meanwhile: what they write must be the work's own.
  */
 #ifndef SlicedWork_h
 #define SlicedWork_h

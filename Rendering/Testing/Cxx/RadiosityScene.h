@@ -103,11 +103,18 @@ struct Scene
   Scene(const Scene&) = delete;
   void operator=(const Scene&) = delete;
 
-  void ShootInstead(double tolerance = 1e-3)
+  void ShootInstead(double tolerance)
   {
     this->Radiosity->SetSolverToSouthwell();
     this->Radiosity->SetDeviceToOpenGL();
     this->Radiosity->SetTolerance(tolerance);
+  }
+  /// So dark that it ends after as few shots as there are between two looks at what is left.
+  void ShootFew()
+  {
+    this->ShootInstead(1.0);
+    this->Floor->GetProperty()->SetDiffuse(0.5);
+    this->Wall->GetProperty()->SetDiffuse(0.5);
   }
 };
 } // namespace RadiosityScene

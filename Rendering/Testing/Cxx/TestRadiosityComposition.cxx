@@ -35,7 +35,8 @@ struct Solved : Scene
   {
     if (byShots)
     {
-      this->ShootInstead(0.5);
+      this->ShootFew();
+      this->Pass->SetExposure(3.0);
     }
   }
   double GetMean(double left = 0.0, double right = 1.0)

@@ -15,14 +15,17 @@
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDoubleArray.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkMath.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkReverseSense.h"
+#include "vtkStripper.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
+#include "vtkTriangleFilter.h"
 
 #include <array>
 #include <iostream>
@@ -135,7 +138,7 @@ int DrawAll(Scene& scene, int most = 100000)
 /// With links the arrays are the filter's, by shots they are near.
 void TestCornellBox()
 {
-  const auto box = MakeCornellBox(150.0);
+  const auto box = MakeCornellBox(200.0);
   vtkNew<vtkRadiosity> filter;
   filter->SetInputData(box);
   filter->Update();
@@ -149,7 +152,7 @@ void TestCornellBox()
     scene.Renderer->AddActor(actor);
     if (byShots)
     {
-      scene.ShootInstead();
+      scene.ShootInstead(1e-2);
       scene.Radiosity->SetTolerance(1e-2);
     }
     scene.Window->Render();
@@ -186,7 +189,7 @@ void TestProperties()
       Compare(solved, Read(scene, "Radiosity"), GetCellValues(solved, "Radiosity"));
     std::cout << "several actors are off by " << error << "\n";
     Check(error < 1e-10, "several actors");
-    scene.ShootInstead();
+    scene.ShootInstead(1e-2);
     DrawAll(scene);
     const double byShots =
       Compare(solved, Read(scene, "Radiosity"), GetCellValues(solved, "Radiosity"));
@@ -228,7 +231,7 @@ void TestRuns(bool byShots)
   Scene scene;
   if (byShots)
   {
-    scene.ShootInstead(0.5);
+    scene.ShootFew();
   }
   // An annotation: not lit.
   auto beside = MakeActor(MakeSquare(2));
@@ -282,6 +285,13 @@ void TestRuns(bool byShots)
   const vtkIdType before = scene.Pass->GetNumberOfShots();
   check({ 0, 0, 0 }, "after a release");
   Check((scene.Pass->GetNumberOfShots() > before) == byShots, "a release costs the wrong things");
+  vtkNew<vtkActor> other;
+  other->ShallowCopy(scene.Lamp);
+  scene.Renderer->RemoveActor(scene.Lamp);
+  scene.Renderer->AddActor(other);
+  check({ 0, 0, 1 }, "another actor with the same surface");
+  Check(scene.Pass->GetOutput(other) && !scene.Pass->GetOutput(scene.Lamp),
+    "an actor in the place of another has no output");
 }
 
 /// A small budget leads to the same solution, over many frames, whatever happens meanwhile.
@@ -294,7 +304,7 @@ void TestSlices(bool byShots)
     vtkPolyDataMapper::SafeDownCast(scene->Floor->GetMapper())->SetInputData(MakeSquare(12));
     if (byShots)
     {
-      scene->ShootInstead();
+      scene->ShootFew();
     }
   }
   DrawAll(whole);
@@ -313,7 +323,8 @@ void TestSlices(bool byShots)
   }
   std::cout << frames << " frames\n";
   Check(sliced.Pass->IsConverged() && frames > 3, "slices");
-  Check(GetRuns(sliced)[2] == 1, "what has been given up was ended");
+  // With shots it may have begun.
+  Check(byShots || GetRuns(sliced)[2] == 1, "what has been given up was ended");
   // Drawn in other pieces, sums of single precision are rounded otherwise.
   const std::vector<double> expected = Read(whole, "Radiosity");
   const double error =
@@ -340,7 +351,7 @@ void TestEstimates()
   scene.Renderer->GetActiveCamera()->SetViewUp(0.0, 1.0, 0.0);
   scene.Renderer->GetActiveCamera()->SetParallelScale(270.0);
   scene.Renderer->ResetCameraClippingRange();
-  scene.ShootInstead();
+  scene.ShootInstead(1e-2);
   scene.Radiosity->SetTolerance(1e-2);
   DrawAll(scene);
   const std::vector<double> picture = Draw(scene.Window);
@@ -364,7 +375,8 @@ void TestEstimates()
   const double all = Mean(picture) * static_cast<double>(picture.size());
   std::cout << "early estimates are off by " << errors[0] / all << ", with an ambient term by "
             << errors[1] / all << "\n";
-  Check(errors[0] > 0.1 * all && errors[1] < 0.7 * errors[0], "estimates");
+  // Shots that there was time for make both better.
+  Check(errors[0] > 0.1 * all && errors[1] < 0.8 * errors[0], "estimates");
 }
 
 /// What is drawn are the arrays, from either way of solving.
@@ -375,7 +387,7 @@ void TestPictures()
     Scene scene;
     if (byShots)
     {
-      scene.ShootInstead();
+      scene.ShootInstead(1e-2);
     }
     const std::vector<double> solved = Draw(scene.Window);
     vtkNew<vtkRadiosityPass> old;
@@ -446,24 +458,44 @@ void CheckMessage(Scene& scene, const std::string& message, bool isError)
   Check(!observer->GetError() && !observer->GetWarning(), "told twice: " + message);
 }
 
+/// An actor with this mapper is told of, and left out.
+void CheckRefused(vtkMapper* mapper)
+{
+  Scene scene;
+  vtkNew<vtkActor> other;
+  other->SetMapper(mapper);
+  other->SetPosition(0.0, 0.0, -2.0);
+  scene.Renderer->AddActor(other);
+  CheckMessage(scene, "Actor 4 of the renderer takes no part", false);
+  Check(scene.Pass->GetOutput(scene.Floor) && !scene.Pass->GetOutput(other),
+    "the others are not solved");
+}
+
+/// Surfaces that one sees through, or that are not what is drawn.
+void TestRefusals()
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeSquare(2));
+  vtkNew<vtkCompositePolyDataMapper2> composite;
+  composite->SetInputDataObject(blocks);
+  composite->SetCompositeDataDisplayAttributes(vtkNew<vtkCompositeDataDisplayAttributes>());
+  composite->SetBlockOpacity(1, 0.5);
+  CheckRefused(composite);
+  vtkNew<vtkGlyph3DMapper> glyphs;
+  glyphs->SetInputData(MakeSquare(1));
+  glyphs->SetSourceData(MakeSquare(1));
+  CheckRefused(glyphs);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(MakeSquare(2));
+  vtkNew<vtkStripper> strips;
+  strips->SetInputConnection(triangles->GetOutputPort());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(strips->GetOutputPort());
+  CheckRefused(mapper);
+}
+
 void TestMessages()
 {
-  {
-    Scene scene;
-    vtkNew<vtkMultiBlockDataSet> blocks;
-    blocks->SetBlock(0, MakeSquare(2));
-    vtkNew<vtkCompositePolyDataMapper2> mapper;
-    mapper->SetInputDataObject(blocks);
-    mapper->SetCompositeDataDisplayAttributes(vtkNew<vtkCompositeDataDisplayAttributes>());
-    mapper->SetBlockOpacity(1, 0.5);
-    vtkNew<vtkActor> composite;
-    composite->SetMapper(mapper);
-    composite->SetPosition(0.0, 0.0, -2.0);
-    scene.Renderer->AddActor(composite);
-    CheckMessage(scene, "Actor 3 of the renderer takes no part", false);
-    Check(scene.Pass->GetOutput(scene.Floor) && !scene.Pass->GetOutput(composite),
-      "the others are not solved");
-  }
   {
     Scene scene;
     Fill(vtkPolyDataMapper::SafeDownCast(scene.Wall->GetMapper())->GetInput(), "Reflectance",
@@ -541,7 +573,7 @@ void TestComposite()
     {
       if (byShots)
       {
-        scene->ShootInstead();
+        scene->ShootInstead(0.05);
       }
       DrawAll(*scene);
     }
@@ -604,7 +636,7 @@ void TestSmallScenes()
   {
     if (byShots)
     {
-      scene.ShootInstead();
+      scene.ShootInstead(1e-2);
     }
     DrawAll(scene);
     vtkPolyData* output = scene.Pass->GetOutput(alone);
@@ -659,7 +691,7 @@ void TestOffset()
   {
     if (byShots)
     {
-      far.ShootInstead();
+      far.ShootInstead(1e-2);
     }
     DrawAll(far);
     const double error =
@@ -683,6 +715,7 @@ int TestRadiosityPass(int, char*[])
   TestEstimates();
   TestPictures();
   TestMovingActor();
+  TestRefusals();
   TestMessages();
   TestComposite();
   TestShown();

@@ -230,6 +230,55 @@ void TestSharing()
   Check(!Read(texture).empty(), "the first body has gone");
 }
 
+/// Points of single precision on a map, where their steps are half a unit.
+void TestOffset()
+{
+  constexpr double Scale = 1000.0;
+  const double place[3] = { 6e5, 6e6, 0.0 };
+  LitScene near(8);
+  LitScene far(8);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  for (vtkIdType point = 0; point < far.Ball->GetNumberOfPoints(); ++point)
+  {
+    double at[3];
+    far.Ball->GetPoint(point, at);
+    points->InsertNextPoint(place[0] + Scale * at[0], place[1] + Scale * at[1],
+      place[2] + Scale * at[2]);
+  }
+  far.Ball->SetPoints(points);
+  double light[3];
+  near.Light->GetPosition(light);
+  far.Light->SetPosition(place[0] + Scale * light[0], place[1] + Scale * light[1],
+    place[2] + Scale * light[2]);
+  near.Light->GetFocalPoint(light);
+  far.Light->SetFocalPoint(place[0] + Scale * light[0], place[1] + Scale * light[1],
+    place[2] + Scale * light[2]);
+  far.Renderer->ResetCamera();
+  const auto sky = MakeSky(32, GetSoftSky);
+  for (LitScene* scene : { &near, &far })
+  {
+    scene->Lighting->RendererLightsOn();
+    scene->Lighting->SetEnvironment(sky);
+    scene->Lighting->SetNumberOfEnvironmentDirections(4);
+  }
+  for (const int method : { vtkSurfaceLighting::ENVIRONMENT_METHOD_HARMONICS,
+         vtkSurfaceLighting::ENVIRONMENT_METHOD_DIRECTIONS })
+  {
+    for (LitScene* scene : { &near, &far })
+    {
+      scene->Lighting->SetEnvironmentMethod(method);
+    }
+    std::vector<double> expected = near.Draw();
+    for (std::size_t k = 0; k < expected.size(); ++k)
+    {
+      const double area = expected[k | 3];
+      expected[k] = k % 4 < 3 && area > 0.0 ? expected[k] / area : expected[k];
+    }
+    CheckMap(far.Draw(), expected, 0.02, "single precision on a map");
+  }
+}
+
 /// A window without a context is told of once, and looked at again each time.
 void TestLateContext()
 {
@@ -292,6 +341,9 @@ void TestErrors()
   scene.Ball->GetFieldData()->AddArray(recorded);
   scene.Lighting->Modified();
   expect("refractive index of 1,");
+  scene.Lighting->SetEnvironmentUp(0.0, 0.6, 0.8);
+  scene.Window->Render();
+  Check(!observer->GetWarning(), "a sky that turns repeats a warning");
   scene.Lighting->SetEnvironment(nullptr);
   scene.Lighting->SetIrradianceArray("Nothing");
   expect("no cell or point array \"Nothing\"");
@@ -318,6 +370,7 @@ int TestSurfaceLighting(int, char*[])
   TestCorners();
   TestBumps();
   TestSharing();
+  TestOffset();
   TestLateContext();
   TestErrors();
   return Result();
