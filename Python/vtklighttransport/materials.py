@@ -81,11 +81,12 @@ def set_by_region(surface, name, values):
             raise ValueError(f"{name} of the region '{regions[region]}' has {len(row)} values, and "
                              f"elsewhere it has {array.GetNumberOfComponents()}: give as many "
                              "everywhere")
-    cells = surface.GetCellData().GetArray(REGION)
-    for cell in range(surface.GetNumberOfCells()):
-        row = rows.get(cells.GetTuple1(cell))
-        if row is not None:
-            array.SetTuple(cell, row)
+    if rows:
+        cells = surface.GetCellData().GetArray(REGION)
+        for cell in range(surface.GetNumberOfCells()):
+            row = rows.get(cells.GetTuple1(cell))
+            if row is not None:
+                array.SetTuple(cell, row)
     surface.GetCellData().AddArray(array)
 
 
