@@ -225,6 +225,9 @@ class TestShell(CommandTestCase):
             self.assertAlmostEqual(value, 1.0, delta=1e-3)
         result = self.run_command("view-factors", self.path("oven.stl"), self.path("f.txt"))
         self.check_failure(result, 2, "is not a .npz or .csv or .vtp file")
+        result = self.run_command("view-factors", self.path("oven.stl"), self.path("new.npz"),
+                                  "--group", "Regoin")
+        self.check_failure(result, 1, "did you mean 'Region'?")
 
     @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
     def test_mesh_and_atlas(self):

@@ -69,6 +69,8 @@ def describe(value):
 
 
 def set_by_region(surface, name, values):
+    if not values:
+        raise ValueError(f"{name} has no value: the dictionary is empty")
     regions = list_regions(surface)
     numbers = {}
     for region in values:
