@@ -161,8 +161,7 @@ void EnclosureVerdict::JudgeBackFaces()
   {
     this->Warnings.emplace_back(
       "No polygon sees any other, but their backs enclose a space. That is right for a body that "
-      "is "
-      "seen from outside; to see each other in there, they need their normals turned "
+      "is seen from outside; to see each other in there, they need their normals turned "
       "(vtkReverseSense, or FlipNormals of vtkPatchMesher).");
   }
 }
