@@ -48,8 +48,8 @@ vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
 
 namespace
 {
-// More patches than this are linked by clusters unless asked for otherwise: a matrix takes about
-// half a minute from here on.
+// More patches than this are linked by rays unless asked for otherwise: a matrix takes about half
+// a minute from here on.
 constexpr vtkIdType MostDensePatches = 8192;
 // How much coarser the links are that show where light is, and how coarse at most: enough for a
 // solution to exist.
@@ -266,9 +266,14 @@ LightTransport::LinkMethod vtkRadiosity::Run::GetLinkMethod() const
   {
     return static_cast<Method>(this->Owner->LinkMethod);
   }
-  return this->Scene.GetNumberOfPatches() > MostDensePatches && !this->Solver->NeedsEachPair()
+  if (this->Scene.GetNumberOfPatches() <= MostDensePatches || this->Solver->NeedsEachPair())
+  {
+    return Method::Dense;
+  }
+  // What only links between clusters have asks for them.
+  return this->Owner->RefineByBrightness || this->Owner->ClusterTree == CLUSTER_TREE_ATLAS
     ? Method::Hierarchical
-    : Method::Dense;
+    : Method::Sampled;
 }
 
 //------------------------------------------------------------------------------

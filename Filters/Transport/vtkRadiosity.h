@@ -194,9 +194,9 @@ public:
    * patches (vtkExchangeHierarchy), whose number hardly grows with that of the patches, to an
    * accuracy of LinkTolerance; Sampled by what rays of each patch meet, and exact view factors of
    * the few patches that send most of the light (see Accuracy), which is the fastest where 1 % or
-   * more is enough. Default LINK_METHOD_AUTO: Dense up to 8,192 patches, with the
-   * solvers that need it (GaussSeidel), and where SetViewFactors gave view factors, which then
-   * decide; else Hierarchical. Field data LinkMethodUsed says which.
+   * more is enough. Default LINK_METHOD_AUTO: what SetViewFactors gave; Dense up to 8,192 patches,
+   * and with the solvers that need it (GaussSeidel); Hierarchical with RefineByBrightness or the
+   * ClusterTree Atlas; else Sampled. Field data LinkMethodUsed says which.
    */
   vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_SAMPLED);
   vtkGetMacro(LinkMethod, int);

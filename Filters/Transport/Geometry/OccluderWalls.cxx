@@ -3,6 +3,7 @@
 #include "Geometry/OccluderWalls.h"
 
 #include "Scene/PatchScene.h"
+#include "Scene/SceneFaces.h"
 #include "Shared/Pulse.h"
 
 #include <Eigen/Geometry>
@@ -216,8 +217,15 @@ private:
     return hull;
   }
 
+  // Lies on another one that faces the same way, in part.
+  bool IsOverlapping(vtkIdType patch) const
+  {
+    const vtkIdType face = this->Scene.GetFaces().GetFace(patch);
+    return (this->Scene.GetProblems()[face] & SceneFaces::COINCIDENT) != 0;
+  }
+
   // Whether the patches fill their hull, and lie in its plane: far away the seed's is not that
-  // certain.
+  // certain. What is there twice, as both sides of a sheet are, would make up for a hole as large.
   bool IsFilled(const std::vector<vtkIdType>& hull, const Members& members) const
   {
     const std::vector<Vector>& points = this->Scene.GetPoints();
@@ -231,6 +239,10 @@ private:
     double largest = 0.0;
     for (const vtkIdType member : members)
     {
+      if (this->Scene.GetNormal(member).dot(normal) <= 0.0 || this->IsOverlapping(member))
+      {
+        return false;
+      }
       sum += this->Scene.GetAreas()[member];
       for (int corner = 0; corner < this->Scene.GetNumberOfCorners(member); ++corner)
       {

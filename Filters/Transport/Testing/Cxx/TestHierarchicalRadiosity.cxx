@@ -176,9 +176,14 @@ void TestManyPatches()
   auto data = plane.Get();
   AddArray(data, "Reflectance", { 0.5 });
   AddArray(data, "Emission", { 3.0 });
-  const Solved run = Solve(data, Auto);
-  Check(run.GetLinkMethod() == "Hierarchical", "many patches are linked by clusters");
-  Check(run.Radiosity.size() > 8192 && (run.Radiosity.array() == 3.0).all(), "nothing is linked");
+  const Solved sampled = Solve(data, Auto);
+  Check(sampled.GetLinkMethod() == "Sampled", "many patches are linked by rays");
+  Check(sampled.Radiosity.size() > 8192 && (sampled.Radiosity.array() == 3.0).all(),
+    "nothing is met");
+  const Solved run =
+    Solve(data, Auto, [](vtkRadiosity* filter) { filter->RefineByBrightnessOn(); });
+  Check(run.GetLinkMethod() == "Hierarchical", "brightness refines links between clusters");
+  Check((run.Radiosity.array() == 3.0).all(), "nothing is linked");
   Check(run.Get("NumberOfLinks") == 0.0 && run.Get("LinkError") == 0.0, "no links in a plane");
 }
 

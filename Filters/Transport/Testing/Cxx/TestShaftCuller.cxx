@@ -308,6 +308,15 @@ void TestWalls()
   std::vector<Corners> holed(room.begin(), room.begin() + 25);
   holed.erase(holed.begin() + 12);
   Check(count(holed) > 1 && count(holed) <= 5, "walls around a hole");
+  // Half of its hull, but there twice: from both sides, or by others that lie on it in part.
+  const std::vector<Corners> notched{ { { -1, 0, 0 }, { 0, 1, 0 }, { 0, 2, 0 } },
+    { { 0, 2, 0 }, { 0, 1, 0 }, { 1, 0, 0 } } };
+  CheckClose(static_cast<double>(count(Join(notched, Flip(notched)))), 4.0, 0.0,
+    "walls of both sides of a notched sheet");
+  const std::vector<Corners> overlapping{ { { -1, 0, 0 }, { -0.25, 0.5, 0 }, { 0, 2, 0 } },
+    { { 0, 2, 0 }, { 0.25, 0.5, 0 }, { 1, 0, 0 } } };
+  CheckClose(static_cast<double>(count(Join(notched, overlapping))), 4.0, 0.0,
+    "walls of patches that overlap");
 }
 
 //------------------------------------------------------------------------------
