@@ -114,6 +114,9 @@ class TestJobs(unittest.TestCase):
                 ({"emission": {"floor": 1}, "reflectance": 0}, ValueError, "no regions"),
                 ({"emission": object(), "reflectance": 0}, TypeError, ""),
                 ({"emission": ["bright"], "reflectance": 0}, ValueError, "a number"),
+                ({"emission": {}, "reflectance": 0}, ValueError, "is empty"),
+                ({"lights": (1, 1, 1), "reflectance": 0}, ValueError, "lights is a list"),
+                ({"lights": [(1, 1)], "reflectance": 0}, ValueError, "lights is a list"),
                 ({"emission": 1, "reflectance": 0, "solver": "magic"}, ValueError, "jacobi")):
             with self.subTest(keywords), self.assertRaisesRegex(kind, message):
                 lt.radiosity(cube, **keywords)

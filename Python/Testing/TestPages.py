@@ -17,6 +17,7 @@ from TestingTools import FolderTestCase
 
 SOURCE = pathlib.Path(os.environ["LIGHT_TRANSPORT_SOURCE"])
 PAGES = SOURCE / "Documentation" / "start"
+README = SOURCE / "README.md"
 WITHOUT_DISPLAY = """
 import pyvista, vtklighttransport
 pyvista.OFF_SCREEN = True
@@ -52,6 +53,14 @@ class TestPages(FolderTestCase):
                 words = words[:words.index("|")] if "|" in words else words
                 self.assertTrue(self.run_here("-m", "vtklighttransport", *words))
         self.assertTrue(os.path.exists(self.path("texels.vti")))
+
+    def test_readme(self):
+        commands = [line.split() for block in find_blocks(README, "sh")
+                    for line in block.splitlines() if " -m " in line]
+        self.assertEqual(len(commands), 2)
+        for _, *words in commands:
+            self.assertTrue(self.run_here(*words))
+        self.assertIn("right", self.run_here("-c", "".join(find_blocks(README, "python"))))
 
     def test_python(self):
         jobs, *blocks = find_blocks("python.md", "python")

@@ -90,6 +90,10 @@ class TestShell(CommandTestCase):
         cube = self.save("cube.vtp", make_surface(make_box((0, 0, 0), (1, 1, 1))))
         result = self.run_command("radiosity", cube, self.path("new.vtp"), "--emission", "floor=1")
         self.check_failure(result, 1, "the mesh has no regions")
+        self.run_json("radiosity", cube, self.path("out.vtp"), "--emission", "1",
+                      "--reflectance", "0.5")
+        for value in self.get_values("Radiosity"):
+            self.assertAlmostEqual(value, 2.0, delta=1e-3)
 
     def test_files(self):
         """What VTK writes is read, and of volumes the surface."""
@@ -221,6 +225,9 @@ class TestShell(CommandTestCase):
             self.assertAlmostEqual(value, 1.0, delta=1e-3)
         result = self.run_command("view-factors", self.path("oven.stl"), self.path("f.txt"))
         self.check_failure(result, 2, "is not a .npz or .csv or .vtp file")
+        result = self.run_command("view-factors", self.path("oven.stl"), self.path("new.npz"),
+                                  "--group", "Regoin")
+        self.check_failure(result, 1, "did you mean 'Region'?")
 
     @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
     def test_mesh_and_atlas(self):

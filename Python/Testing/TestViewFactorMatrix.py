@@ -14,6 +14,7 @@ import vtklighttransport as lt
 from vtklighttransport.filters import find_choices
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from TestingTools import FolderTestCase, add_array, make_box, make_surface
 
@@ -178,6 +179,17 @@ class TestViewFactorMatrix(FolderTestCase):
         read = lt.read_view_factors(self.path("f.npy"), areas=make_cube())
         numpy.testing.assert_allclose(read.areas, 1.0)
         self.assertTrue(read.check().ok)
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(2, make_cube())
+        read = lt.read_view_factors(self.path("f.npy"), areas=blocks)
+        numpy.testing.assert_allclose(read.areas, 1.0)
+        writer = vtkXMLPolyDataWriter()
+        writer.SetInputData(make_cube())
+        writer.SetDataModeToBinary()
+        writer.SetFileName(self.path("cube.vtp"))
+        writer.Write()
+        read = lt.read_view_factors(self.path("f.npy"), areas=self.path("cube.vtp"))
+        numpy.testing.assert_allclose(read.areas, 1.0)
 
     def test_other_programs(self):
         matrix = lt.read_view_factors(self.write("view3d.out", VIEW3D))
@@ -260,7 +272,8 @@ class TestViewFactorMatrix(FolderTestCase):
     def test_properties(self):
         for wrong, kind, message in (({"tolranc": 1e-3}, TypeError, "did you mean 'tolerance'"),
                                      ({"tolerance": 5.0}, ValueError, "nearest value is 0.1"),
-                                     ({"cluster_tree": "magic"}, ValueError, "spatial")):
+                                     ({"cluster_tree": "magic"}, ValueError, "spatial"),
+                                     ({"group": "Wall"}, ValueError, "no cell array 'Wall'")):
             with self.subTest(wrong), self.assertRaisesRegex(kind, message):
                 lt.view_factors(make_cube(), **wrong)
         with self.assertRaisesRegex(TypeError, "name of a file"):

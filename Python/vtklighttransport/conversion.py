@@ -16,9 +16,9 @@ def convert_meshio(mesh):
     from meshio import _vtk_common
     points = numpy.zeros((len(mesh.points), 3))
     points[:, :mesh.points.shape[1]] = mesh.points
-    blocks = [block for block in mesh.cells if block.type in _vtk_common.meshio_to_vtk_type]
-    kept = [k for k, block in enumerate(mesh.cells) if block.type in
-            _vtk_common.meshio_to_vtk_type]
+    kept = [k for k, block in enumerate(mesh.cells)
+            if block.type in _vtk_common.meshio_to_vtk_type]
+    blocks = [mesh.cells[k] for k in kept]
     grid = vtkUnstructuredGrid()
     coordinates = vtkPoints()
     coordinates.SetData(numpy_support.numpy_to_vtk(points, deep=True))

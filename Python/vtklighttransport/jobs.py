@@ -14,7 +14,7 @@ filter. What a filter refuses raises LightTransportError, what it doubts is a wa
 from vtklighttransport.filters import make_filter, run_filter, suggest
 from vtklighttransport.lights import make_irradiance, take_light_of
 from vtklighttransport.materials import set_cell_values
-from vtklighttransport.meshes import extract_surface, get_surface
+from vtklighttransport.meshes import get_flat_surface
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 # Index of SetInputArrayToProcess and name of the arrays of vtkRadiosity, by keywords.
@@ -88,10 +88,6 @@ def atlas(mesh, *, progress=False, **properties):
     """The surface unfolded: AtlasCoordinates are its texture coordinates, ChartId its charts."""
     return run_filter(make_filter("vtkSurfaceAtlas", **properties), get_flat_surface(mesh),
                       progress)
-
-
-def get_flat_surface(mesh):
-    return extract_surface(get_surface(mesh))
 
 
 def copy_surface(mesh):

@@ -48,5 +48,17 @@ def make_irradiance(lights, **properties):
     """A vtkDirectIrradiance. A light is a vtkLight, or (x, y, z), or (x, y, z, intensity)."""
     irradiance = make_filter("vtkDirectIrradiance", **properties)
     for light in lights:
-        irradiance.AddLight(light if hasattr(light, "IsA") else make_light(light[:3], *light[3:4]))
+        irradiance.AddLight(light if hasattr(light, "IsA") else make_light(*to_light(light)))
     return irradiance
+
+
+def to_light(values):
+    """Position and, where it is given, intensity."""
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) not in (3, 4):
+        raise ValueError("lights is a list of lights, each a vtkLight, (x, y, z) or (x, y, z, "
+                         f"intensity), such as lights=[(1, 1, 1)]; {values!r:.60} is none")
+    return numbers[:3], *numbers[3:]

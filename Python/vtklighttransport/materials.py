@@ -69,6 +69,8 @@ def describe(value):
 
 
 def set_by_region(surface, name, values):
+    if not values:
+        raise ValueError(f"{name} has no value: the dictionary is empty")
     regions = list_regions(surface)
     numbers = {}
     for region in values:
@@ -81,11 +83,12 @@ def set_by_region(surface, name, values):
             raise ValueError(f"{name} of the region '{regions[region]}' has {len(row)} values, and "
                              f"elsewhere it has {array.GetNumberOfComponents()}: give as many "
                              "everywhere")
-    cells = surface.GetCellData().GetArray(REGION)
-    for cell in range(surface.GetNumberOfCells()):
-        row = rows.get(cells.GetTuple1(cell))
-        if row is not None:
-            array.SetTuple(cell, row)
+    if rows:
+        cells = surface.GetCellData().GetArray(REGION)
+        for cell in range(surface.GetNumberOfCells()):
+            row = rows.get(cells.GetTuple1(cell))
+            if row is not None:
+                array.SetTuple(cell, row)
     surface.GetCellData().AddArray(array)
 
 

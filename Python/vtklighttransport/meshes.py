@@ -10,7 +10,7 @@ import importlib
 import importlib.util
 import os
 
-from vtklighttransport.filters import LightTransportError, run_filter
+from vtklighttransport.filters import LightTransportError, run_filter, suggest
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkStringArray
 
 REGION, REGION_NAMES = "Region", "RegionNames"
@@ -157,17 +157,36 @@ def list_regions(surface):
             for number in found}
 
 
+def check_cell_array(surfaces, name):
+    """ValueError where none of them has it, with the one that was meant."""
+    names = {cells.GetArrayName(k) or "" for cells in (each.GetCellData() for each in surfaces)
+             for k in range(cells.GetNumberOfArrays())}
+    if name not in names:
+        near = suggest(name, names)
+        raise ValueError(f"there is no cell array '{name}'"
+                         + (f", did you mean '{near}'?" if near else ""))
+
+
+def is_mesh(value):
+    return isinstance(value, (str, os.PathLike)) or hasattr(value, "IsA")
+
+
 def get_surface(mesh):
     """A mesh as filters take it: surfaces and blocks of them as they are, of all else its surface,
     of the name of a file what is in it."""
-    if isinstance(mesh, (str, os.PathLike)):
-        return read_mesh(os.fspath(mesh))
-    if not hasattr(mesh, "IsA"):
+    if not is_mesh(mesh):
         raise TypeError(
             f"a mesh is a VTK data set or the name of a file, not {type(mesh).__name__}")
+    if not hasattr(mesh, "IsA"):
+        return read_mesh(os.fspath(mesh))
     if mesh.IsA("vtkPolyData") or mesh.IsA("vtkCompositeDataSet"):
         return mesh
     return extract_surface(mesh)
+
+
+def get_flat_surface(mesh):
+    """As `get_surface`, of blocks all in one."""
+    return extract_surface(get_surface(mesh))
 
 
 def extract_surface(data):

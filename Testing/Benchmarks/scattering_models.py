@@ -38,7 +38,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 MATERIALS = {"marble": 6, "skim milk": 8}
 # Of the cubes with which Monte Carlo codes for tissue are measured: index of a custom material.
 CUBES = {"index 1": 1.0, "index 1.37": 1.37}
-# Of the bunny in README, in mm.
+# Of the bunny in Documentation/guide/models.md, in mm.
 HEIGHTS = (15, 50, 150)
 BUNNY = pathlib.Path(__file__).parents[2] / "Data" / "bunny.ply"
 

@@ -68,7 +68,9 @@ void ThermalDoubts::Add(const RadiosityMaterials& materials, const PatchScene& s
     text.str("");
   }
   const double emitted = SumEmission(materials, scene);
-  const bool shouldBalance = verdict.GetName() == "Closed" || verdict.GetName() == "InsideOut";
+  // A body that is seen from outside is inside out, too, and gives all to the sky.
+  const bool shouldBalance = verdict.GetName() == "Closed" ||
+    (verdict.GetName() == "InsideOut" && verdict.GetSkyShare() < 1.0 - NoticedSky);
   if (shouldBalance && !materials.HasGivenFluxes() && std::abs(netPower) > NoticedLoss * emitted)
   {
     text << "NetPower is " << netPower << " of " << emitted

@@ -160,8 +160,9 @@ void EnclosureVerdict::JudgeBackFaces()
   else if (this->Name == "InsideOut")
   {
     this->Warnings.emplace_back(
-      "No polygon sees any other, but their backs enclose a space: if they were meant to see each "
-      "other, turn their normals (vtkReverseSense, or FlipNormals of vtkPatchMesher).");
+      "No polygon sees any other, but their backs enclose a space. That is right for a body that "
+      "is seen from outside; to see each other in there, they need their normals turned "
+      "(vtkReverseSense, or FlipNormals of vtkPatchMesher).");
   }
 }
 

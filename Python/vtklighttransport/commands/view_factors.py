@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """view-factors IN OUT: the fraction of what leaves each patch that reaches each other."""
 
-from vtklighttransport.meshes import list_regions
+from vtklighttransport.meshes import check_cell_array, list_regions
 from vtklighttransport.shell.files import (
     add_output, check_input, check_output, get_extension, naming, write)
 from vtklighttransport.shell.properties import (
@@ -53,6 +53,8 @@ def run(options, messages):
     arrays = surface.GetCellData()
     group = options.group or ("Region" if arrays.HasArray("Region") and
                               not arrays.HasArray("Group") else None)
+    if options.group:
+        check_group(surface, group)
     if group:
         choose_array(factors, 0, group)
     result = Stage("view factors", factors, options.quiet).run(messages, surface)
@@ -65,6 +67,13 @@ def run(options, messages):
                     "groups": groups, **list_summaries(result)})
 
 
+def check_group(surface, name):
+    try:
+        check_cell_array([surface], name)
+    except ValueError as error:
+        raise Failure(f"--group: {error}") from error
+
+
 def save(options, messages, factors, result):
     if get_extension(options.output) not in MATRICES:
         write(options, messages, result)
@@ -75,7 +84,7 @@ def save(options, messages, factors, result):
         raise Failure(f"a matrix needs numpy: {error}") from error
     matrix = make_matrix(factors)
     with naming(options.output):
-        if options.output.lower().endswith(".csv"):
+        if get_extension(options.output) == ".csv":
             matrix.to_csv(options.output)
         else:
             matrix.save(options.output)

@@ -7,8 +7,9 @@ import numpy
 from vtklighttransport.arrays import get_areas
 from vtklighttransport.factors import files, foreign, verdict
 from vtklighttransport.filters import LightTransportError, make_filter, run_filter
-from vtklighttransport.leaves import gather_cell_array
-from vtklighttransport.meshes import get_surface
+from vtklighttransport.leaves import gather_cell_array, list_leaves
+from vtklighttransport.meshes import (
+    check_cell_array, get_flat_surface, get_surface, is_mesh)
 from vtklighttransport.replacement import replace_file
 from vtklighttransport.summaries import list_summaries
 from vtkmodules.util import numpy_support
@@ -134,6 +135,7 @@ def view_factors(mesh, *, group=None, progress=False, **properties):
     surface = get_surface(mesh)
     algorithm = make_filter("vtkViewFactors", **properties)
     if group is not None:
+        check_cell_array(list_leaves(surface), group)
         algorithm.SetInputArrayToProcess(0, 0, 0, 1, group)
     run_filter(algorithm, surface, progress)
     return make_matrix(algorithm)
@@ -166,7 +168,7 @@ def read_view_factors(file, areas=None, faces=None):
     """
     columns = foreign.read(file, faces) or files.read(file)
     if areas is not None:
-        columns["areas"] = get_areas(get_surface(areas)) if hasattr(areas, "IsA") else areas
+        columns["areas"] = get_areas(get_flat_surface(areas)) if is_mesh(areas) else areas
     return ViewFactorMatrix(**columns)
 
 

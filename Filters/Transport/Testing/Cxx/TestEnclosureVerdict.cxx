@@ -193,6 +193,10 @@ void TestHeat()
   Check(warm.Name == "Open" && !warm.Says("0 K"), "an open room in the warm: " + warm.Messages);
   const Verdict turned = JudgeHeat(MakeBox(0.0, true), 300.0, 0.0);
   Check(turned.Name == "InsideOut" && turned.Says("NetPower"), "a balance: " + turned.Messages);
+  Surface outwards;
+  AddBox(outwards, { 0, 0, 0 }, { 1, 1, 1 }, 0.5, false);
+  const Verdict body = JudgeHeat(outwards.Get(), 350.0, 300.0);
+  Check(body.Says("right for a body") && !body.Says("NetPower"), "a hot box: " + body.Messages);
 }
 
 //------------------------------------------------------------------------------
