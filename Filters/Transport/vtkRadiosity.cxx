@@ -59,9 +59,8 @@ constexpr double CoarsestLinks = 0.1;
 constexpr double LeastLinkTolerance = 1e-5;
 constexpr double LeastViewFactorTolerance = 1e-12;
 constexpr double MostViewFactorTolerance = 0.1;
-// What rays may take of the free memory: hits, and rows of them, which are there twice for a while.
+// What rays and their errors may take of the free memory.
 constexpr double MemoryForRays = 0.8;
-constexpr double BytesPerHit = 6.0;
 
 // The stages of a run as fractions of its progress.
 constexpr double CoarseDone = 0.3;
@@ -411,9 +410,9 @@ SamplingPlan vtkRadiosity::Run::ImprovePlan(const SamplingPlan& plan) const
                    this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing,
                    this->Links->SkyFractions, this->Errors.Whole },
       accuracy);
-  const double bytes = BytesPerHit *
-    RayHits::GetEstimatedBytes(this->Scene.GetNumberOfPatches(), better.RaysPerPatch,
-      this->AllRanks);
+  const vtkIdType patches = this->Scene.GetNumberOfPatches();
+  const double bytes = RayHits::GetEstimatedBytes(patches, better.RaysPerPatch, this->AllRanks) +
+    SampledErrors::GetEstimatedBytes(patches, this->Materials.NumberOfBands);
   const bool fits = bytes <= MemoryForRays * TransportMemory::GetAvailableBytes();
   const bool doNotFit = this->AllRanks.GetLargest(fits ? 0 : 1) > 0;
   if (doNotFit || better == plan)
@@ -515,6 +514,18 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::FindErrors(const Monitor& monitor)
 {
+  const double bytes = SampledErrors::GetEstimatedBytes(this->Scene.GetNumberOfPatches(),
+    this->Materials.NumberOfBands);
+  const double available = TransportMemory::GetAvailableBytes();
+  const Outcome fits = this->AllRanks.Agree(bytes <= available
+      ? Outcome::Done()
+      : Outcome::Failed("The errors of links from rays need " + TransportMemory::Format(bytes) +
+          " of memory and " + TransportMemory::Format(available) +
+          " are free: set LinkMethod to Hierarchical, or use fewer patches or bands."));
+  if (!fits)
+  {
+    return fits;
+  }
   auto links = LinkOperators::MakeOnCPU(this->Links->GetExchange(),
     this->Materials.NumberOfBands * RayErrors::Groups, this->AllRanks);
   if (!links)

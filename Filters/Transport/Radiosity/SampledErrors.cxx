@@ -21,6 +21,9 @@ constexpr int Groups = RayErrors::Groups;
 // How well the equation is solved for differences: they are errors themselves.
 constexpr double ErrorTolerance = 1e-2;
 constexpr int MostIterations = 200;
+// Vectors of all groups at once: of the equation and its solver for each band, of rows for all.
+constexpr int VectorsPerBand = 20;
+constexpr int VectorsOfRows = 5;
 
 //------------------------------------------------------------------------------
 // patches x bands, each group with the same.
@@ -39,6 +42,13 @@ std::vector<double> RepeatForGroups(const std::vector<double>& values, int bands
   return repeated;
 }
 } // namespace
+
+//------------------------------------------------------------------------------
+double SampledErrors::GetEstimatedBytes(vtkIdType numberOfPatches, int bands)
+{
+  return static_cast<double>(numberOfPatches) * Groups * sizeof(double) *
+    (VectorsOfRows + VectorsPerBand * bands);
+}
 
 //------------------------------------------------------------------------------
 Outcome SampledErrors::Find(const RayErrors& rays, const RadiosityEquation& equation,

@@ -8,6 +8,7 @@
 #include "Radiosity/RadiosityEquation.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "vtkType.h"
 
 #include <vector>
 
@@ -26,6 +27,9 @@ struct SampledErrors
   ///@}
   /// Of the worst band sqrt(sum A dB^2 / sum A (B - E)^2), or of H where nothing reflects.
   double Whole = 0.0;
+
+  /// Bytes that each rank takes to find them.
+  static double GetEstimatedBytes(vtkIdType numberOfPatches, int bands);
 
   /// For a solution of `equation`, whose links `links` has for as many bands as all groups have
   /// together; `background` is what RayErrors wants. Collective.

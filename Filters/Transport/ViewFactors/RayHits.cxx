@@ -19,6 +19,8 @@ namespace
 constexpr double RaysPerBatch = 4e6;
 // Patches that a thread takes at a time.
 constexpr vtkIdType PatchesPerTurn = 16;
+// What a patch that is met takes while rows are made: counted, turned round and merged (measured).
+constexpr double BytesPerMet = 40.0;
 
 //------------------------------------------------------------------------------
 vtkIdType GetShare(vtkIdType numberOfPatches, int rank, const Ranks& ranks)
@@ -30,7 +32,9 @@ vtkIdType GetShare(vtkIdType numberOfPatches, int rank, const Ranks& ranks)
 //------------------------------------------------------------------------------
 double RayHits::GetEstimatedBytes(vtkIdType numberOfPatches, int raysPerPatch, const Ranks& ranks)
 {
-  return static_cast<double>(numberOfPatches) * raysPerPatch * sizeof(Hit) / ranks.GetNumber();
+  const auto patches = static_cast<double>(numberOfPatches);
+  const double met = std::min<double>(raysPerPatch, patches);
+  return patches * (raysPerPatch * sizeof(Hit) + met * BytesPerMet) / ranks.GetNumber();
 }
 
 //------------------------------------------------------------------------------
@@ -47,7 +51,7 @@ Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks
     this->Last = GetShare(patches, ranks.GetMine() + 1, ranks);
   }
   const int more = raysPerPatch - this->Rays;
-  const double bytes = GetEstimatedBytes(patches, std::max(more, 0), ranks);
+  const double bytes = more > 0 ? GetEstimatedBytes(patches, raysPerPatch, ranks) : 0.0;
   const double available = TransportMemory::GetAvailableBytes();
   Outcome allocated = bytes <= available
     ? Outcome::Done()

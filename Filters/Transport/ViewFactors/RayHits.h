@@ -31,7 +31,7 @@ public:
   static constexpr int FewestRays = 64;
   static constexpr int MostRays = 65536;
 
-  /// Bytes that one rank takes.
+  /// Bytes that one rank takes, and those of the links that are made of them.
   static double GetEstimatedBytes(vtkIdType numberOfPatches, int raysPerPatch, const Ranks& ranks);
 
   /// Cast rays until each patch has at least as many, FewestRays times a power of two; those of
