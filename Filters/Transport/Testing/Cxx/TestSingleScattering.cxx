@@ -17,6 +17,7 @@
 #include "vtkLight.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPLYReader.h"
+#include "vtkPointData.h"
 #include "vtkSMPTools.h"
 #include "vtkSingleScattering.h"
 
