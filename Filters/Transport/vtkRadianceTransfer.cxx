@@ -21,8 +21,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <sstream>
 #include <vector>
 
 using namespace LightTransport;
@@ -69,14 +67,7 @@ private:
 //------------------------------------------------------------------------------
 Outcome vtkRadianceTransfer::Run::Check()
 {
-  const double index = this->Owner->RefractiveIndex;
-  if (!(index >= 1.0) || !std::isfinite(index))
-  {
-    std::ostringstream text;
-    text << "RefractiveIndex is " << index << ": it must be at least 1 (1 for an opaque surface).";
-    return Outcome::Failed(text.str());
-  }
-  return Outcome::Done();
+  return TransportRun::CheckRefractiveIndex(this->Owner->RefractiveIndex);
 }
 
 //------------------------------------------------------------------------------

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace LightTransport
@@ -198,6 +199,19 @@ Outcome TransportRun::ForLocalPatches(double rays, double done,
   }
   return Outcome::Done();
 }
+
+//------------------------------------------------------------------------------
+Outcome TransportRun::CheckRefractiveIndex(double index)
+{
+  if (!(index >= 1.0) || !std::isfinite(index))
+  {
+    std::ostringstream text;
+    text << "RefractiveIndex is " << index << ": it must be at least 1 (1 for an opaque surface).";
+    return Outcome::Failed(text.str());
+  }
+  return Outcome::Done();
+}
+
 //------------------------------------------------------------------------------
 void TransportRun::Warn(const std::string& text) const
 {

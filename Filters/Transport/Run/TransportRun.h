@@ -78,6 +78,9 @@ protected:
     const std::function<void(vtkIdType patch)>& compute,
     const std::function<void(vtkIdType patch)>& finish = {});
 
+  /// Of the surface that light enters.
+  static Outcome CheckRefractiveIndex(double index);
+
   void Warn(const std::string& text) const;
   /// What is the same on all ranks, by the first of them.
   void WarnOnce(const std::vector<std::string>& warnings) const;

@@ -43,6 +43,25 @@ namespace ScatteringScene
 constexpr int Faces = 6;
 constexpr int ChartsPerSide = 4;
 
+/// Of one chart, side x side squares, each halved, between points in rows from `first` on.
+inline void AddSquares(int side, vtkIdType first, int chart, vtkCellArray* triangles,
+  vtkIntArray* charts)
+{
+  for (int j = 0; j < side; ++j)
+  {
+    for (int i = 0; i < side; ++i)
+    {
+      const vtkIdType corner = first + j * (side + 1) + i;
+      const vtkIdType lower[3] = { corner, corner + 1, corner + side + 2 };
+      const vtkIdType upper[3] = { corner, corner + side + 2, corner + side + 1 };
+      triangles->InsertNextCell(3, lower);
+      triangles->InsertNextCell(3, upper);
+      charts->InsertNextValue(chart);
+      charts->InsertNextValue(chart);
+    }
+  }
+}
+
 /// A ball of radius 1: each face of a cube is side x side squares, halved, and one chart;
 /// `firstChart` of the 16 that there is room for.
 inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3], int firstChart = 0)
@@ -79,19 +98,7 @@ inline vtkSmartPointer<vtkPolyData> MakeBall(int side, const double center[3], i
           (chart / ChartsPerSide + static_cast<double>(j) / side) / ChartsPerSide);
       }
     }
-    for (int j = 0; j < side; ++j)
-    {
-      for (int i = 0; i < side; ++i)
-      {
-        const vtkIdType corner = first + j * (side + 1) + i;
-        const vtkIdType lower[3] = { corner, corner + 1, corner + side + 2 };
-        const vtkIdType upper[3] = { corner, corner + side + 2, corner + side + 1 };
-        triangles->InsertNextCell(3, lower);
-        triangles->InsertNextCell(3, upper);
-        charts->InsertNextValue(chart);
-        charts->InsertNextValue(chart);
-      }
-    }
+    AddSquares(side, first, chart, triangles, charts);
   }
   ball->SetPoints(points);
   ball->SetPolys(triangles);

@@ -286,19 +286,7 @@ vtkSmartPointer<vtkPolyData> MakeSheet(int side)
         coordinates->InsertNextTuple2((face + u) / 2.0, v / 2.0);
       }
     }
-    for (int j = 0; j < side; ++j)
-    {
-      for (int i = 0; i < side; ++i)
-      {
-        const vtkIdType corner = first + j * (side + 1) + i;
-        const vtkIdType lower[3] = { corner, corner + 1, corner + side + 2 };
-        const vtkIdType upper[3] = { corner, corner + side + 2, corner + side + 1 };
-        triangles->InsertNextCell(3, lower);
-        triangles->InsertNextCell(3, upper);
-        charts->InsertNextValue(face);
-        charts->InsertNextValue(face);
-      }
-    }
+    AddSquares(side, first, face, triangles, charts);
   }
   sheet->SetPoints(points);
   sheet->SetPolys(triangles);
