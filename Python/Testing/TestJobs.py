@@ -153,7 +153,8 @@ class TestJobs(unittest.TestCase):
                                + make_box((.3, .3, .3), (.6, .6, .6), outside=True, count=20))
             threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
             try:
-                lt.radiosity(box, emission=1, reflectance=0.5, view_factor_tolerance=1e-8)
+                lt.radiosity(box, emission=1, reflectance=0.5, link_method="dense",
+                             view_factor_tolerance=1e-8)
             except KeyboardInterrupt:
                 print("stopped")
             print(lt.radiosity(make_surface(make_box((0, 0, 0), (1, 1, 1))), emission=1,
