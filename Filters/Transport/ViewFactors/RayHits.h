@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace LightTransport
@@ -65,7 +66,7 @@ public:
   {
     for (const Segment& segment : this->Segments)
     {
-      const Hit* hits = segment.Hits.data() + (patch - this->First) * segment.Count;
+      const Hit* hits = segment.Hits.get() + (patch - this->First) * segment.Count;
       const int last = std::min(end, segment.First + segment.Count);
       for (int ray = std::max(begin, segment.First); ray < last; ++ray)
       {
@@ -80,7 +81,7 @@ private:
   {
     int First;
     int Count;
-    std::vector<Hit> Hits;
+    std::unique_ptr<Hit[]> Hits;
   };
 
   bool AreOf(const PatchScene& scene, const Ranks& ranks) const;
