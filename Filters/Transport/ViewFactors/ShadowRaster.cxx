@@ -21,13 +21,9 @@ constexpr float Far = 1e20f;
 // raster's lines.
 constexpr double Parallel = 1e-7;
 
-// The chords of the target along the lines: sample b of line k is at w = Start + (b + jitter) *
-// Step, so a position w is sample (w - Start) / Step - jitter = w * Scale + Offset.
+// The chords of the target along the lines: a position w is sample w * Scale + Offset.
 struct Grid
 {
-  float U[Lines];
-  float Start[Lines]; ///< of sample 0, jitter included
-  float Step[Lines];
   float Scale[Lines];
   float ScaledU[Lines];
   float Offset[Lines];
@@ -42,14 +38,13 @@ struct Bounds
 };
 
 //------------------------------------------------------------------------------
-LT_INLINE void MakeGrid(const Target& target, const double shift[2], Grid& grid,
-  std::uint32_t* visible)
+LT_INLINE void MakeGrid(const Target& target, const double shift[2], View& view, Grid& grid)
 {
   const double width = (target.End - target.Begin) / Lines;
   float lower[Lines], upper[Lines];
   for (int k = 0; k < Lines; ++k)
   {
-    grid.U[k] = static_cast<float>(target.Begin + (k + shift[0]) * width);
+    view.U[k] = static_cast<float>(target.Begin + (k + shift[0]) * width);
     lower[k] = -Far;
     upper[k] = Far;
   }
@@ -61,7 +56,7 @@ LT_INLINE void MakeGrid(const Target& target, const double shift[2], Grid& grid,
     const float sign = edge.IsLower ? 1.0f : -1.0f;
     for (int k = 0; k < Lines; ++k)
     {
-      bound[k] = sign * std::max(sign * bound[k], sign * (position + slope * grid.U[k]));
+      bound[k] = sign * std::max(sign * bound[k], sign * (position + slope * view.U[k]));
     }
   }
   for (int k = 0; k < Lines; ++k)
@@ -70,12 +65,12 @@ LT_INLINE void MakeGrid(const Target& target, const double shift[2], Grid& grid,
     float jitter = static_cast<float>(shift[1]) + 0.61803399f * k;
     jitter -= static_cast<float>(static_cast<int>(jitter));
     const float length = std::max(upper[k] - lower[k], 0.0f);
-    grid.Step[k] = length / Bits;
+    view.Step[k] = length / Bits;
     grid.Scale[k] = length > 0.0f ? Bits / length : 0.0f;
-    grid.Start[k] = lower[k] + jitter * grid.Step[k];
-    grid.ScaledU[k] = grid.U[k] * grid.Scale[k];
+    view.Start[k] = lower[k] + jitter * view.Step[k];
+    grid.ScaledU[k] = view.U[k] * grid.Scale[k];
     grid.Offset[k] = -lower[k] * grid.Scale[k] - jitter;
-    visible[k] = length > 0.0f ? ~0u : 0u;
+    view.Visible[k] = length > 0.0f ? ~0u : 0u;
   }
 }
 
@@ -192,45 +187,83 @@ LT_INLINE bool CoverAll(const Triangles& triangles, const double point[3], const
 }
 
 //------------------------------------------------------------------------------
-LT_INLINE Flux Weigh(const Grid& grid, const std::uint32_t* visible, const double point[3],
-  const double normal[3])
+// Of the bits of words, in fields of as many bits: how many are set, and the sum of their places in
+// the field.
+struct Fields
 {
-  constexpr int group = 2; // samples that share a weight
-  const auto pu = static_cast<float>(point[0]);
-  const auto pw = static_cast<float>(point[1]);
-  const auto ph = static_cast<float>(point[2]);
+  std::uint32_t Counts[Lines];
+  std::uint32_t Places[Lines];
+};
+
+template <int Group>
+LT_INLINE void Gather(const std::uint32_t* words, Fields& fields)
+{
+  static_assert(Group == 2 || Group == 8, "fields of other sizes are not gathered");
+  for (int k = 0; k < Lines; ++k)
+  {
+    const std::uint32_t odd = words[k] >> 1 & 0x55555555u;
+    const std::uint32_t pairs = odd + (words[k] & 0x55555555u);
+    if (Group == 2)
+    {
+      fields.Counts[k] = pairs;
+      fields.Places[k] = odd;
+      continue;
+    }
+    constexpr std::uint32_t two = 0x33333333u, four = 0x0F0F0F0Fu;
+    const std::uint32_t upper = pairs >> 2 & two;
+    const std::uint32_t counts = upper + (pairs & two);
+    const std::uint32_t places = (odd & two) + (odd >> 2 & two) + 2 * upper;
+    const std::uint32_t high = counts >> 4 & four;
+    fields.Counts[k] = high + (counts & four);
+    fields.Places[k] = (places & four) + (places >> 4 & four) + 4 * high;
+  }
+}
+
+//------------------------------------------------------------------------------
+// `Group` samples share a weight.
+template <int Group>
+LT_INLINE Flux WeighGroups(const View& view, const double normal[3])
+{
+  constexpr float middle = 0.5f * (Group - 1);
+  constexpr std::uint32_t mask = (1u << Group) - 1u;
+  const auto pu = static_cast<float>(view.Point[0]);
+  const auto pw = static_cast<float>(view.Point[1]);
+  const auto ph = static_cast<float>(view.Point[2]);
   const auto nu = static_cast<float>(normal[0]);
   const auto nw = static_cast<float>(normal[1]);
   const auto nh = static_cast<float>(normal[2]);
+  Fields fields;
+  Gather<Group>(view.Visible, fields);
   float open[Lines] = {};
   float seen[Lines] = {};
-  for (int first = 0; first < Bits; first += group)
+  for (int first = 0; first < Bits; first += Group)
   {
     for (int k = 0; k < Lines; ++k)
     {
-      const float u = grid.U[k] - pu;
-      const float w = grid.Start[k] + (first + 0.5f * (group - 1)) * grid.Step[k] - pw;
+      const float u = view.U[k] - pu;
+      const float w = view.Start[k] + (first + middle) * view.Step[k] - pw;
       const float inverse = 1.0f / (u * u + w * w + ph * ph);
       const float cosine = std::max(u * nu + w * nw - ph * nh, 0.0f);
-      const float factor = grid.Step[k] * inverse * inverse;
+      const float factor = view.Step[k] * inverse * inverse;
       const float weight = cosine * factor;
       // The weight changes along the line; no sample of the group weighs less than nothing.
-      const float most = weight / (group - 1);
-      const float slope = 0.5f * grid.Step[k] * factor * (nw - 4.0f * w * cosine * inverse);
-      const auto bits = static_cast<std::int32_t>(visible[k] >> first);
-      const std::int32_t low = bits & 1;
-      const std::int32_t high = bits >> 1 & 1;
-      open[k] += weight * group;
-      seen[k] += weight * static_cast<float>(low + high) +
-        std::max(-most, std::min(most, slope)) * static_cast<float>(high - low);
+      const float most = weight / middle;
+      const float slope = view.Step[k] * factor * (nw - 4.0f * w * cosine * inverse);
+      const auto count =
+        static_cast<float>(static_cast<std::int32_t>(fields.Counts[k] >> first & mask));
+      const auto places =
+        static_cast<float>(static_cast<std::int32_t>(fields.Places[k] >> first & mask));
+      open[k] += weight * Group;
+      seen[k] +=
+        weight * count + std::max(-most, std::min(most, slope)) * (places - middle * count);
     }
   }
   // The cosine at the target is the height over the distance: the height is the same everywhere.
   Flux flux;
   for (int k = 0; k < Lines; ++k)
   {
-    flux.Open += point[2] * open[k];
-    flux.Visible += point[2] * seen[k];
+    flux.Open += view.Point[2] * open[k];
+    flux.Visible += view.Point[2] * seen[k];
   }
   return flux;
 }
@@ -260,24 +293,19 @@ void Triangles::Add(const double* a, const double* b, const double* c)
 }
 
 //------------------------------------------------------------------------------
-LT_CLONES Flux See(const Target& target, const Triangles& triangles, const double point[3],
-  const double normal[3], const double shift[2])
+LT_CLONES bool Look(const Target& target, const Triangles& triangles, const double point[3],
+  const double shift[2], View& view)
 {
   Grid grid;
-  std::uint32_t visible[Lines];
-  MakeGrid(target, shift, grid, visible);
-  CoverAll(triangles, point, grid, visible);
-  return Weigh(grid, visible, point, normal);
+  std::copy(point, point + 3, view.Point);
+  MakeGrid(target, shift, view, grid);
+  return CoverAll(triangles, point, grid, view.Visible);
 }
 
 //------------------------------------------------------------------------------
-LT_CLONES bool IsHidden(const Target& target, const Triangles& triangles, const double point[3],
-  const double shift[2])
+LT_CLONES Flux Weigh(const View& view, const double normal[3], Weights weights)
 {
-  Grid grid;
-  std::uint32_t visible[Lines];
-  MakeGrid(target, shift, grid, visible);
-  return !CoverAll(triangles, point, grid, visible);
+  return weights == Weights::Coarse ? WeighGroups<8>(view, normal) : WeighGroups<2>(view, normal);
 }
 } // namespace ShadowRaster
 } // namespace LightTransport

@@ -11,6 +11,7 @@
 #ifndef ShadowRaster_h
 #define ShadowRaster_h
 
+#include <cstdint>
 #include <vector>
 
 namespace LightTransport
@@ -50,6 +51,12 @@ struct Flux
   double Visible = 0.0;
   double Open = 0.0;
 
+  void Add(double weight, const Flux& other)
+  {
+    this->Visible += weight * other.Visible;
+    this->Open += weight * other.Open;
+  }
+
   /// The visible part; `other` where there is no flux at all.
   double GetShare(double other = 1.0) const
   {
@@ -57,16 +64,35 @@ struct Flux
   }
 };
 
-/**
- * The flux at a point (u, w, h) with a normal. `shift` (0 to 1 each) moves lines, and samples along
- * them, within their spacing: over many points the samples fill the target evenly.
- */
-Flux See(const Target& target, const Triangles& triangles, const double point[3],
-  const double normal[3], const double shift[2]);
+/// Samples along a line that share a weight: it follows the kernel linearly. A weight of few
+/// samples for each is exact wherever the target is, one of many costs a third and is for targets
+/// far away.
+enum class Weights
+{
+  Fine,
+  Coarse
+};
 
-/// Whether the point sees no sample at all: what See would find, without weighing the samples.
-bool IsHidden(const Target& target, const Triangles& triangles, const double point[3],
-  const double shift[2]);
+/// What a point sees of the target, not weighed yet.
+struct View
+{
+  double Point[3];
+  float U[Lines];     ///< where the lines are
+  float Start[Lines]; ///< sample b of a line is at w = Start + b * Step
+  float Step[Lines];
+  std::uint32_t Visible[Lines]; ///< a bit for each sample
+};
+
+/**
+ * Look from a point (u, w, h); false where it sees no sample. `shift` (0 to 1 each) moves lines,
+ * and samples along them, within their spacing: over many points the samples fill the target
+ * evenly.
+ */
+bool Look(const Target& target, const Triangles& triangles, const double point[3],
+  const double shift[2], View& view);
+
+/// The flux at the point of a view, with a normal.
+Flux Weigh(const View& view, const double normal[3], Weights weights = Weights::Fine);
 } // namespace ShadowRaster
 } // namespace LightTransport
 

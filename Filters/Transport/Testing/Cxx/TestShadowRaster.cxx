@@ -49,6 +49,16 @@ ShadowRaster::Triangles MakeTriangles(const std::vector<Corners>& triangles)
 }
 
 //------------------------------------------------------------------------------
+ShadowRaster::Flux See(const ShadowRaster::Target& target, const ShadowRaster::Triangles& triangles,
+  const double* point, const double* normal, const double* shift,
+  ShadowRaster::Weights weights = ShadowRaster::Weights::Fine)
+{
+  ShadowRaster::View view;
+  ShadowRaster::Look(target, triangles, point, shift, view);
+  return ShadowRaster::Weigh(view, normal, weights);
+}
+
+//------------------------------------------------------------------------------
 // The visible part from rasters of size x size shifts.
 double GetMeanShare(const ShadowRaster::Target& target, const ShadowRaster::Triangles& triangles,
   const Vector& point, const double* normal, int size)
@@ -59,7 +69,7 @@ double GetMeanShare(const ShadowRaster::Target& target, const ShadowRaster::Tria
     for (int j = 0; j < size; ++j)
     {
       const double shift[2] = { (i + 0.5) / size, (j + 0.5) / size };
-      const auto flux = ShadowRaster::See(target, triangles, point.data(), normal, shift);
+      const auto flux = See(target, triangles, point.data(), normal, shift);
       sum.Visible += flux.Visible;
       sum.Open += flux.Open;
     }
@@ -204,7 +214,7 @@ void TestClosedSheets()
     // Points and shifts with few digits put edges and corners on lines and samples.
     const double shift[2] = { even ? 0.125 * (k / 2 % 8) : random.Uniform(),
       even ? 0.125 * (k / 16 % 8) : random.Uniform() };
-    visible += ShadowRaster::See(square, MakeTriangles(sheet), point.data(), Down, shift).Visible;
+    visible += See(square, MakeTriangles(sheet), point.data(), Down, shift).Visible;
   }
   CheckClose(visible, 0.0, 0.0, "what a closed sheet lets through");
 }
@@ -229,8 +239,7 @@ void TestEdgeOn()
       triangle.push_back(point - direction * (random.Uniform(0.1, 0.9) / direction.z()));
     }
     const double shift[2] = { random.Uniform(), random.Uniform() };
-    const auto flux =
-      ShadowRaster::See(square, MakeTriangles({ triangle }), point.data(), Down, shift);
+    const auto flux = See(square, MakeTriangles({ triangle }), point.data(), Down, shift);
     largest = std::max(largest, 1.0 - flux.GetShare());
   }
   CheckClose(largest, 0.0, 0.0, "shadow of a triangle seen from its plane");
@@ -259,6 +268,32 @@ void TestCounts()
     Check(std::abs(share - exact) < 5e-4, std::to_string(count) + " triangles");
   }
 }
+
+//------------------------------------------------------------------------------
+// Many samples share a weight where the target is far away: that is off by less and less.
+void TestCoarseWeights()
+{
+  Random random(5);
+  const ShadowRaster::Target square =
+    MakeTarget({ { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } });
+  const double shift[2] = { 0.5, 0.5 };
+  for (const double distance : { 3.0, 10.0, 30.0 })
+  {
+    double largest = 0.0;
+    for (int k = 0; k < 1000; ++k)
+    {
+      const auto triangles =
+        MakeTriangles({ random.Triangle(random.Point(0.8) + Vector(0.0, 0.0, 1.0), 0.6) });
+      const Vector point(random.Uniform(), random.Uniform(), distance);
+      const auto fine = See(square, triangles, point.data(), Down, shift);
+      const auto coarse =
+        See(square, triangles, point.data(), Down, shift, ShadowRaster::Weights::Coarse);
+      largest = std::max(largest, std::abs(fine.GetShare() - coarse.GetShare()));
+    }
+    std::cout << "coarse weights at " << distance << ": " << largest << "\n";
+    Check(largest < 0.02 / (distance * distance) + 1e-6, "weights of many samples");
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -268,5 +303,6 @@ int TestShadowRaster(int, char*[])
   TestClosedSheets();
   TestEdgeOn();
   TestCounts();
+  TestCoarseWeights();
   return Result();
 }
