@@ -408,6 +408,22 @@ void OccluderWalls::End::Set(std::vector<Vector> points)
 }
 
 //------------------------------------------------------------------------------
+// Whether a segment comes near a wall on its way through the plane.
+bool OccluderWalls::MayHide(vtkIdType wall, const Vector& from, const Vector& to) const
+{
+  const Vector& normal = this->GetNormal(wall);
+  const Vector& middle = this->GetCentroid(wall);
+  const double begin = normal.dot(from - middle);
+  const double end = normal.dot(to - middle);
+  if (begin * end >= 0.0)
+  {
+    return false;
+  }
+  const double reach = (1.0 + 1e-6) * this->GetRadius(wall) + BorderRounding;
+  return (from + begin / (begin - end) * (to - from) - middle).squaredNorm() <= reach * reach;
+}
+
+//------------------------------------------------------------------------------
 // All segments cross the wall's plane within the hull of the places where those between the given
 // points do.
 bool OccluderWalls::HidesAll(vtkIdType wall, const End& from, const End& to, bool strictly) const
@@ -415,6 +431,10 @@ bool OccluderWalls::HidesAll(vtkIdType wall, const End& from, const End& to, boo
   // Most walls are smaller than either end, or beside the segment between the middles.
   const double reach = std::min(from.SquaredReach, to.SquaredReach);
   if (16.0 * this->GetRadius(wall) * this->GetRadius(wall) < reach)
+  {
+    return false;
+  }
+  if (!this->MayHide(wall, from.Middle, to.Middle))
   {
     return false;
   }

@@ -49,6 +49,7 @@ public:
 private:
   class Builder;
 
+  bool MayHide(vtkIdType wall, const Vector& from, const Vector& to) const;
   bool IsInside(vtkIdType wall, const Vector& place) const;
   void FindNodes(const PatchScene& scene);
   void FindBorders();

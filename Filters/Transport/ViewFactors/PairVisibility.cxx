@@ -137,8 +137,8 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   this->ChooseOuter();
   this->SetFrame();
   this->AddTarget();
-  this->AddTriangles();
-  return this->Triangles.Count > 0;
+  this->AddShapes();
+  return this->Shapes.GetCount() > 0;
 }
 
 //------------------------------------------------------------------------------
@@ -254,38 +254,34 @@ void PairVisibility::AddTarget()
 
 //------------------------------------------------------------------------------
 template <typename GetCorner>
-void PairVisibility::AddTriangles(int count, const GetCorner& getCorner)
+void PairVisibility::AddShape(int count, const GetCorner& getCorner)
 {
-  double corners[Polygon::MaximumCorners + 2][3];
+  this->Corners.clear();
   for (int corner = 0; corner < count; ++corner)
   {
     const Vector offset = getCorner(corner) - this->Origin;
-    corners[corner][0] = offset.dot(this->AxisU);
-    corners[corner][1] = offset.dot(this->AxisW);
-    corners[corner][2] = offset.dot(this->AxisH);
+    this->Corners.push_back(
+      { offset.dot(this->AxisU), offset.dot(this->AxisW), offset.dot(this->AxisH) });
   }
-  for (int corner = 1; corner + 1 < count; ++corner)
-  {
-    this->Triangles.Add(corners[0], corners[corner], corners[corner + 1]);
-  }
+  this->Shapes.Add(this->Corners);
 }
 
 //------------------------------------------------------------------------------
-void PairVisibility::AddTriangles()
+void PairVisibility::AddShapes()
 {
-  this->Triangles.Clear();
+  this->Shapes.Clear();
   Polygon cut;
   for (const Occluder& occluder : this->Occluders)
   {
     if (!occluder.IsCut)
     {
-      this->AddTriangles(this->Walls->GetNumberOfCorners(occluder.Wall),
+      this->AddShape(this->Walls->GetNumberOfCorners(occluder.Wall),
         [&](int corner) { return this->Walls->GetCorner(occluder.Wall, corner); });
       continue;
     }
     if (this->ShapeOccluder(occluder, cut))
     {
-      this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
+      this->AddShape(cut.Count, [&](int corner) { return cut.Corners[corner]; });
     }
   }
 }
@@ -309,7 +305,7 @@ bool PairVisibility::LookFrom(const Vector& place, ShadowRaster::View& view)
   const double point[3] = { offset.dot(this->AxisU), offset.dot(this->AxisW),
     offset.dot(this->AxisH) };
   const double shift[2] = { sampler.Get(index, 0), sampler.Get(index, 1) };
-  return ShadowRaster::Look(this->Target, this->Triangles, point, shift, view);
+  return ShadowRaster::Look(this->Target, this->Shapes, point, shift, view);
 }
 
 //------------------------------------------------------------------------------
@@ -517,7 +513,7 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance, double looked)
     usual = share.Value * cuts < rim ? std::max(usual, RimPart * rim / cuts) : usual;
     share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
-    const double work = static_cast<double>(this->NumberOfPoints) * (this->Triangles.Count + 8);
+    const double work = static_cast<double>(this->NumberOfPoints) * (this->Shapes.GetCount() + 8);
     if (share.Error <= tolerance || (work > MaximumWork && weights > weight))
     {
       break;

@@ -22,6 +22,7 @@
 #include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/ShadowRaster.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -78,9 +79,9 @@ private:
   void ChooseOuter();
   void SetFrame();
   void AddTarget();
-  void AddTriangles();
+  void AddShapes();
   template <typename GetCorner>
-  void AddTriangles(int count, const GetCorner& getCorner);
+  void AddShape(int count, const GetCorner& getCorner);
   bool LookFrom(const Vector& place, ShadowRaster::View& view);
   ShadowRaster::Flux See(const Vector& place);
   template <typename Visit>
@@ -115,7 +116,8 @@ private:
   Vector Origin, AxisU, AxisW, AxisH;
   double Normal[3] = {};
   ShadowRaster::Target Target;
-  ShadowRaster::Triangles Triangles;
+  ShadowRaster::Occluders Shapes;
+  std::vector<std::array<double, 3>> Corners; ///< of one of them
 
   ExactVisibility Exact;
   bool IsExactReady = false;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What a point sees of a planar convex target past a number of triangles: the target is covered
- * with Lines parallel lines of Bits samples each; the shadow that a triangle throws on a line is an
- * interval, so a triangle costs a few vector instructions for all samples together.
+ * What a point sees of a planar convex target past a number of convex polygons: the target is
+ * covered with Lines parallel lines of Bits samples each; the shadow that a polygon throws on a
+ * line is an interval, so an edge costs a few vector instructions for all samples together.
  *
  * Coordinates (u, w, h) are those of the target: it lies in the plane h = 0 and looks towards h >
  * 0; lines run along w.
@@ -11,6 +11,7 @@
 #ifndef ShadowRaster_h
 #define ShadowRaster_h
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,15 +35,26 @@ struct Target
   double End = 0.0;
 };
 
-/// Triangles strictly between the point's plane and the target's, one array per coordinate of each
-/// corner.
-struct Triangles
+/// Convex plane polygons strictly between the point's plane and the target's, as triangles and
+/// quadrilaterals: one array per coordinate of each corner.
+struct Occluders
 {
-  std::vector<double> Corner[3][3];
-  int Count = 0;
+  template <int Corners>
+  struct Shapes
+  {
+    std::vector<double> Corner[Corners][3];
+    int Count = 0;
 
-  void Clear() { this->Count = 0; }
-  void Add(const double* a, const double* b, const double* c);
+    void Add(const double* const* corners);
+  };
+  Shapes<3> Triangles;
+  Shapes<4> Quadrilaterals;
+
+  std::vector<const double*> Kept; ///< while one is added
+
+  void Clear();
+  void Add(const std::vector<std::array<double, 3>>& corners);
+  int GetCount() const { return this->Triangles.Count + this->Quadrilaterals.Count; }
 };
 
 /// Integrals over the target of what the point receives, in a unit that belongs to the target.
@@ -88,7 +100,7 @@ struct View
  * and samples along them, within their spacing: over many points the samples fill the target
  * evenly.
  */
-bool Look(const Target& target, const Triangles& triangles, const double point[3],
+bool Look(const Target& target, const Occluders& occluders, const double point[3],
   const double shift[2], View& view);
 
 /// The flux at the point of a view, with a normal.
