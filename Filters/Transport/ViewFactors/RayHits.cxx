@@ -57,15 +57,21 @@ void RayHits::Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const 
 }
 
 //------------------------------------------------------------------------------
-std::vector<RayHits::Hit>& RayHits::Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches,
-  int raysPerPatch, const Ranks& ranks)
+RayHits::Hit* RayHits::Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
+  const Ranks& ranks)
 {
   this->Begin(fingerprint, numberOfPatches, ranks);
-  this->Segments.push_back({ 0, raysPerPatch, {} });
-  std::vector<Hit>& hits = this->Segments.back().Hits;
-  hits.resize((this->Last - this->First) * raysPerPatch);
+  this->AddSegment(raysPerPatch);
   this->Rays = raysPerPatch;
-  return hits;
+  return this->Segments.back().Hits.get();
+}
+
+//------------------------------------------------------------------------------
+// Not filled with anything: the rays do that, in parallel, or what reads them.
+void RayHits::AddSegment(int more)
+{
+  this->Segments.push_back({ this->Rays, more,
+    std::unique_ptr<Hit[]>(new Hit[static_cast<std::size_t>(this->Last - this->First) * more]) });
 }
 
 //------------------------------------------------------------------------------
@@ -89,9 +95,7 @@ Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks
   allocated = ranks.Agree(allocated);
   if (allocated && more > 0)
   {
-    // Not filled with anything: the rays do that, in parallel.
-    this->Segments.push_back({ this->Rays, more,
-      std::unique_ptr<Hit[]>(new Hit[static_cast<std::size_t>(this->Last - this->First) * more]) });
+    this->AddSegment(more);
   }
   return allocated;
 }

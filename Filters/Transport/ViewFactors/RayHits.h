@@ -49,7 +49,7 @@ public:
 
   /// Begin anew with hits from elsewhere, `raysPerPatch` of each patch of a scene: those of this
   /// rank, one patch after the other, for the caller to fill.
-  std::vector<Hit>& Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
+  Hit* Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
     const Ranks& ranks);
 
   /// Of the scene.
@@ -86,6 +86,7 @@ private:
 
   bool AreOf(const PatchScene& scene, const Ranks& ranks) const;
   void Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const Ranks& ranks);
+  void AddSegment(int more);
   Outcome Allocate(int raysPerPatch, const PatchScene& scene, const Ranks& ranks);
 
   std::uint64_t Fingerprint = 0;

@@ -114,7 +114,7 @@ Outcome ReadHits(const std::string& fileName, const Ranks& ranks, RayHits& hits,
   }
   const auto patches = static_cast<vtkIdType>(header.NumberOfPatches);
   const auto rays = static_cast<int>(header.RaysPerPatch);
-  auto next = hits.Reset(header.Fingerprint, patches, rays, ranks).begin();
+  Hit* next = hits.Reset(header.Fingerprint, patches, rays, ranks);
   std::vector<Hit> met(rays);
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
