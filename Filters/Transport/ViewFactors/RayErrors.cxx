@@ -19,7 +19,6 @@ namespace LightTransport
 {
 namespace
 {
-constexpr int Groups = RayErrors::Groups;
 // Steps towards the weights that close the links of a group, each of which leaves at most half of
 // what is not closed.
 constexpr int ClosingSteps = 4;

@@ -6,6 +6,7 @@
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
+#include "ViewFactors/RowBudget.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,16 @@ namespace
 // Weights and errors are counted in whole numbers of these parts.
 constexpr double WeightUnits = 65536.0;
 constexpr double BudgetUnits = 1099511627776.0;
+
+/// Of the pairs of a row, in these parts: those that are exact enough, and the others.
+enum Share
+{
+  ERRORS,
+  SQUARED_ERRORS,
+  WEIGHTS,
+  SQUARED_WEIGHTS,
+  NUMBER_OF_SHARES
+};
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -318,8 +329,14 @@ struct ViewFactorAssembly::Refiner
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
+    const PatchTree& tree = this->Outer.Scene.GetTree();
     PairVisibility visibility;
     std::vector<ShaftCuller::Occluder> between;
+    // Pairs come unit by unit, in the order of the descent: many one after the other have the same
+    // leaves.
+    ShaftCuller::Candidates candidates;
+    int leafI = -1;
+    int leafJ = -1;
     for (vtkIdType index = begin; index < end; ++index)
     {
       Pulse::Beat();
@@ -329,11 +346,18 @@ struct ViewFactorAssembly::Refiner
       {
         continue;
       }
-      this->Outer.Culler.FindBetween(pair.I, pair.J, between);
+      if (leafI < 0 || !tree.GetNode(leafI).Holds(pair.I) || !tree.GetNode(leafJ).Holds(pair.J))
+      {
+        leafI = tree.FindLeaf(pair.I);
+        leafJ = tree.FindLeaf(pair.J);
+        this->Outer.Culler.Find(leafI, leafJ, candidates);
+      }
+      this->Outer.Culler.NarrowBetween(pair.I, pair.J, candidates, between);
       if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, this->Outer.Culler.GetWalls(),
             between, PairVisibility::GetKey(pair.I, pair.J), pair.Open))
       {
-        const PairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
+        const PairVisibility::Share share =
+          visibility.Integrate(allowed / pair.Open, pair.Value / pair.Open);
         pair.Value = share.Value * pair.Open;
         pair.Error = share.Error * pair.Open;
       }
@@ -508,6 +532,13 @@ double ViewFactorAssembly::GetWeight(const PartlyVisiblePair& pair, vtkIdType ro
 }
 
 //------------------------------------------------------------------------------
+// What partly visible pairs may put a row off by.
+double ViewFactorAssembly::GetBudget(vtkIdType row) const
+{
+  return VisibilityShare * this->Tolerance * this->Scene.GetAreas()[row];
+}
+
+//------------------------------------------------------------------------------
 double ViewFactorAssembly::GetAllowedError(const PartlyVisiblePair& pair) const
 {
   return std::min(this->GetWeight(pair, pair.I) * this->Allowances[pair.I],
@@ -521,18 +552,25 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
 {
   constexpr int divisions = 3;
   const std::size_t rows = this->RowErrors.size();
-  const std::vector<double>& areas = this->Scene.GetAreas();
   this->Allowances.assign(rows, 0.0);
   for (int division = 0; division < divisions; ++division)
   {
     // Sums of whole numbers, which do not depend on the order: all ranks decide the same.
-    std::vector<double> sums(2 * rows, 0.0);
+    std::vector<double> sums(NUMBER_OF_SHARES * rows, 0.0);
     std::size_t step = 0;
     const auto add = [&](const PartlyVisiblePair& pair, bool isSettled, vtkIdType row)
     {
-      const double budget = VisibilityShare * this->Tolerance * areas[row];
-      (isSettled ? sums[2 * row] : sums[2 * row + 1]) +=
-        isSettled ? std::ceil(BudgetUnits * pair.Error / budget) : this->GetWeight(pair, row);
+      double* own = &sums[NUMBER_OF_SHARES * row];
+      if (isSettled)
+      {
+        const double part = pair.Error / this->GetBudget(row);
+        own[ERRORS] += std::ceil(BudgetUnits * part);
+        own[SQUARED_ERRORS] += std::ceil(BudgetUnits * part * part);
+        return;
+      }
+      const double weight = this->GetWeight(pair, row);
+      own[WEIGHTS] += weight;
+      own[SQUARED_WEIGHTS] += weight * weight;
     };
     for (const PartlyVisiblePair& pair : this->Pairs)
     {
@@ -544,9 +582,10 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
     ranks.Sum(sums);
     for (std::size_t row = 0; row < rows; ++row)
     {
-      const double left = 1.0 - sums[2 * row] / BudgetUnits;
-      const double allowance =
-        VisibilityShare * this->Tolerance * areas[row] * left / std::max(sums[2 * row + 1], 1.0);
+      const double* own = &sums[NUMBER_OF_SHARES * row];
+      const double allowance = this->GetBudget(static_cast<vtkIdType>(row)) *
+        RowBudget::GetAllowance(1.0, own[ERRORS] / BudgetUnits, own[SQUARED_ERRORS] / BudgetUnits,
+          own[WEIGHTS], own[SQUARED_WEIGHTS]);
       this->Allowances[row] = std::max(this->Allowances[row], allowance);
     }
   }
@@ -560,14 +599,25 @@ void ViewFactorAssembly::Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vt
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> ViewFactorAssembly::GetRowErrors() const
+std::vector<double> ViewFactorAssembly::GetRowErrors(const Ranks& ranks) const
 {
-  std::vector<double> errors = this->RowErrors;
+  const std::size_t rows = this->RowErrors.size();
+  std::vector<double> sums = this->RowErrors;
+  sums.resize(3 * rows, 0.0);
   for (const PartlyVisiblePair& pair : this->Pairs)
   {
-    errors[pair.I] += pair.Error;
-    errors[pair.J] += pair.Error;
+    for (const vtkIdType row : { pair.I, pair.J })
+    {
+      sums[rows + row] += pair.Error;
+      sums[2 * rows + row] += pair.Error * pair.Error;
+    }
   }
-  return errors;
+  ranks.Sum(sums);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    sums[row] += RowBudget::GetError(sums[rows + row], sums[2 * rows + row]);
+  }
+  sums.resize(rows);
+  return sums;
 }
 } // namespace LightTransport

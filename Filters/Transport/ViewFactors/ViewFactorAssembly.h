@@ -71,10 +71,11 @@ public:
   void Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   ///@}
 
-  /// After both stages, of this rank. Errors of rows in units of exchange.
+  /// After both stages, of this rank.
   const std::vector<PartlyVisiblePair>& GetPairs() const { return this->Pairs; }
   const Counters& GetCounters() const { return this->Total; }
-  std::vector<double> GetRowErrors() const;
+  /// And of all ranks together (collective), in units of exchange: see RowBudget.
+  std::vector<double> GetRowErrors(const Ranks& ranks) const;
 
 private:
   /// Two nodes of at most UnitSize patches, and the tile that holds their exchange.
@@ -94,6 +95,7 @@ private:
   void Collect(const Unit& unit, const UnitResult& result);
   void ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   double GetWeight(const PartlyVisiblePair& pair, vtkIdType row) const;
+  double GetBudget(vtkIdType row) const;
   double GetAllowedError(const PartlyVisiblePair& pair) const;
 
   const PatchScene& Scene;
