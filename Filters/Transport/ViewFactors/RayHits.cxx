@@ -9,7 +9,6 @@
 #include "Support/Ranks.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 
 namespace LightTransport
@@ -57,21 +56,15 @@ void RayHits::Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const 
 }
 
 //------------------------------------------------------------------------------
-RayHits::Hit* RayHits::Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
-  const Ranks& ranks)
+std::vector<RayHits::Hit>& RayHits::Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches,
+  int raysPerPatch, const Ranks& ranks)
 {
   this->Begin(fingerprint, numberOfPatches, ranks);
-  this->AddSegment(raysPerPatch);
+  this->Segments.push_back({ 0, raysPerPatch, {} });
+  std::vector<Hit>& hits = this->Segments.back().Hits;
+  hits.resize((this->Last - this->First) * raysPerPatch);
   this->Rays = raysPerPatch;
-  return this->Segments.back().Hits.get();
-}
-
-//------------------------------------------------------------------------------
-// Not filled with anything: the rays do that, in parallel, or what reads them.
-void RayHits::AddSegment(int more)
-{
-  this->Segments.push_back({ this->Rays, more,
-    std::unique_ptr<Hit[]>(new Hit[static_cast<std::size_t>(this->Last - this->First) * more]) });
+  return hits;
 }
 
 //------------------------------------------------------------------------------
@@ -95,7 +88,8 @@ Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks
   allocated = ranks.Agree(allocated);
   if (allocated && more > 0)
   {
-    this->AddSegment(more);
+    this->Segments.push_back({ this->Rays, more, {} });
+    this->Segments.back().Hits.resize((this->Last - this->First) * more);
   }
   return allocated;
 }
@@ -117,7 +111,7 @@ Outcome RayHits::CastTo(int raysPerPatch, const PatchScene& scene, const Ranks& 
   {
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
-      rays.Cast(patch, pattern, segment.Hits.get() + (patch - this->First) * segment.Count);
+      rays.Cast(patch, pattern, segment.Hits.data() + (patch - this->First) * segment.Count);
     }
   };
   // All ranks count the batches of the one with the most patches: progress is a collective call.

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace LightTransport
@@ -49,7 +48,7 @@ public:
 
   /// Begin anew with hits from elsewhere, `raysPerPatch` of each patch of a scene: those of this
   /// rank, one patch after the other, for the caller to fill.
-  Hit* Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
+  std::vector<Hit>& Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
     const Ranks& ranks);
 
   /// Of the scene.
@@ -66,7 +65,7 @@ public:
   {
     for (const Segment& segment : this->Segments)
     {
-      const Hit* hits = segment.Hits.get() + (patch - this->First) * segment.Count;
+      const Hit* hits = segment.Hits.data() + (patch - this->First) * segment.Count;
       const int last = std::min(end, segment.First + segment.Count);
       for (int ray = std::max(begin, segment.First); ray < last; ++ray)
       {
@@ -81,12 +80,11 @@ private:
   {
     int First;
     int Count;
-    std::unique_ptr<Hit[]> Hits;
+    std::vector<Hit> Hits;
   };
 
   bool AreOf(const PatchScene& scene, const Ranks& ranks) const;
   void Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const Ranks& ranks);
-  void AddSegment(int more);
   Outcome Allocate(int raysPerPatch, const PatchScene& scene, const Ranks& ranks);
 
   std::uint64_t Fingerprint = 0;

@@ -114,7 +114,7 @@ Outcome ReadHits(const std::string& fileName, const Ranks& ranks, RayHits& hits,
   }
   const auto patches = static_cast<vtkIdType>(header.NumberOfPatches);
   const auto rays = static_cast<int>(header.RaysPerPatch);
-  Hit* next = hits.Reset(header.Fingerprint, patches, rays, ranks);
+  auto next = hits.Reset(header.Fingerprint, patches, rays, ranks).begin();
   std::vector<Hit> met(rays);
   for (vtkIdType patch = 0; patch < patches; ++patch)
   {
