@@ -259,7 +259,7 @@ LightTransport::LinkMethod vtkRadiosity::Run::GetLinkMethod() const
   using Method = LightTransport::LinkMethod;
   if (vtkViewFactors* given = this->Owner->ViewFactors)
   {
-    return given->Store->GetLoadedFile().empty() ? given->GetSettings().Method : Method::Dense;
+    return given->Store->GetMethod(given->GetSettings());
   }
   if (this->Owner->LinkMethod != LINK_METHOD_AUTO)
   {
@@ -363,12 +363,13 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
 }
 
 //------------------------------------------------------------------------------
-// Few rays first; from the solution with them, and how wrong it is, follows how many are enough,
-// and which patches are worth exact rows.
+// Few rays first, or what there is of this scene; from the solution with them, and how wrong it is,
+// follows how many are enough, and which patches are worth exact rows.
 Outcome vtkRadiosity::Run::LinkByRays()
 {
   const std::vector<double> direct = this->Materials.DirectIrradiance;
-  SamplingPlan plan = SamplingPlan::Begin();
+  SamplingPlan plan =
+    this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(), this->AllRanks);
   double done = 0.0;
   for (;;)
   {

@@ -156,38 +156,28 @@ void SetPointsOfFan(const Frame& frame, Bundle& bundle)
 }
 
 //------------------------------------------------------------------------------
-// Evenly in projected solid angle. Sine and cosine of half the angle, at most a quarter turn, by
-// their series, whose next terms are below single precision.
+// Evenly in projected solid angle: rings of the square become rings of the disk (P. Shirley,
+// K. Chiu, "A Low Distortion Map Between Disk and Square", JGT 2, 1997). Sine and cosine of at most
+// an eighth of a turn by their series, whose next terms are below single precision.
 LT_INLINE void SetRays(const Frame& frame, Bundle& bundle)
 {
-  constexpr float halfPi = 1.57079632679f;
+  constexpr float quarterPi = 0.785398163397f;
   RTCRay16& ray = bundle.Rays.ray;
   for (int lane = 0; lane < Lanes; ++lane)
   {
-    const float x = halfPi * (2.0f * bundle.Numbers[3][lane] - 1.0f);
+    const float u = 2.0f * bundle.Numbers[2][lane] - 1.0f;
+    const float v = 2.0f * bundle.Numbers[3][lane] - 1.0f;
+    const bool isFlat = std::abs(u) > std::abs(v);
+    const float radius = isFlat ? u : v;
+    const float x = quarterPi * (isFlat ? v : u) / (radius != 0.0f ? radius : 1.0f);
     const float y = x * x;
-    const float sine = x *
-      (1.0f +
-        y *
-          (-1.0f / 6 +
-            y *
-              (1.0f / 120 +
-                y *
-                  (-1.0f / 5040 +
-                    y * (1.0f / 362880 + y * (-1.0f / 39916800 + y / 6227020800.0f))))));
-    const float cosine = 1.0f +
-      y *
-        (-1.0f / 2 +
-          y *
-            (1.0f / 24 +
-              y *
-                (-1.0f / 720 +
-                  y * (1.0f / 40320 + y * (-1.0f / 3628800 + y * (1.0f / 479001600))))));
-    const float squared = bundle.Numbers[2][lane];
-    const float radius = std::sqrt(squared);
-    const float a = radius * (cosine * cosine - sine * sine);
-    const float b = radius * (2.0f * sine * cosine);
-    const float c = std::sqrt(1.0f - squared);
+    const float sine =
+      x * (1.0f + y * (-1.0f / 6 + y * (1.0f / 120 + y * (-1.0f / 5040 + y / 362880.0f))));
+    const float cosine =
+      1.0f + y * (-1.0f / 2 + y * (1.0f / 24 + y * (-1.0f / 720 + y * (1.0f / 40320))));
+    const float a = radius * (isFlat ? cosine : sine);
+    const float b = radius * (isFlat ? sine : cosine);
+    const float c = std::sqrt(1.0f - radius * radius);
     ray.org_x[lane] = bundle.Points[0][lane] + frame.Lift * frame.Normal[0];
     ray.org_y[lane] = bundle.Points[1][lane] + frame.Lift * frame.Normal[1];
     ray.org_z[lane] = bundle.Points[2][lane] + frame.Lift * frame.Normal[2];

@@ -9,6 +9,7 @@
 #include "Support/Ranks.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace LightTransport
@@ -38,17 +39,42 @@ double RayHits::GetEstimatedBytes(vtkIdType numberOfPatches, int raysPerPatch, c
 }
 
 //------------------------------------------------------------------------------
+bool RayHits::AreOf(const PatchScene& scene, const Ranks& ranks) const
+{
+  const vtkIdType patches = scene.GetNumberOfPatches();
+  return this->Fingerprint == scene.GetFingerprint() &&
+    this->First == GetShare(patches, ranks.GetMine(), ranks) &&
+    this->Last == GetShare(patches, ranks.GetMine() + 1, ranks);
+}
+
+//------------------------------------------------------------------------------
+void RayHits::Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const Ranks& ranks)
+{
+  *this = RayHits();
+  this->Fingerprint = fingerprint;
+  this->First = GetShare(numberOfPatches, ranks.GetMine(), ranks);
+  this->Last = GetShare(numberOfPatches, ranks.GetMine() + 1, ranks);
+}
+
+//------------------------------------------------------------------------------
+std::vector<RayHits::Hit>& RayHits::Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches,
+  int raysPerPatch, const Ranks& ranks)
+{
+  this->Begin(fingerprint, numberOfPatches, ranks);
+  this->Segments.push_back({ 0, raysPerPatch, {} });
+  std::vector<Hit>& hits = this->Segments.back().Hits;
+  hits.resize((this->Last - this->First) * raysPerPatch);
+  this->Rays = raysPerPatch;
+  return hits;
+}
+
+//------------------------------------------------------------------------------
 Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks& ranks)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
-  if (this->Fingerprint != scene.GetFingerprint() ||
-    this->First != GetShare(patches, ranks.GetMine(), ranks) ||
-    this->Last != GetShare(patches, ranks.GetMine() + 1, ranks))
+  if (!this->AreOf(scene, ranks))
   {
-    *this = RayHits();
-    this->Fingerprint = scene.GetFingerprint();
-    this->First = GetShare(patches, ranks.GetMine(), ranks);
-    this->Last = GetShare(patches, ranks.GetMine() + 1, ranks);
+    this->Begin(scene.GetFingerprint(), patches, ranks);
   }
   const int more = raysPerPatch - this->Rays;
   const double bytes = more > 0 ? GetEstimatedBytes(patches, raysPerPatch, ranks) : 0.0;
@@ -63,8 +89,9 @@ Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks
   allocated = ranks.Agree(allocated);
   if (allocated && more > 0)
   {
-    this->Segments.push_back({ this->Rays, more, {} });
-    this->Segments.back().Hits.resize((this->Last - this->First) * more);
+    // Not filled with anything: the rays do that, in parallel.
+    this->Segments.push_back({ this->Rays, more,
+      std::unique_ptr<Hit[]>(new Hit[static_cast<std::size_t>(this->Last - this->First) * more]) });
   }
   return allocated;
 }
@@ -86,7 +113,7 @@ Outcome RayHits::CastTo(int raysPerPatch, const PatchScene& scene, const Ranks& 
   {
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
-      rays.Cast(patch, pattern, segment.Hits.data() + (patch - this->First) * segment.Count);
+      rays.Cast(patch, pattern, segment.Hits.get() + (patch - this->First) * segment.Count);
     }
   };
   // All ranks count the batches of the one with the most patches: progress is a collective call.

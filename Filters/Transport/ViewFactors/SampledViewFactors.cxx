@@ -22,8 +22,9 @@ namespace
 // The stages as fractions of the progress.
 constexpr double RaysDone = 0.6; // where there are exact rows
 constexpr double RowsDone = 0.95;
-// What rounding leaves of closed rows.
-constexpr double Rounding = 1e-12;
+// What is left of gaps before exact links are there, and of closed rows.
+constexpr double RoughGap = 1e-5;
+constexpr double Rounding = 1e-11;
 // What is left of a row beside what is exact is at least this much.
 constexpr double SmallestRest = 1e-6;
 // Rays of which a tolerance is the error of the irradiance: (share / tolerance)^power.
@@ -31,34 +32,27 @@ constexpr double ErrorOfOneRay = 0.5;
 constexpr double RayPower = 1.6;
 
 //------------------------------------------------------------------------------
-// What is left of each row beside its exact part; nothing of rows that are exact.
-std::vector<double> FindTargets(const BrightRows& exact)
+// What exact links leave of a row its own rays divide between openings and what they sample there;
+// nothing that others have met is nothing. Returns what sampled links are to sum to.
+std::vector<double> DivideRests(const BrightRows& exact, const RayCounts& counts, Links& links)
 {
-  std::vector<double> targets = exact.GetSums();
+  const double leastShare = 0.5 / links.RaysPerPatch;
+  std::vector<double> targets = counts.GetSampledShares();
   for (std::size_t row = 0; row < targets.size(); ++row)
   {
-    targets[row] =
-      exact.Has(static_cast<vtkIdType>(row)) ? 0.0 : std::max(1.0 - targets[row], SmallestRest);
-  }
-  return targets;
-}
-
-//------------------------------------------------------------------------------
-// What exact rows miss is what is open in them, if rays have met any opening.
-void SetOpenings(const BrightRows& exact, Links& links)
-{
-  for (std::size_t row = 0; row < links.SkyFractions.size(); ++row)
-  {
+    const bool isExact = exact.Has(static_cast<vtkIdType>(row));
+    const double rest = 1.0 - (exact.IsEmpty() ? 0.0 : exact.GetSums()[row]);
+    const double sampled =
+      !isExact && links.RowSums[row] > 0.0 ? std::max(targets[row], leastShare) : 0.0;
     double& sky = links.SkyFractions[row];
     double& back = links.BackFaceFractions[row];
-    const double met = sky + back;
-    if (exact.Has(static_cast<vtkIdType>(row)) && met > 0.0)
-    {
-      const double scale = std::max(0.0, 1.0 - exact.GetSums()[row]) / met;
-      sky *= scale;
-      back *= scale;
-    }
+    const double share = sampled + sky + back;
+    const double scale = share > 0.0 ? std::max(rest, isExact ? 0.0 : SmallestRest) / share : 0.0;
+    sky *= scale;
+    back *= scale;
+    targets[row] = sampled * scale;
   }
+  return targets;
 }
 
 //------------------------------------------------------------------------------
@@ -114,15 +108,17 @@ LinkKey SampledViewFactors::GetKey() const
 }
 
 //------------------------------------------------------------------------------
-// Exact links are no part of what is scaled: first the others are, to what is left of each row,
-// then all together by what rounding and the errors of exact rows leave.
+// Openings stay what the rays of each patch say, which is better known than what both directions
+// give others. Nor are exact links part of what is scaled: first the others are, to what is left of
+// each row, then all together by what rounding and the errors of exact rows leave.
 Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, Links& links) const
 {
   const BrightRows& exact = this->Samples->Exact;
+  std::vector<double> targets = DivideRests(exact, counts, links);
   if (!exact.IsEmpty())
   {
     ViewFactorClosure::Report report;
-    Outcome scaled = ViewFactorClosure::Scale(links, FindTargets(exact), ranks, report);
+    Outcome scaled = ViewFactorClosure::Scale(links, targets, RoughGap, ranks, report);
     const std::vector<double> weights = links.Hierarchy->GetWeights();
     scaled = scaled ? counts.Store(exact, weights, ranks, links.Hierarchy) : scaled;
     scaled = scaled ? links.SumRows(ranks) : scaled;
@@ -130,9 +126,12 @@ Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, L
     {
       return scaled;
     }
-    SetOpenings(exact, links);
+    for (std::size_t row = 0; row < targets.size(); ++row)
+    {
+      targets[row] = 1.0 - links.SkyFractions[row] - links.BackFaceFractions[row];
+    }
   }
-  Outcome closed = ViewFactorClosure::ScaleHierarchy(links, ranks);
+  Outcome closed = ViewFactorClosure::ScaleHierarchy(links, targets, ranks);
   if (closed)
   {
     SendRestToSky(links);

@@ -253,6 +253,64 @@ void TestSky()
   Check(reached <= 1e-2 && error < 2.0 * reached && error > 0.3 * reached,
     "sky: said " + std::to_string(reached) + ", is " + std::to_string(error));
 }
+
+//------------------------------------------------------------------------------
+/// Links that are kept serve other light, if they are good enough for it; what is missing is added.
+void TestOtherLight()
+{
+  auto scene = MakeScene(0.7);
+  auto* emission = vtkDoubleArray::SafeDownCast(scene->GetCellData()->GetArray("Emission"));
+  const vtkIdType lamp = scene->GetNumberOfCells() - 1;
+  const Solved run(scene, Sampled);
+  vtkRadiosity* filter = run.Filter;
+  const auto update = [&](const std::string& what)
+  {
+    emission->Modified();
+    filter->Update();
+    const double reached = run.GetNumber("AccuracyReached");
+    const double error =
+      Compare(scene, run.Get("Radiosity"), Solved(scene, Dense).Get("Radiosity"));
+    Check(reached <= filter->GetAccuracy() && error < 2.0 * reached,
+      what + ": said " + std::to_string(reached) + ", is " + std::to_string(error));
+  };
+  const Vector first = run.Get("Radiosity");
+  const vtkIdType runs = filter->GetNumberOfLinkRuns();
+  Check(runs > 1, "a first look and better ones");
+  emission->SetValue(lamp, 3.0);
+  update("a brighter lamp");
+  CheckClose(filter->GetNumberOfLinkRuns(), runs, 0.0, "no links for a brighter lamp");
+  Check((run.Get("Radiosity") - 3.0 * first).cwiseAbs().maxCoeff() < 1e-6, "all is brighter");
+
+  filter->SetAccuracy(5e-2);
+  emission->SetValue(lamp, 1.0);
+  update("less is asked");
+  CheckClose(filter->GetNumberOfLinkRuns(), runs, 0.0, "no links where less is asked for");
+  Check((run.Get("Radiosity") - first).cwiseAbs().maxCoeff() < 1e-6, "as it was");
+  filter->SetAccuracy(1e-2);
+
+  const double rows = run.GetNumber("ExactRows");
+  const double rays = run.GetNumber("RaysPerPatch");
+  emission->SetValue(lamp, 0.0);
+  emission->SetValue(0, 1.0);
+  update("another lamp");
+  const vtkIdType more = filter->GetNumberOfLinkRuns() - runs;
+  Check(more >= 1 && more < runs, "what is missing: " + std::to_string(more) + " runs");
+  Check(run.GetNumber("ExactRows") > rows && run.GetNumber("RaysPerPatch") >= rays,
+    "what was there stays");
+  emission->SetValue(lamp, 2.0);
+  update("both");
+  CheckClose(filter->GetNumberOfLinkRuns(), runs + more, 0.0, "no links for both");
+
+  // What moves has links of its own.
+  auto moved = MakeScene(0.7);
+  moved->GetPoints()->SetPoint(0, -0.1, 0.0, 0.0);
+  filter->SetInputData(moved);
+  filter->Update();
+  const Solved anew(moved, Sampled);
+  Check(run.Get("Radiosity") == anew.Get("Radiosity"), "a scene that has moved");
+  CheckClose(filter->GetNumberOfLinkRuns() - runs - more, anew.Filter->GetNumberOfLinkRuns(), 0.0,
+    "all links of that");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -264,5 +322,6 @@ int TestSampledRadiosity(int, char*[])
   TestExtremes();
   TestTemperatures();
   TestSky();
+  TestOtherLight();
   return Result();
 }
