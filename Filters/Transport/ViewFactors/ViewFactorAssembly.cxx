@@ -228,7 +228,7 @@ struct ViewFactorAssembly::Looker
       this->Hide(nodeI, nodeJ, work);
       return;
     }
-    if (this->Outer.Rays && this->Judge(nodeI, nodeJ, work))
+    if (this->Outer.Rays && work.GetList(depth).HasSides && this->Judge(nodeI, nodeJ, work))
     {
       return;
     }
@@ -362,14 +362,8 @@ struct ViewFactorAssembly::Refiner
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
-    const PatchTree& tree = this->Outer.Scene.GetTree();
     PairVisibility visibility;
     std::vector<ShaftCuller::Occluder> between;
-    // Pairs come unit by unit, in the order of the descent: many one after the other have the same
-    // leaves.
-    ShaftCuller::Candidates candidates;
-    int leafI = -1;
-    int leafJ = -1;
     for (vtkIdType index = begin; index < end; ++index)
     {
       Pulse::Beat();
@@ -379,13 +373,7 @@ struct ViewFactorAssembly::Refiner
       {
         continue;
       }
-      if (leafI < 0 || !tree.GetNode(leafI).Holds(pair.I) || !tree.GetNode(leafJ).Holds(pair.J))
-      {
-        leafI = tree.FindLeaf(pair.I);
-        leafJ = tree.FindLeaf(pair.J);
-        this->Outer.Culler.Find(leafI, leafJ, candidates);
-      }
-      this->Outer.Culler.NarrowBetween(pair.I, pair.J, candidates, between);
+      this->Outer.Culler.FindBetween(pair.I, pair.J, between);
       if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, this->Outer.Culler.GetWalls(),
             between, PairVisibility::GetKey(pair.I, pair.J), pair.Open))
       {
