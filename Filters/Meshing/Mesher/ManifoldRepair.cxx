@@ -333,8 +333,8 @@ struct WatchedPoints
   }
 
   Mesh::Property_map<Vertex, Point> Points;
-  Heartbeat* Heart;
-  std::size_t* ReadsLeft;
+  Heartbeat* Heart = nullptr;
+  std::size_t* ReadsLeft = nullptr;
 
   struct TooMuchWork
   {

@@ -4,6 +4,7 @@
  * Frames of vtkRadiosityPass, one after another: what is computed again when, slices of a solution,
  * what is told, what is shown meanwhile.
  */
+#include "CompositeMapper.h"
 #include "CornellBoxTesting.h"
 #include "LightTransportTesting.h"
 #include "PictureTesting.h"
@@ -11,7 +12,6 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkLineSource.h"
 #include "vtkMultiBlockDataSet.h"
@@ -243,7 +243,7 @@ void TestRefusals()
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, MakeSquare(2));
-  vtkNew<vtkCompositePolyDataMapper2> composite;
+  vtkNew<CompositeMapper> composite;
   composite->SetInputDataObject(blocks);
   composite->SetCompositeDataDisplayAttributes(vtkNew<vtkCompositeDataDisplayAttributes>());
   composite->SetBlockOpacity(1, 0.5);

@@ -4,6 +4,7 @@
  * Scenes that vtkRadiosityPass solves while it draws them: the filter's arrays, pictures, scenes
  * that are none.
  */
+#include "CompositeMapper.h"
 #include "CornellBoxTesting.h"
 #include "LightTransportTesting.h"
 #include "PictureTesting.h"
@@ -13,7 +14,6 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkDoubleArray.h"
 #include "vtkMath.h"
 #include "vtkMultiBlockDataSet.h"
@@ -217,7 +217,7 @@ void TestComposite()
       together.Renderer->RemoveActor(actor);
     }
     blocks->SetBlock(2, MakeSquare(1));
-    vtkNew<vtkCompositePolyDataMapper2> mapper;
+    vtkNew<CompositeMapper> mapper;
     mapper->SetInputDataObject(blocks);
     mapper->SetCompositeDataDisplayAttributes(vtkNew<vtkCompositeDataDisplayAttributes>());
     const double red[3] = { 0.9, 0.1, 0.1 };

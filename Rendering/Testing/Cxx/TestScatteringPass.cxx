@@ -291,6 +291,7 @@ void TestRepresentations()
   property->SetSpecular(0.0);
   const std::vector<float> plain = scene.Draw();
   property->EdgeVisibilityOn();
+  property->SetEdgeColor(1.0, 1.0, 1.0);
   property->SetLineWidth(3.0);
   std::vector<float> picture = scene.Draw();
   std::size_t same = 0;
@@ -298,7 +299,8 @@ void TestRepresentations()
   {
     same += std::abs(plain[k] - picture[k]) < 1e-5f ? 1 : 0;
   }
-  Check(same > plain.size() / 12 && same < plain.size() / 4, "edges are not seen, or too much");
+  Check(same > plain.size() / 12 && same < plain.size() / 4,
+    "edges are not seen, or too much: " + std::to_string(same) + " pixels are as without");
   property->EdgeVisibilityOff();
   scene.Renderer->GetActiveCamera()->ParallelProjectionOn();
   scene.Renderer->GetActiveCamera()->SetParallelScale(1.1);

@@ -4,11 +4,11 @@
  * Scenes of vtkSubsurfaceScatteringPass: blocks of composite data, several passes and windows, a
  * sheet with two sides.
  */
+#include "CompositeMapper.h"
 #include "LightTransportTesting.h"
 #include "ScatteringScene.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkMultiBlockDataSet.h"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ struct TwoBalls : Scene
   vtkSmartPointer<vtkPolyData> OtherBall;
   vtkNew<vtkActor> Other;
   vtkNew<vtkMultiBlockDataSet> Blocks;
-  vtkNew<vtkCompositePolyDataMapper2> Mapper;
+  vtkNew<CompositeMapper> Mapper;
 
   TwoBalls()
   {
@@ -133,7 +133,7 @@ void TestBlocks()
   // Such a mapper takes a single surface, too.
   Scene single;
   Scene plain;
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<CompositeMapper> mapper;
   mapper->SetInputDataObject(single.Ball);
   mapper->ScalarVisibilityOff();
   single.Actor->SetMapper(mapper);
