@@ -237,6 +237,20 @@ struct PatchRays::Internals
   Vector GetPoint(vtkIdType patch, const Frame& frame, double u, double v) const;
   Hit Decide(vtkIdType patch, const Vector& origin, const Vector& direction) const;
   bool IsAtRim(vtkIdType patch, const Vector& origin, double margin) const;
+
+  /// What a ray meets in single precision: a part of a patch, or none.
+  struct Meeting
+  {
+    const Facet* Part;
+    float Distance;
+    float Cosine; ///< with its normal, above 0 from in front
+  };
+  Vector GetStart(vtkIdType patch, const Frame& frame, const Bundle& bundle, int lane) const;
+  bool IsRough(vtkIdType patch, const Frame& frame, const Bundle& bundle, int lane) const;
+  Meeting GetMeeting(const Bundle& bundle, int lane) const;
+  static Hit FindCertain(vtkIdType patch, const Meeting& meeting);
+  bool IsOfNeighbour(vtkIdType patch, const Frame& frame, const Meeting& meeting,
+    const Vector& origin) const;
   Hit Judge(vtkIdType patch, const Frame& frame, const Bundle& bundle, int lane) const;
 };
 
@@ -465,47 +479,83 @@ bool PatchRays::Internals::IsAtRim(vtkIdType patch, const Vector& origin, double
 }
 
 //------------------------------------------------------------------------------
+// In double precision, as SetPoints.
+Vector PatchRays::Internals::GetStart(vtkIdType patch, const Frame& frame, const Bundle& bundle,
+  int lane) const
+{
+  return this->GetPoint(patch, frame, static_cast<double>(bundle.Numbers[0][lane]),
+    static_cast<double>(bundle.Numbers[1][lane]));
+}
+
+//------------------------------------------------------------------------------
+// Whether single precision does not tell on which side of its neighbours a ray starts.
+bool PatchRays::Internals::IsRough(vtkIdType patch, const Frame& frame, const Bundle& bundle,
+  int lane) const
+{
+  const float rim = bundle.Rims[lane];
+  return this->IsNarrow[patch] ||
+    (rim >= 0.0f ? rim < frame.Rim
+                 : this->IsAtRim(patch, this->GetStart(patch, frame, bundle, lane),
+                     static_cast<double>(frame.Rim)));
+}
+
+//------------------------------------------------------------------------------
+PatchRays::Internals::Meeting PatchRays::Internals::GetMeeting(const Bundle& bundle, int lane) const
+{
+  const RTCRay16& ray = bundle.Rays.ray;
+  Meeting meeting{ nullptr, ray.tfar[lane], 0.0f };
+  if (bundle.Rays.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID)
+  {
+    meeting.Part = &this->Facets[bundle.Rays.hit.primID[lane]];
+    const float* normal = meeting.Part->Normal;
+    meeting.Cosine =
+      -(ray.dir_x[lane] * normal[0] + ray.dir_y[lane] * normal[1] + ray.dir_z[lane] * normal[2]);
+  }
+  return meeting;
+}
+
+//------------------------------------------------------------------------------
+// What is met for certain; -1 where single precision does not tell.
+PatchRays::Hit PatchRays::Internals::FindCertain(vtkIdType patch, const Meeting& meeting)
+{
+  const Facet& part = *meeting.Part;
+  const Hit hit = meeting.Cosine > 0.0f ? part.Patch : part.Twin;
+  const bool isCertain =
+    meeting.Distance * std::abs(meeting.Cosine) > part.Height + part.Slope * meeting.Distance &&
+    hit != patch && part.Patch != patch;
+  return isCertain ? hit : -1;
+}
+
+//------------------------------------------------------------------------------
 // What starts on the plane of a neighbour, as far as coordinates tell, passes it. Where it then
 // meets nothing in front, it would find a gap in the corner of a closed room.
+bool PatchRays::Internals::IsOfNeighbour(vtkIdType patch, const Frame& frame,
+  const Meeting& meeting, const Vector& origin) const
+{
+  return meeting.Part && meeting.Cosine > 0.0f && meeting.Part->Patch != patch &&
+    !this->IsNarrow[patch] && IsAside(*meeting.Part, frame) &&
+    this->Scene->GetPlane(meeting.Part->Patch).GetCertainHeight(origin) == 0.0;
+}
+
+//------------------------------------------------------------------------------
 PatchRays::Hit PatchRays::Internals::Judge(vtkIdType patch, const Frame& frame,
   const Bundle& bundle, int lane) const
 {
-  const RTCRay16& ray = bundle.Rays.ray;
-  const float direction[3] = { ray.dir_x[lane], ray.dir_y[lane], ray.dir_z[lane] };
-  const bool isMet = bundle.Rays.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-  const auto getOrigin = [&]()
+  const Meeting meeting = this->GetMeeting(bundle, lane);
+  if (!this->IsRough(patch, frame, bundle, lane))
   {
-    return this->GetPoint(patch, frame, static_cast<double>(bundle.Numbers[0][lane]),
-      static_cast<double>(bundle.Numbers[1][lane]));
-  };
-  const float rim = bundle.Rims[lane];
-  const bool isRough = this->IsNarrow[patch] ||
-    (rim >= 0.0f ? rim < frame.Rim
-                 : this->IsAtRim(patch, getOrigin(), static_cast<double>(frame.Rim)));
-  if (!isMet && !isRough)
-  {
-    return Sky;
-  }
-  const Facet* facet = isMet ? &this->Facets[bundle.Rays.hit.primID[lane]] : nullptr;
-  const float distance = ray.tfar[lane];
-  const float cosine = facet ? -(direction[0] * facet->Normal[0] + direction[1] * facet->Normal[1] +
-                                 direction[2] * facet->Normal[2])
-                             : 0.0f;
-  if (facet && !isRough)
-  {
-    const Hit hit = cosine > 0.0f ? facet->Patch : facet->Twin;
-    if (distance * std::abs(cosine) > facet->Height + facet->Slope * distance && hit >= 0 &&
-      hit != patch && facet->Patch != patch)
+    const Hit certain = meeting.Part ? FindCertain(patch, meeting) : Sky;
+    if (!meeting.Part || certain >= 0)
     {
-      return hit;
+      return certain;
     }
   }
-  const Vector origin = getOrigin();
-  const Hit decided = this->Decide(patch, origin, Vector(direction[0], direction[1], direction[2]));
-  const bool meetsNeighbour = decided < 0 && facet && cosine > 0.0f && facet->Patch != patch &&
-    !this->IsNarrow[patch] && IsAside(*facet, frame) &&
-    this->Scene->GetPlane(facet->Patch).GetCertainHeight(origin) == 0.0;
-  return meetsNeighbour ? facet->Patch : decided;
+  const RTCRay16& ray = bundle.Rays.ray;
+  const Vector origin = this->GetStart(patch, frame, bundle, lane);
+  const Hit decided =
+    this->Decide(patch, origin, Vector(ray.dir_x[lane], ray.dir_y[lane], ray.dir_z[lane]));
+  return decided < 0 && this->IsOfNeighbour(patch, frame, meeting, origin) ? meeting.Part->Patch
+                                                                           : decided;
 }
 
 //------------------------------------------------------------------------------

@@ -347,16 +347,4 @@ void PatchTree::FillNodes(const PatchGeometry& patches)
 {
   FillAllNodes(patches, this->Nodes);
 }
-
-//------------------------------------------------------------------------------
-int PatchTree::FindLeaf(vtkIdType patch) const
-{
-  int node = 0;
-  while (!this->Nodes[node].IsLeaf())
-  {
-    const int left = this->Nodes[node].Left;
-    node = this->Nodes[left].Holds(patch) ? left : left + 1;
-  }
-  return node;
-}
 } // namespace LightTransport

@@ -65,7 +65,6 @@ public:
 
     bool IsLeaf() const { return this->Left < 0; }
     vtkIdType GetSize() const { return this->Last - this->First; }
-    bool Holds(vtkIdType patch) const { return patch >= this->First && patch < this->Last; }
   };
 
   ///@{
@@ -96,7 +95,6 @@ public:
   /// Node 0 is the root.
   const std::vector<Node>& GetNodes() const { return this->Nodes; }
   const Node& GetNode(int node) const { return this->Nodes[node]; }
-  int FindLeaf(vtkIdType patch) const;
   /// The node of patches [BlockSize * block, BlockSize * (block + 1)); of the spatial tree only.
   int GetBlock(vtkIdType block) const { return this->Blocks[block]; }
 

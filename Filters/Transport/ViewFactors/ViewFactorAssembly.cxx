@@ -50,6 +50,8 @@ struct ViewFactorAssembly::UnitResult
 {
   double ErrorsI[UnitSize] = {};
   double ErrorsJ[UnitSize] = {};
+  VerdictErrors VerdictsI[UnitSize];
+  VerdictErrors VerdictsJ[UnitSize];
   std::vector<PartlyVisiblePair> Pairs;
   Counters Count;
 };
@@ -226,6 +228,10 @@ struct ViewFactorAssembly::Looker
       this->Hide(nodeI, nodeJ, work);
       return;
     }
+    if (this->Outer.Rays && work.GetList(depth).HasSides && this->Judge(nodeI, nodeJ, work))
+    {
+      return;
+    }
     if (i.IsLeaf() && j.IsLeaf())
     {
       VisitPairs(nodeI, nodeJ, work.Tree,
@@ -239,6 +245,33 @@ struct ViewFactorAssembly::Looker
         this->Outer.Culler.Narrow(childI, childJ, work.GetList(depth), work.GetList(depth + 1));
         this->Descend(childI, childJ, depth + 1, work);
       });
+  }
+
+  // Whether rays tell that all pairs are hidden, or free: then they are done with.
+  bool Judge(int nodeI, int nodeJ, Work& work) const
+  {
+    const BlockRays& rays = *this->Outer.Rays;
+    const vtkIdType firstI = work.Tree.GetNode(nodeI).First;
+    const vtkIdType firstJ = work.Tree.GetNode(nodeJ).First;
+    const BlockRays::Verdict verdict =
+      rays.Ask(nodeI, nodeJ, &work.GetValue(firstI, firstJ), vtkExchangeMatrix::TileSize);
+    if (verdict == BlockRays::Verdict::Unknown)
+    {
+      return false;
+    }
+    VisitPairs(nodeI, nodeJ, work.Tree,
+      [&](vtkIdType i, vtkIdType j)
+      {
+        const double error = rays.GetError() * static_cast<double>(work.GetValue(i, j));
+        work.Result.VerdictsI[i - work.FirstI].Add(error);
+        work.Result.VerdictsJ[j - work.FirstJ].Add(error);
+      });
+    if (verdict == BlockRays::Verdict::Hidden)
+    {
+      work.Result.Count.Hidden += this->CountFacing(nodeI, nodeJ, work);
+      this->Hide(nodeI, nodeJ, work);
+    }
+    return true;
   }
 
   double CountFacing(int nodeI, int nodeJ, const Work& work) const
@@ -329,14 +362,8 @@ struct ViewFactorAssembly::Refiner
   void operator()(vtkIdType begin, vtkIdType end) const
   {
     constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
-    const PatchTree& tree = this->Outer.Scene.GetTree();
     PairVisibility visibility;
     std::vector<ShaftCuller::Occluder> between;
-    // Pairs come unit by unit, in the order of the descent: many one after the other have the same
-    // leaves.
-    ShaftCuller::Candidates candidates;
-    int leafI = -1;
-    int leafJ = -1;
     for (vtkIdType index = begin; index < end; ++index)
     {
       Pulse::Beat();
@@ -346,13 +373,7 @@ struct ViewFactorAssembly::Refiner
       {
         continue;
       }
-      if (leafI < 0 || !tree.GetNode(leafI).Holds(pair.I) || !tree.GetNode(leafJ).Holds(pair.J))
-      {
-        leafI = tree.FindLeaf(pair.I);
-        leafJ = tree.FindLeaf(pair.J);
-        this->Outer.Culler.Find(leafI, leafJ, candidates);
-      }
-      this->Outer.Culler.NarrowBetween(pair.I, pair.J, candidates, between);
+      this->Outer.Culler.FindBetween(pair.I, pair.J, between);
       if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, this->Outer.Culler.GetWalls(),
             between, PairVisibility::GetKey(pair.I, pair.J), pair.Open))
       {
@@ -373,9 +394,14 @@ struct ViewFactorAssembly::Refiner
 ViewFactorAssembly::ViewFactorAssembly(const PatchScene& scene, double tolerance,
   const std::vector<bool>* senders)
   : Scene(scene), Tolerance(tolerance), Senders(senders), Open(scene, OpenShare * tolerance),
-    Culler(scene), RowErrors(scene.GetNumberOfPatches(), 0.0)
+    Culler(scene), RowErrors(scene.GetNumberOfPatches(), 0.0), Verdicts(scene.GetNumberOfPatches())
 {
   this->CountSenders();
+  // Of a few bright patches, which are asked for to be exact, nothing is left to rays.
+  if (this->Culler.HasOccluders() && this->NodeSenders[0] == scene.GetNumberOfPatches())
+  {
+    this->Rays = std::make_unique<BlockRays>(scene, tolerance);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -493,10 +519,12 @@ void ViewFactorAssembly::Collect(const Unit& unit, const UnitResult& result)
   for (vtkIdType k = 0; k < nodes[unit.I].GetSize(); ++k)
   {
     this->RowErrors[nodes[unit.I].First + k] += result.ErrorsI[k];
+    this->Verdicts[nodes[unit.I].First + k].Add(result.VerdictsI[k]);
   }
   for (vtkIdType k = 0; k < nodes[unit.J].GetSize(); ++k)
   {
     this->RowErrors[nodes[unit.J].First + k] += result.ErrorsJ[k];
+    this->Verdicts[nodes[unit.J].First + k].Add(result.VerdictsJ[k]);
   }
   this->Pairs.insert(this->Pairs.end(), result.Pairs.begin(), result.Pairs.end());
   if (!result.Pairs.empty())
@@ -557,6 +585,14 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
   {
     // Sums of whole numbers, which do not depend on the order: all ranks decide the same.
     std::vector<double> sums(NUMBER_OF_SHARES * rows, 0.0);
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      const double budget = this->GetBudget(static_cast<vtkIdType>(row));
+      const VerdictErrors& verdicts = this->Verdicts[row];
+      sums[NUMBER_OF_SHARES * row + ERRORS] = std::ceil(BudgetUnits * verdicts.Sum / budget);
+      sums[NUMBER_OF_SHARES * row + SQUARED_ERRORS] =
+        std::ceil(BudgetUnits * verdicts.Squares / (budget * budget));
+    }
     std::size_t step = 0;
     const auto add = [&](const PartlyVisiblePair& pair, bool isSettled, vtkIdType row)
     {
@@ -604,6 +640,11 @@ std::vector<double> ViewFactorAssembly::GetRowErrors(const Ranks& ranks) const
   const std::size_t rows = this->RowErrors.size();
   std::vector<double> sums = this->RowErrors;
   sums.resize(3 * rows, 0.0);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    sums[rows + row] = this->Verdicts[row].Sum;
+    sums[2 * rows + row] = this->Verdicts[row].Squares;
+  }
   for (const PartlyVisiblePair& pair : this->Pairs)
   {
     for (const vtkIdType row : { pair.I, pair.J })
