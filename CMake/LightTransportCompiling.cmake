@@ -7,11 +7,6 @@ set(LIGHTTRANSPORT_WARNINGS)
 if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   set(LIGHTTRANSPORT_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
 endif ()
-# GCC 14 takes the std::vector<bool> of VTK's vtkSMPThreadLocal for one that is written beyond its end.
-if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14
-    AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
-  list(APPEND LIGHTTRANSPORT_WARNINGS -Wno-array-bounds -Wno-stringop-overflow)
-endif ()
 
 # A second build of the same is quick where ccache is there. What its manual asks for precompiled headers is in the environment.
 find_program(CCACHE_EXECUTABLE ccache)

@@ -42,7 +42,7 @@ CLASSES = {
     for folder in ("Filters/Meshing", "Filters/Transport", "Rendering", "IO")
     for header in glob.glob(os.path.join(ROOT, folder, "vtk*.h"))}
 
-START = ["paraview", "python", "shell", "cpp", "gallery"]
+START = ["paraview", "python", "shell", "cpp", "gallery", "platforms"]
 GUIDE = ["install", "arrays", "patches", "sheets", "view-factors", "many-patches", "heat",
          "scattering", "models", "opengl", "openexr", "report", "demonstration"]
 DESIGN = ["scene", "links", "sampled-links", "view-factors", "clusters", "radiosity",

@@ -22,6 +22,7 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <new>
 #include <string>
@@ -136,6 +137,33 @@ void RunOn(int others, const Work& work, const Help& help, const Wait& wait)
     thread.join();
   }
 }
+
+/// A value for each thread that asks for its own, begun as T(). It is not vtkSMPThreadLocal: that
+/// of VTK's OpenMP, and from VTK 9.3 on of STDThread too, knows the threads of its backend alone,
+/// and gives all others the same one.
+template <typename T>
+class Local
+{
+public:
+  T& Get()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Values[std::this_thread::get_id()];
+  }
+  /// Of all threads, once none of them works any more: visit(value).
+  template <typename Visit>
+  void ForEach(Visit&& visit)
+  {
+    for (auto& value : this->Values)
+    {
+      visit(value.second);
+    }
+  }
+
+private:
+  std::mutex Mutex;
+  std::map<std::thread::id, T> Values;
+};
 
 /// Whether a functor has Initialize() and Reduce(), as vtkSMPTools::For knows them.
 template <typename Functor, typename = void>

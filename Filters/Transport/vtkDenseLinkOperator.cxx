@@ -6,7 +6,6 @@
 #include "Shared/Threads.h"
 #include "vtkExchangeMatrix.h"
 #include "vtkObjectFactory.h"
-#include "vtkSMPThreadLocal.h"
 
 #include <Eigen/Core>
 
@@ -28,14 +27,11 @@ using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
 
 //------------------------------------------------------------------------------
 // What the threads have summed, each for itself.
-void AddUp(vtkSMPThreadLocal<std::vector<double>>& sums, double* target, long size)
+void AddUp(Threads::Local<std::vector<double>>& sums, double* target, long size)
 {
   Array total(target, size);
   total.setZero();
-  for (const std::vector<double>& sum : sums)
-  {
-    total += ConstArray(sum.data(), size);
-  }
+  sums.ForEach([&](const std::vector<double>& sum) { total += ConstArray(sum.data(), size); });
 }
 
 //------------------------------------------------------------------------------
@@ -49,13 +45,13 @@ struct TileProducts
   long Stride;
   const double* X;
   double* Y;
-  vtkSMPThreadLocal<std::vector<double>> Sums;
+  Threads::Local<std::vector<double>> Sums;
 
-  void Initialize() { this->Sums.Local().assign(this->Bands * this->Stride, 0.0); }
+  void Initialize() { this->Sums.Get().assign(this->Bands * this->Stride, 0.0); }
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
-    double* y = this->Sums.Local().data();
+    double* y = this->Sums.Get().data();
     for (vtkIdType index = begin; index < end; ++index)
     {
       const vtkExchangeMatrix::Tile& tile = this->Tiles[index];
@@ -119,14 +115,14 @@ struct RowOfTiles
   long Stride;
   const double* X;
   double* Y; // Bands x N
-  vtkSMPThreadLocal<std::vector<double>> Sums;
+  Threads::Local<std::vector<double>> Sums;
 
-  void Initialize() { this->Sums.Local().assign(this->Bands * N, 0.0); }
+  void Initialize() { this->Sums.Get().assign(this->Bands * N, 0.0); }
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
     std::vector<double> x(this->Bands * N);
-    double* y = this->Sums.Local().data();
+    double* y = this->Sums.Get().data();
     for (vtkIdType other = begin; other < end; ++other)
     {
       const float* values = this->FindTile(other);

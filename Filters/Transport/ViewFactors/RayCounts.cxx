@@ -12,7 +12,6 @@
 #include "ViewFactors/BrightRows.h"
 #include "ViewFactors/RayHits.h"
 #include "ViewFactors/RayTally.h"
-#include "vtkSMPThreadLocal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,11 +73,11 @@ struct RayCounts::Counter
   std::vector<double>& SampledShares;
   vtkIdType NumberOfPatches;
   std::vector<Rows> Turns;
-  vtkSMPThreadLocal<RayTally> Tallies;
+  Threads::Local<RayTally> Tallies;
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
-    RayTally& tally = this->Tallies.Local();
+    RayTally& tally = this->Tallies.Get();
     tally.SetNumberOfPatches(this->NumberOfPatches);
     Rows& rows = this->Turns[(begin - this->Hits.GetFirst()) / RowsPerTurn];
     rows.Offsets.push_back(0);

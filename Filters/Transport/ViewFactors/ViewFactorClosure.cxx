@@ -11,7 +11,6 @@
 #include "vtkCPULinkOperator.h"
 #include "vtkDenseLinkOperator.h"
 #include "vtkNew.h"
-#include "vtkSMPThreadLocal.h"
 
 #include <Eigen/Core>
 
@@ -83,16 +82,16 @@ struct Scaling
 {
   std::vector<vtkExchangeMatrix::Tile>& Tiles;
   const Array& Change; // padded to whole tiles
-  vtkSMPThreadLocal<Array> Moved;
+  Threads::Local<Array> Moved;
   Array TotalMoved;
 
-  void Initialize() { this->Moved.Local() = Array::Zero(this->Change.size()); }
+  void Initialize() { this->Moved.Get() = Array::Zero(this->Change.size()); }
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
     using Row = Eigen::Map<Eigen::Array<float, N, 1>>;
     using Values = Eigen::Array<double, N, 1>;
-    Array& moved = this->Moved.Local();
+    Array& moved = this->Moved.Get();
     for (vtkIdType index = begin; index < end; ++index)
     {
       const vtkExchangeMatrix::Tile& tile = this->Tiles[index];
@@ -116,10 +115,7 @@ struct Scaling
   void Reduce()
   {
     this->TotalMoved = Array::Zero(this->Change.size());
-    for (const Array& moved : this->Moved)
-    {
-      this->TotalMoved += moved;
-    }
+    this->Moved.ForEach([&](const Array& moved) { this->TotalMoved += moved; });
   }
 };
 

@@ -17,7 +17,6 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
-#include "vtkSMPThreadLocal.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -136,18 +135,18 @@ struct GroupSums
   const std::vector<vtkExchangeMatrix::Tile>& Tiles;
   const std::vector<int>& Groups;
   int NumberOfGroups;
-  vtkSMPThreadLocal<std::vector<double>> Local;
+  Threads::Local<std::vector<double>> Local;
   std::vector<double> Total;
 
   void Initialize()
   {
-    this->Local.Local().assign(
-      static_cast<std::size_t>(this->NumberOfGroups) * this->NumberOfGroups, 0.0);
+    this->Local.Get().assign(static_cast<std::size_t>(this->NumberOfGroups) * this->NumberOfGroups,
+      0.0);
   }
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
-    std::vector<double>& sums = this->Local.Local();
+    std::vector<double>& sums = this->Local.Get();
     const auto patches = static_cast<vtkIdType>(this->Groups.size());
     for (vtkIdType index = begin; index < end; ++index)
     {
@@ -176,11 +175,12 @@ struct GroupSums
 
   void Reduce()
   {
-    for (const std::vector<double>& sums : this->Local)
-    {
-      std::transform(sums.begin(), sums.end(), this->Total.begin(), this->Total.begin(),
-        std::plus<double>());
-    }
+    this->Local.ForEach(
+      [&](const std::vector<double>& sums)
+      {
+        std::transform(sums.begin(), sums.end(), this->Total.begin(), this->Total.begin(),
+          std::plus<double>());
+      });
   }
 };
 

@@ -18,7 +18,7 @@ FLUX = 100.0  # lm of a beam that meets the wall opposite the port
 
 sphere = vtkSphereSource()
 sphere.SetRadius(0.1)
-sphere.SetEndPhi(180.0 - math.degrees(PORT))
+sphere.SetStartPhi(math.degrees(PORT))
 sphere.SetThetaResolution(60)
 sphere.SetPhiResolution(40)
 inside = vtkReverseSense()
@@ -27,7 +27,7 @@ inside.Update()
 wall = inside.GetOutput()
 
 # The job itself: the beam is irradiance on a spot.
-spot = get_points(wall)[get_triangle_corners(wall)][:, :, 2].min(axis=1) > 0.0985
+spot = get_points(wall)[get_triangle_corners(wall)][:, :, 2].max(axis=1) < -0.0985
 areas = get_areas(wall)
 beam = numpy.where(spot, FLUX / areas[spot].sum(), 0.0)
 result = lt.radiosity(wall, emission=0.0, reflectance=REFLECTANCE, direct_irradiance=beam)
@@ -41,4 +41,4 @@ expect("light on the wall, lm/m2, least", light[~spot].min(), wanted, 0.02)
 expect("light on the wall, lm/m2, largest", light[~spot].max(), wanted, 0.02)
 print(f"multiplier of the sphere: {wanted * whole / FLUX:.1f}")
 draw("integrating_sphere", result, "Radiosity", (1e3, float(beam.max())), "lm/m2",
-     (0.5, -1.0, -1.2), logarithmic=True)
+     (0.5, -1.0, 1.2), logarithmic=True)
