@@ -29,7 +29,6 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
-#include <array>
 
 using namespace LightTransport;
 
@@ -40,8 +39,6 @@ namespace
 constexpr double LargestIndex = 10.0;
 constexpr Advice WithoutMemory = { "use surfaces of fewer triangles", "OpenGL gave up",
   "try a newer driver" };
-/// Stand-ins for blocks are where their actor is.
-constexpr std::array<double, 16> Identity = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 
 double GetMeanTransmittanceAt(double index)
 {
@@ -381,7 +378,7 @@ void vtkSubsurfaceScatteringPass::FindDrawn(vtkActor* actor)
   {
     const BlockSurface& block = blocks[static_cast<std::size_t>(index)];
     Body& body = this->AddBody(actor, index, this->GetMaterial(actor));
-    vtkActor* standIn = this->Blocks->Get(actor, block.Surface, Identity, index);
+    vtkActor* standIn = this->Blocks->Get(actor, block.Surface, StandIns::Unmoved, index);
     body.Drawn = block.IsVisible ? standIn : nullptr;
     if (block.HasOpacity || block.HasColor)
     {

@@ -36,12 +36,18 @@ private:
     Corner Lower;
     Corner Upper;
 
+    void Add(const Corner& corner);
     void Add(const Triangle& triangle);
+    void Add(const Box& box);
     int GetLongestAxis() const;
+    float GetSurface() const;
   };
   using Place = std::vector<Triangle>::iterator;
 
+  static Box MakeEmptyBox();
+  static Corner GetMiddle(const Triangle& triangle);
   static Box GetBox(Place first, Place last);
+  static Place Divide(Place first, Place last);
   void AddBoxes(Place first, Place last);
 
   std::vector<Triangle> Triangles;

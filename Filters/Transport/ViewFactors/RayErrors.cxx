@@ -181,15 +181,37 @@ double RayErrors::GetRest(std::size_t patch, const Sums& sums) const
 }
 
 //------------------------------------------------------------------------------
+// Of each band, over the scene.
+std::vector<double> RayErrors::FindMeans(const std::vector<double>& radiosity,
+  int numberOfBands) const
+{
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::vector<double> means(numberOfBands, 0.0);
+  for (std::size_t k = 0; k < radiosity.size(); ++k)
+  {
+    means[k % numberOfBands] += areas[k / numberOfBands] / whole * radiosity[k];
+  }
+  return means;
+}
+
+//------------------------------------------------------------------------------
+// What is the same everywhere closed rows carry without error, but for what they take for open.
 Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
   const std::vector<double>& background, std::vector<double>& differences) const
 {
   const std::vector<double>& areas = this->Scene.GetAreas();
   const std::size_t patches = areas.size();
+  const std::vector<double> means = this->FindMeans(radiosity, numberOfBands);
+  std::vector<double> uneven = radiosity;
+  for (std::size_t k = 0; k < uneven.size(); ++k)
+  {
+    uneven[k] -= means[k % numberOfBands];
+  }
   Sums sums;
-  this->SumHits(radiosity, numberOfBands, sums);
-  std::vector<double> changes, received;
-  if (Outcome closed = this->Close(radiosity, numberOfBands, sums, changes, received); !closed)
+  this->SumHits(uneven, numberOfBands, sums);
+  std::vector<double> changes, fromOthers;
+  if (Outcome closed = this->Close(uneven, numberOfBands, sums, changes, fromOthers); !closed)
   {
     return closed;
   }
@@ -197,6 +219,7 @@ Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int num
   for (std::size_t patch = 0; patch < patches; ++patch)
   {
     const double sky = this->AllLinks.SkyFractions[patch];
+    const double open = sky + this->AllLinks.BackFaceFractions[patch];
     const double rest = this->GetRest(patch, sums);
     for (int band = 0; band < numberOfBands; ++band)
     {
@@ -209,15 +232,13 @@ Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int num
       for (int group = 0; group < Groups && !this->AllLinks.IsExact(patch); ++group)
       {
         const std::size_t here = patch * Groups + group;
-        double difference =
-          sums.Received[at(group)] - mean + changes[here] * mean + received[at(group)];
-        if (!background.empty())
-        {
-          const double own = sums.Sampled[here] + sums.Open[here];
-          const double open = own > 0.0 ? rest * sums.Sky[here] / own : sky;
-          difference += areas[patch] * (open - sky) * background[band];
-        }
-        differences[at(group)] = difference / areas[patch];
+        const double received =
+          sums.Received[at(group)] - mean + changes[here] * mean + fromOthers[at(group)];
+        const double own = sums.Sampled[here] + sums.Open[here];
+        const double moreSky = own > 0.0 ? rest * sums.Sky[here] / own - sky : 0.0;
+        const double moreOpen = own > 0.0 ? rest * sums.Open[here] / own - open : 0.0;
+        differences[at(group)] = received / areas[patch] - moreOpen * means[band] +
+          (background.empty() ? 0.0 : moreSky * background[band]);
       }
     }
   }

@@ -49,6 +49,7 @@ private:
   struct Sums;
   class GroupSums;
 
+  std::vector<double> FindMeans(const std::vector<double>& radiosity, int numberOfBands) const;
   static double GetWhole(std::size_t patch, const Sums& sums);
   double GetRest(std::size_t patch, const Sums& sums) const;
   void SumHits(const std::vector<double>& radiosity, int numberOfBands, Sums& sums) const;

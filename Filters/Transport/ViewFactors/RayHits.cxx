@@ -9,7 +9,6 @@
 #include "Support/Ranks.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 
 namespace LightTransport
@@ -89,9 +88,8 @@ Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks
   allocated = ranks.Agree(allocated);
   if (allocated && more > 0)
   {
-    // Not filled with anything: the rays do that, in parallel.
-    this->Segments.push_back({ this->Rays, more,
-      std::unique_ptr<Hit[]>(new Hit[static_cast<std::size_t>(this->Last - this->First) * more]) });
+    this->Segments.push_back({ this->Rays, more, {} });
+    this->Segments.back().Hits.resize((this->Last - this->First) * more);
   }
   return allocated;
 }
@@ -113,7 +111,7 @@ Outcome RayHits::CastTo(int raysPerPatch, const PatchScene& scene, const Ranks& 
   {
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
-      rays.Cast(patch, pattern, segment.Hits.get() + (patch - this->First) * segment.Count);
+      rays.Cast(patch, pattern, segment.Hits.data() + (patch - this->First) * segment.Count);
     }
   };
   // All ranks count the batches of the one with the most patches: progress is a collective call.

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace LightTransport
@@ -66,7 +65,7 @@ public:
   {
     for (const Segment& segment : this->Segments)
     {
-      const Hit* hits = segment.Hits.get() + (patch - this->First) * segment.Count;
+      const Hit* hits = segment.Hits.data() + (patch - this->First) * segment.Count;
       const int last = std::min(end, segment.First + segment.Count);
       for (int ray = std::max(begin, segment.First); ray < last; ++ray)
       {
@@ -81,7 +80,7 @@ private:
   {
     int First;
     int Count;
-    std::unique_ptr<Hit[]> Hits;
+    std::vector<Hit> Hits;
   };
 
   bool AreOf(const PatchScene& scene, const Ranks& ranks) const;

@@ -25,8 +25,9 @@ namespace
 {
 // How often links are scaled.
 constexpr int MaximumScalings = 30;
-// A step that gains less has no better one after it: these rows cannot all be closed.
+// Where so many steps in a row gain less, these rows cannot all be closed.
 constexpr double SlowestGain = 0.9;
+constexpr int StuckSteps = 3;
 // Of the logarithm of a scale; what a step may leave of what is missing, squared; what it need not
 // go below, of the goal; and the curvature along what cannot be closed.
 constexpr double LongestStep = 1.0;
@@ -414,45 +415,44 @@ void Summarize(const ViewFactorClosure::Report& report, Links& links)
 
 //------------------------------------------------------------------------------
 /*
- * Symmetric scaling of links by the weights w of patches. Rows sum to their targets where the
- * convex function 1/2 sum_ij G_ij e^(x_i + x_j) + sum_i (O_i e^x_i - T_i x_i) of the logarithms x
- * of the scales is least: Newton's method finds it, each step by conjugate gradients.
+ * Symmetric scaling of links by the weights w of patches; openings by a power p of their row's
+ * scale. Rows sum to their targets where the convex function
+ * 1/2 sum_ij G_ij e^(x_i + x_j) + sum_i (O_i e^(p x_i) / p - T_i x_i) of the logarithms x of the
+ * scales is least: Newton's method finds it, each step by conjugate gradients.
  */
 class Balancing
 {
 public:
-  Balancing(Links& links, const std::vector<double>& targets, double goal, const Ranks& ranks)
-    : AllLinks(links), Hierarchy(links.Hierarchy), Areas(ToArray(this->Hierarchy->GetAreas())),
-      Targets(this->Areas), Product(LinkOperators::MakeOnCPU(this->Hierarchy, 1, ranks)),
+  Balancing(Links& links, const ViewFactorClosure::Scaling& asked, const Ranks& ranks)
+    : AllLinks(links), Asked(asked), Hierarchy(links.Hierarchy),
+      Areas(ToArray(this->Hierarchy->GetAreas())), Targets(this->Areas),
+      Product(LinkOperators::MakeOnCPU(this->Hierarchy, 1, ranks)),
       FirstWeights(ToArray(this->Hierarchy->GetWeights())),
-      FirstOpen(Array::Zero(this->Areas.size())), Goal(goal), ScalesOpenings(targets.empty()),
+      FirstOpen(this->Areas * (ToArray(links.SkyFractions) + ToArray(links.BackFaceFractions))),
       Good(this->Product != nullptr)
   {
-    if (this->ScalesOpenings)
+    if (!asked.Targets.empty())
     {
-      this->FirstOpen =
-        this->Areas * (ToArray(links.SkyFractions) + ToArray(links.BackFaceFractions));
-    }
-    else
-    {
-      this->Targets *= ToArray(targets);
+      this->Targets *= ToArray(asked.Targets);
     }
   }
 
   bool Run(ViewFactorClosure::Report& report)
   {
     double last = std::numeric_limits<double>::max();
+    int stuck = 0;
     for (int step = 0; step < MaximumScalings; ++step)
     {
       report.Gap = this->FindGap();
-      if (!this->Good || report.Gap <= this->Goal || report.Gap > SlowestGain * last)
+      stuck = report.Gap > SlowestGain * last ? stuck + 1 : 0;
+      if (!this->Good || report.Gap <= this->Asked.Goal || stuck == StuckSteps)
       {
         break;
       }
       last = report.Gap;
       this->ScaleWeights(this->FindStep().max(-LongestStep).min(LongestStep).exp());
     }
-    if (this->Good && report.Gap > this->Goal)
+    if (this->Good && report.Gap > this->Asked.Goal)
     {
       // Some cannot be closed; none may be overfull, nor does this make another so.
       this->ScaleWeights(
@@ -483,13 +483,18 @@ private:
     return this->Whole > 0.0 && this->Targets > 0.0;
   }
 
-  Array GetScales() const { return ToArray(this->Hierarchy->GetWeights()) / this->FirstWeights; }
+  // Of openings.
+  Array GetOpenScales() const
+  {
+    return (ToArray(this->Hierarchy->GetWeights()) / this->FirstWeights).pow(this->Asked.OpenPower);
+  }
 
   // The rows as they are.
   double FindGap()
   {
     this->Sums = this->Multiply(Array::Ones(this->Areas.size()));
-    this->Whole = this->Sums + this->FirstOpen * this->GetScales();
+    this->Open = this->FirstOpen * this->GetOpenScales();
+    this->Whole = this->Sums + this->Open;
     this->Missing = this->IsScaled().select(this->Targets - this->Whole, 0.0);
     return (this->Missing.abs() / this->Areas).maxCoeff();
   }
@@ -497,21 +502,22 @@ private:
   // The step of Newton's method: rows that are nearly closed need a better one.
   Array FindStep()
   {
-    const Array inverse = this->IsScaled().select(1.0 / this->Whole, 0.0);
+    const Array diagonal = this->Sums + this->Asked.OpenPower * this->Open;
+    const Array inverse = this->IsScaled().select(1.0 / diagonal, 0.0);
     Array step = Array::Zero(inverse.size());
     Array residual = this->Missing;
     Array direction = inverse * residual;
     double squared = (residual * direction).sum();
     const double area = this->Areas.sum();
     const double goal = std::max(squared * std::min(LargestRest, squared / area),
-      std::pow(RestOfGap * this->Goal, 2) * area);
+      std::pow(RestOfGap * this->Asked.Goal, 2) * area);
     for (int iteration = 0; iteration < MaximumIterations && squared > goal; ++iteration)
     {
       const Array image =
-        this->IsScaled().select(this->Whole * direction + this->Multiply(direction), 0.0);
+        this->IsScaled().select(diagonal * direction + this->Multiply(direction), 0.0);
       const double curvature = (direction * image).sum();
       // Zero along what cannot be closed: a part of the scene that is linked like a chessboard.
-      if (!(curvature > SmallestCurvature * (direction * this->Whole * direction).sum()))
+      if (!(curvature > SmallestCurvature * (direction * diagonal * direction).sum()))
       {
         break;
       }
@@ -534,8 +540,8 @@ private:
   {
     const Array sums = this->Sums / this->Areas;
     report.Change = (sums - ToArray(this->AllLinks.RowSums)).abs().maxCoeff();
-    const Array scales = this->GetScales();
-    for (std::size_t row = 0; this->ScalesOpenings && row < this->AllLinks.RowSums.size(); ++row)
+    const Array scales = this->GetOpenScales();
+    for (std::size_t row = 0; row < this->AllLinks.RowSums.size(); ++row)
     {
       this->AllLinks.SkyFractions[row] *= scales[static_cast<Eigen::Index>(row)];
       this->AllLinks.BackFaceFractions[row] *= scales[static_cast<Eigen::Index>(row)];
@@ -544,16 +550,16 @@ private:
   }
 
   Links& AllLinks;
+  const ViewFactorClosure::Scaling& Asked;
   vtkExchangeHierarchy* Hierarchy;
   Array Areas;
   Array Targets; ///< times areas, as all that follow
   vtkSmartPointer<vtkCPULinkOperator> Product;
   Array FirstWeights;
-  Array FirstOpen; ///< what is scaled of openings
-  double Goal;
-  bool ScalesOpenings;
+  Array FirstOpen;
   bool Good;
-  Array Sums;  ///< of links
+  Array Sums; ///< of links
+  Array Open;
   Array Whole; ///< with openings
   Array Missing;
 };
@@ -583,11 +589,11 @@ Outcome ViewFactorClosure::Close(Links& links, const std::vector<PartlyVisiblePa
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorClosure::Scale(Links& links, const std::vector<double>& targets, double goal,
-  const Ranks& ranks, Report& report)
+Outcome ViewFactorClosure::Scale(Links& links, const Scaling& scaling, const Ranks& ranks,
+  Report& report)
 {
-  return Balancing(links, targets, goal, ranks).Run(report) ? Outcome::Done()
-                                                            : Outcome::FailedAsReported();
+  return Balancing(links, scaling, ranks).Run(report) ? Outcome::Done()
+                                                      : Outcome::FailedAsReported();
 }
 
 //------------------------------------------------------------------------------
@@ -605,11 +611,10 @@ Outcome ViewFactorClosure::CloseMatrix(Links& links, const std::vector<PartlyVis
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const std::vector<double>& targets,
-  const Ranks& ranks)
+Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const Scaling& scaling, const Ranks& ranks)
 {
   Report report;
-  Outcome scaled = Scale(links, targets, ScaledGap, ranks, report);
+  Outcome scaled = Scale(links, scaling, ranks, report);
   if (scaled)
   {
     Summarize(report, links);

@@ -36,8 +36,6 @@ struct Report
 
 /// Relative error of an entry by storing it in single precision.
 constexpr double SinglePrecision = 6e-8;
-/// What scaling leaves of gaps where nothing else is asked for.
-constexpr double ScaledGap = 1e-12;
 
 /**
  * Close all rows as far as the bounds let them. `pairs` are the partly visible pairs of this rank's
@@ -49,23 +47,32 @@ Outcome Close(Links& links, const std::vector<PartlyVisiblePair>& pairs,
   const std::vector<double>& openingErrors, double relativeError, const Ranks& ranks,
   Report& report);
 
+/// How links of a hierarchy are scaled.
+struct Scaling
+{
+  /// What rows are to sum to with their openings (empty: to 1). One whose target is 0 keeps its
+  /// weight.
+  std::vector<double> Targets;
+  /// Openings are scaled by this power of the scale of their patch: less than 1 where they are
+  /// better known than links.
+  double OpenPower = 1.0;
+  double Goal = 1e-12; ///< the gap that need not become smaller
+};
+
 /**
- * For links of a hierarchy: scale the weights of the patches, and what is open in a row by the
- * weight of its patch alone, until the rows are closed (symmetric scaling: Sinkhorn and Knopp 1967,
- * by Newton's method: Knight and Ruiz 2013). Where that cannot be none is left with more than 1.
- * RowSums and fractions follow. `targets` are what the links of rows are to sum to without
- * openings, which stay as they are then (empty: to 1 with them); a row whose target is 0 keeps its
- * weight. `goal` is the gap that need not become smaller. Collective.
+ * For links of a hierarchy: scale the weights of the patches until the rows are closed (symmetric
+ * scaling: Sinkhorn and Knopp 1967, by Newton's method: Knight and Ruiz 2013). Where that cannot be
+ * none is left with more than its target, but for what its openings are scaled less. RowSums and
+ * fractions follow. Collective.
  */
-Outcome Scale(Links& links, const std::vector<double>& targets, double goal, const Ranks& ranks,
-  Report& report);
+Outcome Scale(Links& links, const Scaling& scaling, const Ranks& ranks, Report& report);
 
 ///@{
 /// The same with the report among the summaries of links ("ClosureChange", "ClosureGap").
 /// `tolerance` is that of the matrix's assembly.
 Outcome CloseMatrix(Links& links, const std::vector<PartlyVisiblePair>& pairs,
   const std::vector<double>& openingErrors, double tolerance, const Ranks& ranks);
-Outcome ScaleHierarchy(Links& links, const std::vector<double>& targets, const Ranks& ranks);
+Outcome ScaleHierarchy(Links& links, const Scaling& scaling, const Ranks& ranks);
 ///@}
 } // namespace ViewFactorClosure
 } // namespace LightTransport

@@ -10,7 +10,6 @@
 
 #include "vtkActorCollection.h"
 #include "vtkAppendPolyData.h"
-#include "vtkDualDepthPeelingPass.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLFXAAPass.h"
 #include "vtkPlaneSource.h"
@@ -20,7 +19,6 @@
 #include "vtkStaticCellLocator.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
-#include "vtkTranslucentPass.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
@@ -390,11 +388,7 @@ void TestImagePass(const std::string& what, int band)
 void TestDepthPeeling()
 {
   Picture scene;
-  vtkNew<vtkTranslucentPass> layers;
-  vtkNew<vtkDualDepthPeelingPass> peeling;
-  peeling->SetTranslucentPass(layers);
-  vtkNew<vtkRenderStepsPass> steps;
-  steps->SetTranslucentPass(peeling);
+  const auto steps = MakePeelingSteps();
   scene.Pass->SetDelegatePass(steps);
   scene.Actor->ForceTranslucentOn();
   for (const auto& other : scene.Others)

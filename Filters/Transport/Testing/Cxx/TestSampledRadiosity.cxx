@@ -4,6 +4,8 @@
 // errors, against the matrix of all pairs.
 #include "RadiosityTesting.h"
 
+#include "vtkSMPTools.h"
+
 #include <functional>
 
 using namespace LightTransportTesting;
@@ -145,6 +147,61 @@ void TestErrors()
 }
 
 //------------------------------------------------------------------------------
+/// With the power of the number of rays that was measured, .62, as far as one scene tells.
+void TestFall()
+{
+  for (const bool open : { false, true })
+  {
+    auto scene = MakeScene(0.7, open);
+    vtkDataArray* emission = scene->GetCellData()->GetArray("Emission");
+    for (vtkIdType patch = 0; patch < scene->GetNumberOfCells(); ++patch)
+    {
+      emission->SetComponent(patch, 0, patch % 3 == 0 ? 1.0 : 0.0);
+    }
+    const Vector right = Solved(scene, Dense).Get("Radiosity");
+    const auto measure = [&](double tolerance, double& rays)
+    {
+      const Solved run(scene, Sampled,
+        [&](vtkRadiosity* filter) { filter->SetLinkTolerance(tolerance); });
+      rays = run.GetNumber("RaysPerPatch");
+      return Compare(scene, run.Get("Radiosity"), right);
+    };
+    double few = 0.0, many = 0.0;
+    const double first = measure(3.7e-2, few);
+    const double last = measure(3e-3, many);
+    const double power = std::log(first / last) / std::log(many / few);
+    CheckClose(power, 0.62, 0.17, "power of the number of rays by which the error falls");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The same bits with any number of threads, errors too.
+void TestThreads()
+{
+  auto scene = MakeScene(0.7);
+  std::vector<Vector> results;
+  for (const int threads : { 1, 2, 5 })
+  {
+    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
+      [&]()
+      {
+        const Solved run(scene, Sampled,
+          [](vtkRadiosity* filter)
+          {
+            filter->SetAccuracy(3e-2);
+            filter->ComputeErrorsOn();
+          });
+        results.push_back(run.Get("Radiosity"));
+        results.push_back(run.Get("RadiosityError"));
+      });
+  }
+  for (std::size_t k = 2; k < results.size(); ++k)
+  {
+    Check(results[k] == results[k % 2], "the same bits with any number of threads");
+  }
+}
+
+//------------------------------------------------------------------------------
 /// The links are there for all solvers, and for one that was given them.
 void TestSolvers()
 {
@@ -201,10 +258,19 @@ void TestExtremes()
   CheckClose((furnace.Get("Radiosity").array() - 2.0).abs().maxCoeff(), 0.0, 1e-7,
     "even light in a closed room");
   CheckClose(furnace.GetNumber("RaysPerPatch"), 64.0, 0.0, "needs few rays");
+  CheckClose(furnace.GetNumber("AccuracyReached"), 0.0, 1e-9, "and knows that it is exact");
 
   AddArray(even, "Emission", { 0.0 });
   const Solved none(even, Sampled);
   Check(none.Get("Radiosity").cwiseAbs().maxCoeff() == 0.0, "no light: " + none.Messages);
+
+  Surface one;
+  one.AddPolygon({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
+  auto single = one.Get();
+  AddArray(single, "Reflectance", { 0.5 });
+  AddArray(single, "Emission", { 1.0 });
+  const Solved alone(single, Sampled);
+  Check(alone.Get("Radiosity")[0] == 1.0, "one patch: " + alone.Messages);
 }
 
 //------------------------------------------------------------------------------
@@ -318,6 +384,8 @@ int TestSampledRadiosity(int, char*[])
 {
   TestAccuracy();
   TestErrors();
+  TestFall();
+  TestThreads();
   TestSolvers();
   TestExtremes();
   TestTemperatures();
