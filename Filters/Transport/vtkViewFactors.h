@@ -45,7 +45,8 @@
  * not examined (vtkRadiosity only).
  *   - of the facing ones PairsUnobstructed (nothing is between them), PairsHidden and
  * PairsPartlyVisible (all others). PairsLookedAt of them are neither free nor hidden by a single
- * plane wall: what is seen past what is between is found from points.
+ * plane wall: what is seen past what is between is found from points. Where Tolerance allows it a
+ * few rays judge blocks of pairs as hidden, or as free: those count as hidden, or nowhere.
  *   - RowGap: how much what the rays found and what row sums miss differ at most, beyond what their
  * errors explain. 0 where all agrees.
  *   - RaysCast, ViewFactorSeconds, MatrixBytes (tiles of 256 x 256 pairs that are all zero are not
