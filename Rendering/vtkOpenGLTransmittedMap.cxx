@@ -330,7 +330,7 @@ Outcome vtkOpenGLTransmittedMap::Look(vtkActor* actor, vtkRenderer* renderer, St
   if (state.HasShadows)
   {
     this->Device->Shadow->Find(renderer);
-    state.ShadowStamp = this->Device->Shadow->GetStamp();
+    state.ShadowStamp = this->Device->Shadow->GetCasters().GetStamp();
   }
   return lighting->RendererLights ? SceneLights::Read(renderer, state.Lights) : Outcome::Done();
 }
@@ -608,9 +608,10 @@ Outcome vtkOpenGLTransmittedMap::AddLights(const State& state, const Sum& sum)
 vtkOpenGLTransmittedMap::Box vtkOpenGLTransmittedMap::GetSceneBounds(const State& state) const
 {
   vtkBoundingBox scene(state.Bounds.data());
-  if (state.HasShadows && vtkMath::AreBoundsInitialized(this->Device->Shadow->GetBounds()))
+  const Box& casters = this->Device->Shadow->GetCasters().GetBounds();
+  if (state.HasShadows && vtkMath::AreBoundsInitialized(casters.data()))
   {
-    scene.AddBounds(this->Device->Shadow->GetBounds());
+    scene.AddBounds(casters.data());
   }
   Box bounds;
   scene.GetBounds(bounds.data());

@@ -29,8 +29,9 @@ struct vtkRadiosityPass::Scene
   vtkWeakPointer<vtkRenderer> Renderer;
   ProgressiveSolution Solution;
   LightTransport::StandIns StandIns;
-  bool IsGrouped = false; ///< of the last frame
-  bool IsActive = false;  ///< the texture
+  LightTransport::StandIns Lines; ///< and vertices, of what takes part
+  bool IsGrouped = false;         ///< of the last frame
+  bool IsActive = false;          ///< the texture
 };
 
 //------------------------------------------------------------------------------
@@ -130,8 +131,13 @@ void vtkRadiosityPass::ReplaceProps(const vtkRenderState*, std::vector<vtkProp*>
     }
     for (std::size_t block = 0; block < shown.size(); ++block)
     {
-      drawn.push_back(this->Drawn->StandIns.Get(actor, shown[block].Surface, shown[block].Matrix,
-        static_cast<int>(block)));
+      const auto number = static_cast<int>(block);
+      drawn.push_back(
+        this->Drawn->StandIns.Get(actor, shown[block].Surface, shown[block].Matrix, number));
+      if (vtkActor* lines = this->Drawn->Lines.GetLines(actor, shown[block].Source, number))
+      {
+        drawn.push_back(lines);
+      }
     }
   }
   props.swap(drawn);
@@ -219,6 +225,10 @@ vtkPolyData* vtkRadiosityPass::GetOutput(vtkActor* actor, int block)
     {
       return output;
     }
+    if (const std::string errors = scene->Solution.TakeErrors(); !errors.empty())
+    {
+      vtkErrorMacro(<< errors);
+    }
   }
   return nullptr;
 }
@@ -272,6 +282,7 @@ void vtkRadiosityPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     scene->Solution.ReleaseGraphicsResources();
     scene->StandIns.ReleaseGraphicsResources(window);
+    scene->Lines.ReleaseGraphicsResources(window);
   }
   this->Superclass::ReleaseGraphicsResources(window);
 }

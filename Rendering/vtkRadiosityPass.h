@@ -36,12 +36,15 @@
  *   serve other lights and materials. Links come whole, before which the first estimate is shown;
  *   then the solution is the filter's, and its point arrays are drawn.
  *
+ * Vertices and lines of what takes part are drawn as usual, in the property's color.
+ *
  * The first estimate is what shines and is lit directly (AmbientTerm adds to it). Before
  * it, and where the solution fails (an error tells why, once), actors are drawn as usual.
  *
  * What is computed again: nothing where the camera moves; direct light and solution where a light
- * does; the solution for other materials; all where points or actors move, which are shown with
- * their old light until there is a new estimate. Each renderer has a solution of its own.
+ * does (one that moves all the time is shown where it was when its light was begun); the solution
+ * for other materials; all where points or actors move, which are shown with their old light until
+ * there is a new estimate. Each renderer has a solution of its own.
  */
 #ifndef vtkRadiosityPass_h
 #define vtkRadiosityPass_h

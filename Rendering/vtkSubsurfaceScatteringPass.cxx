@@ -5,9 +5,11 @@
 #include "Atlas/AtlasTexture.h"
 #include "Maps/AtlasDrawing.h"
 #include "Passes/BlockSurfaces.h"
+#include "Passes/ExactShadows.h"
 #include "Passes/RadianceShader.h"
 #include "Passes/StandIns.h"
 #include "Shared/ArrayNames.h"
+#include "Shared/Attempt.h"
 #include "Shared/Fresnel.h"
 #include "vtkLightTransportPassesScatteringFS.h"
 #include "vtkOpenGLAtlasTexture.h"
@@ -27,7 +29,6 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
-#include <array>
 
 using namespace LightTransport;
 
@@ -36,8 +37,8 @@ vtkStandardNewMacro(vtkSubsurfaceScatteringPass);
 namespace
 {
 constexpr double LargestIndex = 10.0;
-/// Stand-ins for blocks are where their actor is.
-constexpr std::array<double, 16> Identity = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+constexpr Advice WithoutMemory = { "use surfaces of fewer triangles", "OpenGL gave up",
+  "try a newer driver" };
 
 double GetMeanTransmittanceAt(double index)
 {
@@ -80,7 +81,8 @@ struct vtkSubsurfaceScatteringPass::Body
 //------------------------------------------------------------------------------
 vtkSubsurfaceScatteringPass::vtkSubsurfaceScatteringPass()
   : vtkTransportPass(ArrayNames::ScatteredIrradiance),
-    Lighting(vtkSmartPointer<vtkSurfaceLighting>::New()), Blocks(new StandIns)
+    Lighting(vtkSmartPointer<vtkSurfaceLighting>::New()), Blocks(new StandIns),
+    Shadowed(new ExactShadows)
 {
   this->SetRefractiveIndex(1.3);
 }
@@ -142,6 +144,7 @@ void vtkSubsurfaceScatteringPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IrradianceSamples: " << this->IrradianceSamples << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
   os << indent << "ShadowMapSize: " << this->ShadowMapSize << "\n";
+  os << indent << "DirectShadows: " << this->DirectShadows << "\n";
   os << indent << "ScatteredMapSize: " << this->ScatteredMapSize << "\n";
   os << indent << "NumberOfMaterials: " << this->GetNumberOfMaterials() << "\n";
 }
@@ -267,10 +270,73 @@ vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfScatteringRuns()
 }
 
 //------------------------------------------------------------------------------
+vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfShadowRuns()
+{
+  return this->Shadowed->GetNumberOfRuns();
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::UpdateShadows(vtkRenderer* renderer)
+{
+  if (this->DirectShadows)
+  {
+    const Outcome done = Attempt([&]() { return this->Shadowed->Update(renderer); }, WithoutMemory);
+    if (done.HasFailed() && !done.GetMessage().empty())
+    {
+      vtkErrorMacro("Without DirectShadows: " << done.GetMessage());
+    }
+  }
+  const bool areDrawn = this->DirectShadows && this->Shadowed->AreThere();
+  if (areDrawn != this->AreShadowsDrawn)
+  {
+    this->AreShadowsDrawn = areDrawn;
+    this->MapsModified();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSubsurfaceScatteringPass::PreReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
+  vtkProp* prop)
+{
+  if (this->AreShadowsDrawn)
+  {
+    ExactShadows::MarkPlace(fragmentShader);
+  }
+  return this->Superclass::PreReplaceShaderValues(vertexShader, geometryShader, fragmentShader,
+    mapper, prop);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSubsurfaceScatteringPass::PostReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
+  vtkProp* prop)
+{
+  if (this->AreShadowsDrawn)
+  {
+    ExactShadows::FillPlace(fragmentShader);
+  }
+  return this->Superclass::PostReplaceShaderValues(vertexShader, geometryShader, fragmentShader,
+    mapper, prop);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSubsurfaceScatteringPass::SetShaderParameters(vtkShaderProgram* program,
+  vtkAbstractMapper* mapper, vtkProp* prop, vtkOpenGLVertexArrayObject* vao)
+{
+  if (this->AreShadowsDrawn)
+  {
+    this->Shadowed->SetUniforms(program);
+  }
+  return this->Superclass::SetShaderParameters(program, mapper, prop, vao);
+}
+
+//------------------------------------------------------------------------------
 // Those of actors that are drawn in this frame; others wait.
 bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
 {
   this->RemoveBodies(nullptr, 0);
+  this->UpdateShadows(state->GetRenderer());
   bool isAnyThere = false;
   for (int index = 0; index < state->GetPropArrayCount(); ++index)
   {
@@ -292,7 +358,7 @@ bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
       }
     }
   }
-  return isAnyThere;
+  return isAnyThere || this->AreShadowsDrawn;
 }
 
 //------------------------------------------------------------------------------
@@ -312,7 +378,7 @@ void vtkSubsurfaceScatteringPass::FindDrawn(vtkActor* actor)
   {
     const BlockSurface& block = blocks[static_cast<std::size_t>(index)];
     Body& body = this->AddBody(actor, index, this->GetMaterial(actor));
-    vtkActor* standIn = this->Blocks->Get(actor, block.Surface, Identity, index);
+    vtkActor* standIn = this->Blocks->Get(actor, block.Surface, StandIns::Unmoved, index);
     body.Drawn = block.IsVisible ? standIn : nullptr;
     if (block.HasOpacity || block.HasColor)
     {
@@ -390,7 +456,7 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
   }
   if (this->Bound != body)
   {
-    this->LetGoOfMaps();
+    this->LetGoOfBody();
     this->Bound = body;
   }
   uniforms.RefractiveIndex = body->RefractiveIndex;
@@ -405,6 +471,13 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
 //------------------------------------------------------------------------------
 void vtkSubsurfaceScatteringPass::LetGoOfMaps()
 {
+  this->LetGoOfBody();
+  this->Shadowed->LetGo();
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::LetGoOfBody()
+{
   if (this->Bound)
   {
     this->Bound->LetGo();
@@ -416,6 +489,7 @@ void vtkSubsurfaceScatteringPass::LetGoOfMaps()
 void vtkSubsurfaceScatteringPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->LetGoOfMaps();
+  this->Shadowed->Clear();
   for (const auto& body : this->Bodies)
   {
     body->Transmitted->ReleaseGraphicsResources();

@@ -41,12 +41,14 @@
 #include "vtkTransportPass.h"
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
 #include <vector> // for std::vector
 
 namespace LightTransport
 {
+class ExactShadows;
 class StandIns;
-}
+} // namespace LightTransport
 
 class vtkActor;
 class vtkOpenGLScatteredMap;
@@ -113,6 +115,22 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Whether what VTK shades, of all actors that are drawn, has shadows: of each light only what a
+   * ray from the fragment reaches it by. Their edges are those of the triangles, whatever the
+   * distance, where those of shadow maps are smeared; nothing nearer than 1e-5 of the scene casts
+   * one. What casts shadows is what does in the maps; a facet that turns away from a light is dark,
+   * also where smooth normals are not. Goes with depth peeling, passes that smooth edges, cameras
+   * anywhere, open sheets. Costs a ray through a tree of all triangles for each fragment and light,
+   * and the making of the tree (80 bytes a triangle or so) where a surface has another shape or
+   * place. Default off.
+   */
+  vtkSetMacro(DirectShadows, bool);
+  vtkGetMacro(DirectShadows, bool);
+  vtkBooleanMacro(DirectShadows, bool);
+  ///@}
+
+  ///@{
   /// What lights the surfaces: the renderer's lights (the default), environments, arrays.
   void SetLighting(vtkSurfaceLighting* lighting);
   vtkSurfaceLighting* GetLighting();
@@ -126,6 +144,9 @@ public:
   vtkIdType GetNumberOfScatteringRuns();
   ///@}
 
+  /// How often the tree of DirectShadows has been made.
+  vtkIdType GetNumberOfShadowRuns();
+
   ///@{
   /// The maps of an actor that has a material: their textures can be read
   /// (vtkOpenGLAtlasTexture::ReadImage). nullptr for others. They follow the properties above. Of
@@ -136,6 +157,16 @@ public:
   ///@}
 
   void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  ///@{
+  /// Called by mappers.
+  bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+    vtkOpenGLVertexArrayObject* vao = nullptr) override;
+  ///@}
 
 protected:
   vtkSubsurfaceScatteringPass();
@@ -164,14 +195,19 @@ private:
   void RemoveBodies(vtkActor* actor, int firstBlock);
   void FindDrawn(vtkActor* actor);
   bool Update(Body& body, vtkRenderer* renderer);
+  void UpdateShadows(vtkRenderer* renderer);
+  void LetGoOfBody();
 
   vtkSmartPointer<vtkSurfaceLighting> Lighting;
   std::vector<std::unique_ptr<Body>> Bodies;
   const std::unique_ptr<LightTransport::StandIns> Blocks;
+  const std::unique_ptr<LightTransport::ExactShadows> Shadowed;
   Body* Bound = nullptr; ///< whose textures are active
   int IrradianceMapSize = 512;
   int IrradianceSamples = 2;
   bool Shadows = true;
+  bool DirectShadows = false;
+  bool AreShadowsDrawn = false;
   int ShadowMapSize = 4096;
   int ScatteredMapSize = 512;
   double RefractiveIndex = 0.0;

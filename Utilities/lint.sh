@@ -41,11 +41,12 @@ check()
 use_system_tools
 check_system
 linters=(python3 python3-flake8 shellcheck codespell reuse)
-# Versions of clang-format differ in what they write: this one decides, and Debian 13 does not have it.
-if [ "$debian" = 12 ]; then
-  linters+=(clang-format-14)
-fi
 install_packages 500 "${linters[@]}"
+# Versions of clang-format differ in what they write: this one decides, and Debian 13 does not have it.
+formatter=$(find_version clang-format-14)
+if [ -n "$formatter" ]; then
+  install_packages 500 clang-format-14
+fi
 
 cd "$source_dir"
 files=()
@@ -62,14 +63,15 @@ mapfile -t texts < <(with_ending cxx h c glsl py in sh md txt cmake json xml mod
 scripts+=(.ci/run)
 wrong=()
 
-if [ "$debian" = 12 ]; then
+if [ -n "$formatter" ]; then
   check 'format of C++' "clang-format-14 -i \$(git ls-files '*.cxx' '*.h' '*.c')" clang-format-14 --dry-run -Werror "${sources[@]}"
 else
-  say 'format of C++: not checked, that needs clang-format 14 of Debian 12'
+  say 'format of C++: not checked, that needs clang-format 14 (Debian 12)'
 fi
 check 'shell' 'the messages above say what' shellcheck "${scripts[@]}"
 check 'Python' 'the messages above say what (.flake8 has the settings)' /usr/bin/python3 -m flake8 "${modules[@]}"
 check 'spelling' 'codespell -i 3 -w with the files above, or name a word that is meant in .codespellrc' codespell "${texts[@]}"
+check 'messages' "Documentation/errors.md in the sources' words" /usr/bin/python3 Utilities/check_errors.py
 check 'links' 'the messages above say what' /usr/bin/python3 Utilities/check_links.py
 if git rev-parse --git-dir >/dev/null 2>&1; then
   check 'licences' 'SPDX lines at the top of the file as others have them, or a line in .reuse/dep5' reuse --root . lint

@@ -3,20 +3,22 @@
 # shellcheck shell=bash
 #
 # What the scripts beside it share: installs the Debian packages that are missing, configures and builds in build/. Sourced, not
-# run. It leaves `source_dir`, `build_dir`, `debian` and `jobs` set. It removes nothing: no package, no file that it did not make.
+# run. It leaves `source_dir`, `build_dir`, `system` and `jobs` set. It removes nothing: no package, no file that it did not make.
+# LIGHT_TRANSPORT_VTK chooses between the VTK of ParaView, with the plugin ("paraview"), and the plain one ("vtk").
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 preset=default
 build_dir=$source_dir/build
 
-# The libraries that the modules use, Mesa's EGL and OSMesa. Tests take meshes from libcgal-demo. Which VTK comes with them depends
-# on the release: see choose_vtk.
+# The libraries that the modules use, and Mesa's EGL. Tests take meshes from libcgal-demo. Which VTK comes with them: see choose_vtk.
 packages=(
   g++ cmake ninja-build python3-dev python3-numpy openmpi-bin
-  libegl-dev libopengl-dev libglew-dev libosmesa6-dev
+  libegl-dev libopengl-dev libglew-dev
   libcgal-dev libeigen3-dev libembree-dev libopenexr-dev
   libcgal-demo)
 configure_options=()
+os_release=/etc/os-release
+lists_updated=
 
 say()
 {
@@ -50,35 +52,94 @@ use_preset()
   build_dir=$source_dir/build-$preset
 }
 
+# Debian and what is made of it, whatever its name. Which packages it has is asked of apt, not told by a list of releases.
 check_system()
 {
-  local ID='' VERSION_ID='' PRETTY_NAME='an unknown system'
-  if [ -r /etc/os-release ]; then
+  local ID='' ID_LIKE='' PRETTY_NAME='an unknown system'
+  if [ -r "$os_release" ]; then
     # shellcheck source=/dev/null
-    . /etc/os-release
+    . "$os_release"
   fi
-  debian=$VERSION_ID
-  if [ "$ID" != debian ] || { [ "$debian" != 12 ] && [ "$debian" != 13 ]; }; then
-    stop "this script sets up Debian 12 and 13, and this is $PRETTY_NAME." \
-      'The README says how to build by hand with CMake.'
-  fi
+  system=$PRETTY_NAME
+  family=" $ID $ID_LIKE "
+  case $family in
+    *' debian '* | *' ubuntu '*) ;;
+    *)
+      stop "this script sets up Debian and its derivatives, and this is $system." \
+        'The README says how to build by hand with CMake.'
+      ;;
+  esac
   command -v apt-get >/dev/null || stop 'apt-get is not there, so no packages can be installed.'
 }
 
-# Debian 12: ParaView's own VTK. paraview-dev does not name all that its CMake package asks for: libopenmpi-dev,
-# libdouble-conversion-dev, libfreetype-dev, libglew-dev and libopengl-dev are for that. Debian 13: plain VTK, because its ParaView
-# package names library files that it does not have, so that CMake cannot find it.
+# The version that is installed or that apt would install, nothing where it has none.
+find_version()
+{
+  LC_ALL=C apt-cache policy "$1" | awk '$1 == "Candidate:" && $2 != "(none)" { print $2 }'
+}
+
+# A bare system has no lists yet, and apt knows of nothing.
+update_lists()
+{
+  if [ -z "$lists_updated" ]; then
+    say 'packages: asking which there are'
+    run_as_root apt-get update -q || stop 'apt-get update failed: see its messages above.'
+    lists_updated=yes
+  fi
+}
+
+# A package, and the oldest version that serves.
+check_version()
+{
+  local version remedy='Debian 12, Ubuntu 24.04 and all later ones have it.'
+  version=$(find_version "$1")
+  if [ -z "$version" ]; then
+    case $family in
+      *' ubuntu '*) remedy='Is the component "universe" on? sudo add-apt-repository universe' ;;
+    esac
+    stop "$system has no package $1." "$remedy"
+  fi
+  dpkg --compare-versions "$version" ge "$2" || stop "$system has $1 $version, and $2 or later is needed." "$remedy"
+}
+
+# ParaView's VTK, with the plugin, or the plain one. Their Python packages exclude each other up to Debian 13, so that what is
+# installed decides; else ParaView's. paraview-dev does not name all that its CMake package asks for: libopenmpi-dev,
+# libpython3-dev, libdouble-conversion-dev, libfreetype-dev, libglew-dev and libopengl-dev are for that.
 choose_vtk()
 {
-  if [ "$debian" = 12 ]; then
-    packages+=(paraview-dev python3-paraview libopenmpi-dev libdouble-conversion-dev libfreetype-dev)
-    # A display for ParaView's window, whose panels are tested.
-    packages+=(xvfb xauth)
-  else
-    packages+=(libvtk9-dev python3-vtk9)
-    # CMake's warnings for developers are about the packages of VTK and CGAL.
-    configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=OFF -Wno-dev)
-    say 'Debian 13: plain VTK; the ParaView plugin and its tests are left out'
+  local vtk=${LIGHT_TRANSPORT_VTK:-}
+  if [ -z "$vtk" ]; then
+    vtk=paraview
+    if are_installed python3-vtk9 && ! are_installed python3-paraview; then
+      vtk=vtk
+    elif [ -z "$(find_version paraview-dev)" ]; then
+      vtk=vtk
+    fi
+  fi
+  case $vtk in
+    paraview)
+      check_version paraview-dev 5.11
+      say "VTK: that of ParaView $(find_version paraview-dev), with the plugin"
+      packages+=(paraview-dev python3-paraview libopenmpi-dev libpython3-dev libdouble-conversion-dev libfreetype-dev)
+      # A display for ParaView's window, whose panels are tested.
+      packages+=(xvfb xauth)
+      if [ "$preset" = default ]; then
+        configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=ON)
+      fi
+      ;;
+    vtk)
+      check_version libvtk9-dev 9.1
+      say "VTK: the plain $(find_version libvtk9-dev); the ParaView plugin and its tests are left out"
+      packages+=(libvtk9-dev python3-vtk9)
+      configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=OFF)
+      ;;
+    *) stop "LIGHT_TRANSPORT_VTK is \"$vtk\": it must be \"paraview\" or \"vtk\"." ;;
+  esac
+  # CMake's warnings for developers are about the packages of VTK and CGAL.
+  configure_options+=(-Wno-dev)
+  # OpenGL without EGL, which a test compares: Mesa has given it up.
+  if [ -n "$(find_version libosmesa6-dev)" ]; then
+    packages+=(libosmesa6-dev)
   fi
 }
 
@@ -112,36 +173,44 @@ choose_jobs()
   fi
 }
 
-is_installed()
+are_installed()
 {
-  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+  local package
+  for package; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || return
+  done
+}
+
+run_as_root()
+{
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  else
+    command -v sudo >/dev/null || stop 'packages are missing, you are not root and sudo is not there.' "As root: $*"
+    sudo "$@"
+  fi
 }
 
 # The megabytes that they take at most, then the packages.
 install_packages()
 {
-  local needed=$1 package missing=() root=()
+  local needed=$1 package missing=()
   shift
   for package; do
-    is_installed "$package" || missing+=("$package")
+    are_installed "$package" || missing+=("$package")
   done
   if [ ${#missing[@]} -eq 0 ]; then
     say "packages: all $# are installed"
     return
   fi
+  update_lists
   say "packages: installing ${missing[*]}"
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || stop 'packages are missing, you are not root and sudo is not there.' \
-      "As root: apt-get install --no-install-recommends ${missing[*]}"
-    root=(sudo)
-  fi
   check_disk /usr "$needed"
-  "${root[@]}" apt-get update -q || stop 'apt-get update failed: see its messages above.'
-  "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  run_as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends --no-remove "${missing[@]}" ||
     stop 'apt-get could not install the packages: see its messages above.' \
       'If it wanted to remove packages: python3-paraview and python3-vtk9 (or libvtk9-dev) exclude each other;' \
-      'remove those yourself, or use another machine or chroot.'
+      'LIGHT_TRANSPORT_VTK=vtk or =paraview chooses the one that is there.'
 }
 
 check_build_directory()
@@ -180,6 +249,11 @@ prepare()
 {
   use_system_tools
   check_system
+  are_installed "${packages[@]}" || update_lists
+  check_version cmake 3.21
+  check_version libcgal-dev 5.5
+  check_version libembree-dev 3
+  check_version libopenexr-dev 3
   choose_vtk
   # About 550 packages on a bare system: 0.5 GB of archives and 2.7 GB unpacked.
   install_packages 4000 "${packages[@]}"

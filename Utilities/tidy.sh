@@ -61,8 +61,8 @@ if [ ${#candidates[@]} -eq 0 ]; then
 fi
 
 prepare
-if [ "$debian" != 12 ]; then
-  say 'clang-tidy: left out, its checks are those of clang-tidy 14 of Debian 12'
+if [ -z "$(find_version clang-tidy-14)" ]; then
+  say 'clang-tidy: left out, its checks are those of clang-tidy 14 (Debian 12)'
   exit
 fi
 install_packages 700 clang-tidy-14

@@ -30,11 +30,24 @@ inline bool IsAborted(vtkAlgorithm* algorithm)
 }
 
 //------------------------------------------------------------------------------
+// Versions of VTK with CheckAbort remember what it has said, until a pipeline runs.
+template <typename Algorithm>
+auto ForgetOutput(Algorithm* algorithm, int) -> decltype(algorithm->SetAbortOutput(false))
+{
+  algorithm->SetAbortOutput(false);
+}
+template <typename Algorithm>
+void ForgetOutput(Algorithm*, long)
+{
+}
+
+//------------------------------------------------------------------------------
 /// A wish counts for the run in which it was made: to be called before the first progress of
 /// another. Not all versions of VTK do it by themselves.
 inline void Forget(vtkAlgorithm* algorithm)
 {
   algorithm->SetAbortExecute(0);
+  ForgetOutput(algorithm, 0);
 }
 } // namespace AbortCheck
 } // namespace LightTransport

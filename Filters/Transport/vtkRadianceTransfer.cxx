@@ -44,6 +44,7 @@ public:
       Count(SphericalHarmonics::GetCount(owner->Degree)),
       Kernel(SphericalHarmonics::GetCosineKernel(owner->Degree, owner->RefractiveIndex))
   {
+    this->NumberOfSides = owner->TwoSided ? 2 : 1;
   }
 
 protected:
@@ -202,5 +203,6 @@ void vtkRadianceTransfer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Degree: " << this->Degree << "\n";
   os << indent << "Samples: " << this->Samples << "\n";
   os << indent << "Shadows: " << this->Shadows << "\n";
+  os << indent << "TwoSided: " << this->TwoSided << "\n";
   os << indent << "RefractiveIndex: " << this->RefractiveIndex << "\n";
 }

@@ -77,6 +77,16 @@ public:
 
   ///@{
   /**
+   * Whether light falls on the backs of polygons, too: on the sheets that most models are made of.
+   * The output has "RadianceTransferBack" then. Default off.
+   */
+  vtkSetMacro(TwoSided, bool);
+  vtkGetMacro(TwoSided, bool);
+  vtkBooleanMacro(TwoSided, bool);
+  ///@}
+
+  ///@{
+  /**
    * Refractive index of the surface relative to its surroundings. Default 1: opaque, and the
    * integral is that of irradiance. Range 1 and up.
    */
@@ -107,6 +117,7 @@ private:
   int Degree = 4;
   int Samples = 256;
   bool Shadows = true;
+  bool TwoSided = false;
   double RefractiveIndex = 1.0;
 };
 

@@ -254,13 +254,11 @@ Outcome vtkRadiosity::Run::Gather()
 //------------------------------------------------------------------------------
 LinkMethodChoice vtkRadiosity::Run::ChooseLinkMethod() const
 {
-  using Method = LightTransport::LinkMethod;
   LinkMethodChoice::Wishes wishes;
   if (vtkViewFactors* given = this->Solver->NeedsLinks() ? this->Owner->ViewFactors : nullptr)
   {
     wishes.AreGiven = true;
-    wishes.Given =
-      given->Store->GetLoadedFile().empty() ? given->GetSettings().Method : Method::Dense;
+    wishes.Given = given->Store->GetMethod(given->GetSettings());
   }
   wishes.Method = this->Owner->LinkMethod;
   wishes.PairSolver = this->Solver->NeedsEachPair() ? this->Solver->Name : nullptr;
@@ -373,12 +371,13 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
 }
 
 //------------------------------------------------------------------------------
-// Few rays first; from the solution with them, and how wrong it is, follows how many are enough,
-// and which patches are worth exact rows.
+// Few rays first, or what there is of this scene; from the solution with them, and how wrong it is,
+// follows how many are enough, and which patches are worth exact rows.
 Outcome vtkRadiosity::Run::LinkByRays()
 {
   const std::vector<double> direct = this->Materials.DirectIrradiance;
-  SamplingPlan plan = SamplingPlan::Begin();
+  SamplingPlan plan =
+    this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(), this->AllRanks);
   double done = 0.0;
   for (;;)
   {

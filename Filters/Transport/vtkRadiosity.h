@@ -322,7 +322,8 @@ public:
    * result while the geometry stays the same, so that new emissions or reflectances only cost a
    * solution. The internal one leaves out the pairs of patches of which neither sends anything
    * (unless EnforceClosure or a background, which need whole rows), so it computes again when
-   * patches that did not send begin to.
+   * patches that did not send begin to. Sampled links for an Accuracy serve other light as long as
+   * that keeps it with them; else what is missing, rays or exact rows, is added.
    */
   virtual void SetViewFactors(vtkViewFactors* viewFactors);
   vtkGetObjectMacro(ViewFactors, vtkViewFactors);

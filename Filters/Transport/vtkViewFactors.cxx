@@ -105,7 +105,7 @@ std::unique_ptr<TransportRun> vtkViewFactors::MakeRun(const RunPorts& ports)
 //------------------------------------------------------------------------------
 bool vtkViewFactors::LinksClusters() const
 {
-  return this->LinkMethod == LINK_METHOD_HIERARCHICAL && this->Store->GetLoadedFile().empty();
+  return this->Store->GetMethod(this->GetSettings()) == LightTransport::LinkMethod::Hierarchical;
 }
 
 //------------------------------------------------------------------------------
@@ -130,13 +130,9 @@ bool vtkViewFactors::GetViewFactors(vtkIdType i, vtkDoubleArray* rows)
   {
     return false;
   }
-  double* value = rows->GetPointer(0);
-  for (vtkIdType row = i; row < i + rows->GetNumberOfTuples(); ++row)
+  for (vtkIdType row = 0; row < rows->GetNumberOfTuples(); ++row)
   {
-    for (vtkIdType j = 0; j < count; ++j)
-    {
-      *value++ = this->Store->GetViewFactor(row, j);
-    }
+    this->Store->CopyRow(i + row, rows->GetPointer(row * count));
   }
   rows->Modified();
   return true;

@@ -214,8 +214,12 @@ public:
   ///@{
   /**
    * Save the view factors that the last update computed, with the fingerprint of the geometry. Load
-   * takes them from a file: updates then compute nothing, and fail for any other geometry, until
-   * Load(nullptr) or another file. One process only, and no hierarchical links. Both return false
+   * takes them from a file: updates then compute nothing, whatever the properties are, and fail for
+   * any other geometry, until Load(nullptr) or another file. The file keeps a matrix with its sums,
+   * errors and fractions, or what the rays of sampled links have met, of which links, fractions and
+   * errors are made again: all results, those of vtkRadiosity and its errors too, are the same
+   * bits. A matrix takes one process. Sampled links may be saved and loaded by several, which all
+   * call this; the number of them may differ. Hierarchical links cannot be saved. Both return false
    * after an error, which they report: nothing computed yet, a file that cannot be written or read,
    * is damaged or is no file of view factors.
    */

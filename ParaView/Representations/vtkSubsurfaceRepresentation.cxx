@@ -147,6 +147,7 @@ void vtkSubsurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScatteredMapSize: " << this->ScatteredMapSize << "\n";
   os << indent << "Exposure: " << this->Exposure << "\n";
   os << indent << "CastShadows: " << this->CastShadows << "\n";
+  os << indent << "DirectShadows: " << this->DirectShadows << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -231,6 +232,12 @@ void vtkSubsurfaceRepresentation::SetCastShadows(bool shadows)
 }
 
 //------------------------------------------------------------------------------
+void vtkSubsurfaceRepresentation::SetDirectShadows(bool shadows)
+{
+  this->DirectShadows = shadows;
+}
+
+//------------------------------------------------------------------------------
 vtkSubsurfaceScatteringPass* vtkSubsurfaceRepresentation::GetPass()
 {
   return this->Pass;
@@ -302,6 +309,7 @@ void vtkSubsurfaceRepresentation::Attach()
   pass->SetScatteredMapSize(this->ScatteredMapSize);
   pass->SetExposure(this->Exposure);
   pass->SetShadows(this->CastShadows);
+  pass->SetDirectShadows(this->DirectShadows);
   pass->SetMaterial(this->Actor, this->Scattering);
   this->TakeColors();
 }

@@ -57,11 +57,13 @@ public:
   ///@}
 
   ///@{
-  /// As vtkSubsurfaceScatteringPass has them, for the whole view: 512, 128 (there: 512), 1, on.
+  /// As vtkSubsurfaceScatteringPass has them, for the whole view: 512, 128 (there: 512), 1, on,
+  /// off.
   void SetIrradianceMapSize(int size);
   void SetScatteredMapSize(int size);
   void SetExposure(double exposure);
   void SetCastShadows(bool shadows);
+  void SetDirectShadows(bool shadows);
   ///@}
 
   /// The pass that draws it; nullptr before the first frame.
@@ -100,6 +102,7 @@ private:
   int ScatteredMapSize = 128;
   double Exposure = 1.0;
   bool CastShadows = true;
+  bool DirectShadows = false;
   ///@{ Of the property, before scattered light took their place.
   double UsualAmbient = 0.0;
   double UsualDiffuse = 1.0;

@@ -73,6 +73,15 @@ view.GetActiveCamera().Azimuth(120.0)
 turned = get_mean()
 check(get_runs() == (1, 1), "the view turned, and something is computed again")
 check(turned.min() > 1.0, f"no light comes through: {turned}")
+display.Specular = 1.0
+display.SpecularPower = 1.0
+reflected = get_mean() - turned
+display.SubsurfaceDirectShadows = 1
+shadowed = get_mean() - turned
+check(0.5 * reflected[0] < shadowed[0] < 0.98 * reflected[0],
+      f"a reflection of {reflected}, with shadows {shadowed}")
+display.SubsurfaceDirectShadows = 0
+display.Specular = 0.0
 light.Position = [40.0, 10.0, -25.0]
 check(get_mean().min() > turned.min(), "the light came to this side, and it is darker")
 check(get_runs() == (1, 2), f"a light moved: runs of {get_runs()}")

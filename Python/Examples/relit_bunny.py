@@ -12,6 +12,7 @@ moves the sliders, and pictures go to the folder.
 """
 
 import argparse
+import ctypes
 import math
 import os
 import sys
@@ -156,6 +157,18 @@ def play(bunny, folder):
     return good
 
 
+def has_display():
+    """Whether the X server of VTK's window answers: where none does, VTK ends the process."""
+    if not sys.platform.startswith("linux"):
+        return True
+    try:
+        library = ctypes.CDLL("libX11.so.6")
+    except OSError:
+        return False
+    library.XOpenDisplay.restype = ctypes.c_void_p
+    return library.XOpenDisplay(None) is not None
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--map", type=int, default=128, help="texels a side of what leaves")
@@ -165,6 +178,10 @@ def main():
     arguments = parser.parse_args()
     if arguments.frames:
         lt.vtkOffScreenOpenGLRenderWindow.RegisterAsDefault()
+    elif not has_display():
+        sys.exit("There is no display for a window (DISPLAY is not set, or nothing answers there): "
+                 "with --frames FOLDER pictures are written instead, which needs none; or start "
+                 "this on a desktop, over ssh -X or under xvfb-run.")
     surface = make_surface(BUNNY, arguments.patches, arguments.map)
     bunny = RelitBunny(surface, arguments.size, arguments.map)
     if arguments.frames:

@@ -56,6 +56,20 @@ class TestShell(CommandTestCase):
     def get_values(self, name):
         return [row[0] for row in get_tuples(self.load("out.vtp").GetCellData().GetArray(name))]
 
+    def test_options_for_properties(self):
+        """Messages name properties and arrays, and the options for them; others are left alone."""
+        cube = self.save("in.vtp", add_array(make_surface(make_box((0, 0, 0), (1, 1, 1))[1:]),
+                                             "Temperature", [900.0] * 5))
+        result = self.run_command("radiosity", cube, self.path("out.vtp"), "--emissivity", "0.9")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("BackgroundTemperature", result.stderr)
+        self.assertIn("--background-temperature", result.stderr)
+        self.assertNotIn("--tolerance", result.stderr)
+        os.remove(self.path("out.vtp"))
+        result = self.run_command("radiosity", cube, self.path("out.vtp"), "--emissivity", "2")
+        self.check_failure(result, 1, '"Emissivity"')
+        self.assertIn("(options: --emissivity)", result.stderr)
+
     def test_part_in_one_line(self):
         """No arrays in the file, one value for each material."""
         told = self.run_json("radiosity", self.make_oven(), self.path("out.vtp"),

@@ -30,7 +30,7 @@ def make_parser():
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in load_commands().items():
         command = commands.add_parser(name, help=module.HELP, description=module.DESCRIPTION)
-        command.set_defaults(parser=command, module=module)
+        command.set_defaults(parser=command, module=module, flags={})
         command.add_argument("--quiet", action="store_true",
                              help="no progress on stderr, no summary")
         command.add_argument("--json", action="store_true",
@@ -41,7 +41,7 @@ def make_parser():
 
 def main(arguments):
     options = make_parser().parse_args(join_negative_values(arguments))
-    messages = Messages()
+    messages = Messages(options.flags)
     try:
         options.module.check(options)
         summary = options.module.run(options, messages)

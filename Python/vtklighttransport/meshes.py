@@ -47,7 +47,7 @@ def get_extension(file):
 def list_extensions():
     """What can be read here, the best known first."""
     try:
-        from meshio._helpers import extension_to_filetypes
+        from meshio import extension_to_filetypes
     except ImportError:
         return list(READERS)
     return list(READERS) + sorted(set(extension_to_filetypes) - set(READERS))

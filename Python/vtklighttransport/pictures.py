@@ -23,6 +23,9 @@ from vtkmodules.vtkRenderingCore import (
 # Of a whole circle, in degrees: that of the eye for a picture held at arm's length.
 VIEW_ANGLE = 36.0
 
+VIRIDIS = ((68, 1, 84), (71, 45, 123), (59, 82, 139), (44, 114, 142), (33, 145, 140),
+           (40, 174, 128), (94, 201, 98), (173, 220, 48), (253, 231, 37))
+
 # Where the bar that explains colours begins, from left to right.
 BAR_BEGIN = 0.8
 
@@ -113,8 +116,8 @@ def render_light(file, surface, exposure, look, size=(512, 512), name="Radiosity
 
 
 def make_colors(color_range, logarithmic):
-    """From blue to red, through green; where the range begins below 0, which then is its midst,
-    through white."""
+    """Viridis, which is even to the eye, also in grey and to who sees no red; where the range
+    begins below 0, which then is its midst, from blue to red through white."""
     if color_range[0] < 0.0:
         colors = vtkColorTransferFunction()
         colors.SetColorSpaceToDiverging()
@@ -122,11 +125,14 @@ def make_colors(color_range, logarithmic):
         colors.AddRGBPoint(color_range[1], 0.72, 0.05, 0.12)
         return colors
     table = vtkLookupTable()
-    table.SetHueRange(0.667, 0.0)
+    table.SetNumberOfTableValues(256)
+    places = numpy.linspace(0.0, 255.0, len(VIRIDIS))
+    channels = [numpy.interp(range(256), places, channel) / 255.0 for channel in zip(*VIRIDIS)]
+    for k, color in enumerate(zip(*channels)):
+        table.SetTableValue(k, *color)
     if logarithmic:
         table.SetScaleToLog10()
     table.SetTableRange(color_range)
-    table.Build()
     return table
 
 
@@ -153,9 +159,9 @@ def make_color_bar(table, title):
     bar.SetTitle(title)
     # An odd number where there is a midst to tell.
     bar.SetNumberOfLabels(5 if table.GetRange()[0] < 0.0 else 4)
-    bar.SetLabelFormat("%.2g")
+    bar.SetLabelFormat("%.3g")
     bar.UnconstrainedFontSizeOn()
-    for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 18)):
+    for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 16)):
         text.SetColor(0.0, 0.0, 0.0)
         text.SetFontSize(size)
         text.ItalicOff()

@@ -7,84 +7,20 @@
 #include "Device/DeviceErrors.h"
 #include "Device/DeviceMemory.h"
 #include "Maps/SceneUniforms.h"
-#include "Passes/PlainMapper.h"
-#include "Shared/BitHash.h"
 #include "vtkLightTransportMapsLightView.h"
 #include "vtkLightTransportMapsShadowFS.h"
 #include "vtkLightTransportMapsShadowVS.h"
 
-#include "vtkActor.h"
-#include "vtkActorCollection.h"
-#include "vtkCellArray.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
-#include "vtkMapper.h"
-#include "vtkMath.h"
-#include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
-#include "vtkPolyData.h"
-#include "vtkProperty.h"
-#include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
-#include "vtkTriangleFilter.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 namespace LightTransport
 {
-namespace
-{
-//------------------------------------------------------------------------------
-bool CastsShadows(vtkActor* actor)
-{
-  return actor->GetVisibility() && actor->GetMapper() &&
-    actor->GetMapper()->GetNumberOfInputConnections(0) > 0 && DrawsItsInput(actor->GetMapper()) &&
-    actor->GetProperty()->GetRepresentation() == VTK_SURFACE &&
-    actor->GetProperty()->GetOpacity() > 0.0;
-}
-
-//------------------------------------------------------------------------------
-template <typename Visit>
-void VisitSurfaces(vtkDataObject* data, const Visit& visit)
-{
-  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
-  if (!composite)
-  {
-    if (auto* surface = vtkPolyData::SafeDownCast(data))
-    {
-      visit(surface);
-    }
-    return;
-  }
-  vtkSmartPointer<vtkCompositeDataIterator> blocks;
-  blocks.TakeReference(composite->NewIterator());
-  for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
-  {
-    if (auto* surface = vtkPolyData::SafeDownCast(blocks->GetCurrentDataObject()))
-    {
-      visit(surface);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// Of the shape alone: arrays come and go.
-std::uint64_t GetShapeStamp(vtkDataObject* data)
-{
-  BitHash hash;
-  VisitSurfaces(data,
-    [&](vtkPolyData* surface) {
-      hash.AddObjects({ surface->GetPoints(), surface->GetPolys(), surface->GetStrips() });
-    });
-  return hash.Get();
-}
-} // namespace
-
 //------------------------------------------------------------------------------
 ShadowMap::ShadowMap() = default;
 
@@ -97,10 +33,9 @@ ShadowMap::~ShadowMap()
 //------------------------------------------------------------------------------
 void ShadowMap::Clear()
 {
-  for (Caster& caster : this->Casters)
+  for (Upload& upload : this->Uploads)
   {
-    caster.Triangles.clear();
-    caster.IsUploaded = false;
+    upload = Upload();
   }
   if (this->IsOpen())
   {
@@ -159,127 +94,48 @@ Outcome ShadowMap::SetSize(int size)
 }
 
 //------------------------------------------------------------------------------
+// What is on the device already stays there.
 void ShadowMap::Find(vtkRenderer* renderer)
 {
-  std::vector<Caster> found;
-  BitHash stamp;
-  vtkActorCollection* actors = renderer->GetActors();
-  vtkCollectionSimpleIterator place;
-  actors->InitTraversal(place);
-  while (vtkActor* actor = actors->GetNextActor(place))
+  const std::vector<ShadowCasters::Caster> before = this->Casters.Get();
+  std::vector<Upload> known(std::move(this->Uploads));
+  this->Casters.Find(renderer);
+  this->Uploads.clear();
+  for (const ShadowCasters::Caster& caster : this->Casters.Get())
   {
-    if (!CastsShadows(actor))
+    this->Uploads.emplace_back();
+    for (std::size_t k = 0; k < before.size(); ++k)
     {
-      continue;
-    }
-    actor->GetMapper()->Update();
-    Caster caster;
-    caster.Data = actor->GetMapper()->GetInputDataObject(0, 0);
-    if (!caster.Data)
-    {
-      continue;
-    }
-    caster.Stamp = GetShapeStamp(caster.Data);
-    actor->ComputeMatrix();
-    std::copy_n(actor->GetMatrix()->GetData(), 16, caster.Matrix.begin());
-    actor->GetBounds(caster.Bounds.data());
-    stamp.Add(caster.Stamp);
-    for (const double number : caster.Matrix)
-    {
-      stamp.AddNumber(number);
-    }
-    this->TakeOver(caster);
-    found.push_back(std::move(caster));
-  }
-  this->Casters = std::move(found);
-  this->Stamp = stamp.Get();
-  this->AddBounds();
-}
-
-//------------------------------------------------------------------------------
-// What is on the device already.
-void ShadowMap::TakeOver(Caster& caster)
-{
-  const auto known = std::find_if(this->Casters.begin(), this->Casters.end(),
-    [&caster](const Caster& other)
-    { return other.Data == caster.Data && other.Stamp == caster.Stamp && other.IsUploaded; });
-  if (known != this->Casters.end())
-  {
-    caster.Center = known->Center;
-    caster.Triangles = std::move(known->Triangles);
-    caster.IsUploaded = true;
-    known->IsUploaded = false;
-  }
-}
-
-//------------------------------------------------------------------------------
-void ShadowMap::AddBounds()
-{
-  vtkMath::UninitializeBounds(this->Bounds.data());
-  for (const Caster& caster : this->Casters)
-  {
-    for (int axis = 0; axis < 3 && vtkMath::AreBoundsInitialized(caster.Bounds.data()); ++axis)
-    {
-      const bool isFirst = this->Bounds[2 * axis] > this->Bounds[2 * axis + 1];
-      double& low = this->Bounds[2 * axis];
-      double& high = this->Bounds[2 * axis + 1];
-      low = isFirst ? caster.Bounds[2 * axis] : std::min(low, caster.Bounds[2 * axis]);
-      high = isFirst ? caster.Bounds[2 * axis + 1] : std::max(high, caster.Bounds[2 * axis + 1]);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-Outcome ShadowMap::Upload(Caster& caster)
-{
-  bool isFirst = true;
-  Outcome uploaded = Outcome::Done();
-  caster.Triangles.clear();
-  VisitSurfaces(caster.Data,
-    [&](vtkPolyData* surface)
-    {
-      if (isFirst && surface->GetNumberOfPoints() > 0)
+      if (known[k].IsThere && before[k].HasShapeOf(caster))
       {
-        surface->GetPoint(0, caster.Center.data());
-        isFirst = false;
+        this->Uploads.back() = std::move(known[k]);
+        known[k].IsThere = false;
+        break;
       }
-      uploaded = uploaded ? this->Upload(caster, surface) : uploaded;
-    });
-  caster.IsUploaded = static_cast<bool>(uploaded);
-  return uploaded;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
-Outcome ShadowMap::Upload(Caster& caster, vtkPolyData* data)
+Outcome ShadowMap::Fill(Upload& upload, const ShadowCasters::Caster& caster) const
 {
-  vtkNew<vtkTriangleFilter> divider;
-  divider->PassVertsOff();
-  divider->PassLinesOff();
-  divider->SetInputData(data);
-  divider->Update();
-  vtkPolyData* triangles = divider->GetOutput();
   std::vector<float> corners;
-  vtkIdType count = 0;
-  const vtkIdType* ids = nullptr;
-  for (vtkIdType cell = 0; cell < triangles->GetNumberOfPolys(); ++cell)
-  {
-    triangles->GetPolys()->GetCellAtId(cell, count, ids);
-    for (vtkIdType corner = 0; corner < count; ++corner)
+  caster.VisitTriangles(
+    [&](const std::array<Vector3, 3>& triangle)
     {
-      double point[3];
-      triangles->GetPoint(ids[corner], point);
-      for (int k = 0; k < 3; ++k)
+      upload.Center = corners.empty() ? triangle[0] : upload.Center;
+      for (const Vector3& corner : triangle)
       {
-        corners.push_back(static_cast<float>(point[k] - caster.Center[k]));
+        for (std::size_t k = 0; k < corner.size(); ++k)
+        {
+          corners.push_back(static_cast<float>(corner[k] - upload.Center[k]));
+        }
       }
-    }
-  }
-  if (corners.empty())
-  {
-    return Outcome::Done();
-  }
-  caster.Triangles.push_back(std::make_unique<TriangleBuffer>(*this->Engine));
-  return caster.Triangles.back()->Upload(corners, 3);
+    });
+  upload.Triangles = std::make_unique<TriangleBuffer>(*this->Engine);
+  const Outcome uploaded = corners.empty() ? Outcome::Done() : upload.Triangles->Upload(corners, 3);
+  upload.IsThere = static_cast<bool>(uploaded);
+  return uploaded;
 }
 
 //------------------------------------------------------------------------------
@@ -293,9 +149,10 @@ Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
   vtkShaderProgram::Substitute(vertices, "//VTK::LightTransport::View",
     vtkLightTransportMapsLightView);
   Outcome drawn = Outcome::Done();
-  for (Caster& caster : this->Casters)
+  for (std::size_t k = 0; k < this->Uploads.size(); ++k)
   {
-    drawn = drawn && !caster.IsUploaded ? this->Upload(caster) : drawn;
+    Upload& upload = this->Uploads[k];
+    drawn = drawn && !upload.IsThere ? this->Fill(upload, this->Casters.Get()[k]) : drawn;
   }
   if (!drawn)
   {
@@ -316,14 +173,13 @@ Outcome ShadowMap::Draw(const LightView& view, const Vector3& origin)
   const float farthest = 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &farthest);
   SceneUniforms::SetView(program, view, origin);
-  for (Caster& caster : this->Casters)
+  for (std::size_t k = 0; k < this->Uploads.size(); ++k)
   {
-    auto move = SceneUniforms::MakeMove(caster.Matrix.data(), caster.Center, origin);
+    const Upload& upload = this->Uploads[k];
+    auto move =
+      SceneUniforms::MakeMove(this->Casters.Get()[k].Matrix.data(), upload.Center, origin);
     program->SetUniformMatrix4x4("toScene", move.data());
-    for (const auto& triangles : caster.Triangles)
-    {
-      drawn = drawn ? triangles->Draw(program, { { "position", 0, 3 } }) : drawn;
-    }
+    drawn = drawn ? upload.Triangles->Draw(program, { { "position", 0, 3 } }) : drawn;
   }
   return drawn;
 }

@@ -6,19 +6,14 @@
 #define ShadowMap_h
 
 #include "Maps/SceneLights.h"
+#include "Maps/ShadowCasters.h"
 #include "Maps/TriangleBuffer.h"
 #include "Textures/FloatTextures.h"
-#include "vtkWeakPointer.h"
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
-class vtkActor;
-class vtkDataObject;
 class vtkOpenGLFramebufferObject;
-class vtkPolyData;
 class vtkRenderer;
 
 namespace LightTransport
@@ -36,15 +31,9 @@ public:
   /// Drops all that is on the device.
   void Clear();
 
-  /// Look for the surfaces that cast shadows: of all visible actors, wherever the camera looks.
-  /// They are brought up to date, and go to the device when they are drawn.
+  /// Look for the surfaces that cast shadows; they go to the device when they are drawn.
   void Find(vtkRenderer* renderer);
-
-  /// Another number where they, or their places, are others.
-  std::uint64_t GetStamp() const { return this->Stamp; }
-
-  /// xmin, xmax, ... of all of them.
-  const double* GetBounds() const { return this->Bounds.data(); }
+  const ShadowCasters& GetCasters() const { return this->Casters; }
 
   /// Texels a side, of the next drawing.
   Outcome SetSize(int size);
@@ -55,31 +44,23 @@ public:
   vtkTextureObject* GetTexture() const { return this->Depth; }
 
 private:
-  /// What of an actor casts shadows.
-  struct Caster
+  /// A caster on the device.
+  struct Upload
   {
-    vtkWeakPointer<vtkDataObject> Data;
-    std::uint64_t Stamp = 0; ///< of its shape
-    std::array<double, 16> Matrix = {};
     Vector3 Center = {};
-    std::array<double, 6> Bounds = {};
-    std::vector<std::unique_ptr<TriangleBuffer>> Triangles;
-    bool IsUploaded = false;
+    std::unique_ptr<TriangleBuffer> Triangles;
+    bool IsThere = false;
   };
 
   bool IsOpen() const { return this->Engine && this->Engine->IsAlive(); }
-  void TakeOver(Caster& caster);
-  Outcome Upload(Caster& caster);
-  Outcome Upload(Caster& caster, vtkPolyData* data);
-  void AddBounds();
+  Outcome Fill(Upload& upload, const ShadowCasters::Caster& caster) const;
 
   std::unique_ptr<FloatTextures> Engine;
   vtkSmartPointer<vtkOpenGLFramebufferObject> Framebuffer;
   vtkSmartPointer<vtkTextureObject> Depth;
   int Size = 0;
-  std::vector<Caster> Casters;
-  std::uint64_t Stamp = 0;
-  std::array<double, 6> Bounds = {};
+  ShadowCasters Casters;
+  std::vector<Upload> Uploads; ///< one for each caster
 };
 } // namespace LightTransport
 

@@ -70,6 +70,26 @@ vtkActor* StandIns::Get(vtkActor* actor, vtkPolyData* surface, const std::array<
 }
 
 //------------------------------------------------------------------------------
+// The same again where the cells are the same, so that it is not uploaded anew.
+vtkActor* StandIns::GetLines(vtkActor* actor, vtkPolyData* surface, int block)
+{
+  if (surface->GetNumberOfVerts() + surface->GetNumberOfLines() == 0)
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkPolyData> lines = this->Find(actor, block).Mapper->GetInput();
+  if (!lines || lines->GetPoints() != surface->GetPoints() ||
+    lines->GetVerts() != surface->GetVerts() || lines->GetLines() != surface->GetLines())
+  {
+    lines = vtkSmartPointer<vtkPolyData>::New();
+    lines->SetPoints(surface->GetPoints());
+    lines->SetVerts(surface->GetVerts());
+    lines->SetLines(surface->GetLines());
+  }
+  return this->Get(actor, lines, Unmoved, block);
+}
+
+//------------------------------------------------------------------------------
 bool StandIns::Has(vtkProp* standIn) const
 {
   return std::any_of(this->Pairs.begin(), this->Pairs.end(),

@@ -25,10 +25,18 @@ namespace LightTransport
 class StandIns
 {
 public:
+  /// Of a surface in the coordinates of its actor.
+  static constexpr std::array<double, 16> Unmoved = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,
+    1 };
+
   /// One for a block of an actor, which draws `surface`, in world coordinates of when the actor had
   /// `matrix`, where the actor is now.
   vtkActor* Get(vtkActor* actor, vtkPolyData* surface, const std::array<double, 16>& matrix,
     int block = 0);
+
+  /// One that draws the vertices and lines of what a block of an actor draws, where the actor is;
+  /// nullptr where there are none. Numbers of blocks are those of Get: use other stand-ins for it.
+  vtkActor* GetLines(vtkActor* actor, vtkPolyData* surface, int block);
 
   bool Has(vtkProp* standIn) const;
 

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 namespace LightTransport
 {
@@ -106,23 +107,36 @@ std::size_t FindMember(const std::vector<SceneActors::Member>& members, vtkActor
 
 //------------------------------------------------------------------------------
 ProgressiveSolution::ProgressiveSolution()
-  : Filter(Sliced<vtkRadiosity>::Make()), Direct(Sliced<vtkDirectIrradiance>::Make()),
-    Shooter(vtkSmartPointer<vtkOpenGLShooter>::New())
+  : Filter(Sliced<vtkRadiosity>::Make()), Direct(Sliced<vtkDirectIrradiance>::Make())
 {
   this->Observe(this->Filter);
   this->Observe(this->Direct);
+  this->MakeShooter();
 }
 
 //------------------------------------------------------------------------------
 ProgressiveSolution::~ProgressiveSolution() = default;
 
 //------------------------------------------------------------------------------
+void ProgressiveSolution::MakeShooter()
+{
+  this->Shooter = vtkSmartPointer<vtkOpenGLShooter>::New();
+  this->Observe(static_cast<vtkObject*>(this->Shooter));
+}
+
+//------------------------------------------------------------------------------
+void ProgressiveSolution::Observe(vtkObject* teller)
+{
+  teller->AddObserver(vtkCommand::ErrorEvent, this, &ProgressiveSolution::HearError);
+  teller->AddObserver(vtkCommand::WarningEvent, this, &ProgressiveSolution::HearWarning);
+}
+
+//------------------------------------------------------------------------------
 // The executive says once more that its algorithm has failed.
 void ProgressiveSolution::Observe(vtkAlgorithm* filter)
 {
+  this->Observe(static_cast<vtkObject*>(filter));
   filter->AddObserver(vtkCommand::ProgressEvent, this, &ProgressiveSolution::HearProgress);
-  filter->AddObserver(vtkCommand::ErrorEvent, this, &ProgressiveSolution::HearError);
-  filter->AddObserver(vtkCommand::WarningEvent, this, &ProgressiveSolution::HearWarning);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this, &ProgressiveSolution::Ignore);
 }
 
@@ -163,6 +177,14 @@ std::vector<std::string> ProgressiveSolution::TakeWarnings()
 }
 
 //------------------------------------------------------------------------------
+std::string ProgressiveSolution::TakeErrors()
+{
+  std::string errors;
+  errors.swap(this->Errors);
+  return errors;
+}
+
+//------------------------------------------------------------------------------
 Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& settings, double seconds)
 {
   const double begin = vtkTimerLog::GetUniversalTime();
@@ -174,11 +196,13 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
   found.Find(renderer, names, refusals);
   const Keys keys = { found.GetShapeKey(), found.GetMaterialKey(), found.GetLightKey(),
     settings.Radiosity->GetMTime(), settings.Shadows, settings.UsesAmbient };
-  const Keys& old = this->Known;
-  const bool isSame = this->IsKnown && keys.Shape == old.Shape && keys.Material == old.Material &&
-    keys.Light == old.Light && keys.Radiosity == old.Radiosity && keys.Shadows == old.Shadows &&
-    keys.UsesAmbient == old.UsesAmbient && this->Actors.AreOfActorsOf(found);
-  if (!isSame)
+  const bool areSameActors = this->IsKnown && this->Actors.AreOfActorsOf(found);
+  const bool isSame = areSameActors && keys == this->Known;
+  if (isSame)
+  {
+    this->Actors = found;
+  }
+  else if (!areSameActors || !this->IsFirstLightUnderWay(keys))
   {
     this->Work.Stop();
     this->Actors = found;
@@ -192,6 +216,12 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
   {
     this->State = Progress::Shooting;
   }
+  if (this->HaveShotsFailed && this->FailedIn != renderer->GetRenderWindow())
+  {
+    // Another window may be on another device.
+    this->ShowEstimate();
+    this->State = Progress::Shooting;
+  }
   const auto getLeft = [&]()
   { return std::max(LeastSeconds, begin + seconds - vtkTimerLog::GetUniversalTime()); };
   Outcome done = Outcome::Done();
@@ -201,15 +231,44 @@ Outcome ProgressiveSolution::Update(vtkRenderer* renderer, const Settings& setti
   }
   if (done && this->State == Progress::Computing && this->Estimate && !this->Solution)
   {
-    this->ShownScene = this->Estimate;
-    this->ShownMembers = this->Actors.GetMembers();
-    this->Means.reset();
+    this->ShowEstimate();
   }
   if (done && this->State == Progress::Shooting)
   {
     done = this->Shoot(renderer, getLeft(), settings.UsesAmbient);
+    this->HaveShotsFailed = !done;
+    this->FailedIn = renderer->GetRenderWindow();
   }
   return this->State == Progress::Failed && done ? Outcome::FailedAsReported() : done;
+}
+
+//------------------------------------------------------------------------------
+bool ProgressiveSolution::Keys::operator==(const Keys& other) const
+{
+  const auto tie = [](const Keys& keys)
+  {
+    return std::tie(keys.Shape, keys.Material, keys.Light, keys.Radiosity, keys.Shadows,
+      keys.UsesAmbient);
+  };
+  return tie(*this) == tie(other);
+}
+
+//------------------------------------------------------------------------------
+// Whether lights alone have changed, before there is an estimate in those that were there: a light
+// that moves faster than light is computed would else show nothing new for ever.
+bool ProgressiveSolution::IsFirstLightUnderWay(const Keys& keys) const
+{
+  Keys others = keys;
+  others.Light = this->Known.Light;
+  return others == this->Known && this->State == Progress::Computing && !this->Estimate;
+}
+
+//------------------------------------------------------------------------------
+void ProgressiveSolution::ShowEstimate()
+{
+  this->ShownScene = this->Estimate;
+  this->ShownMembers = this->Actors.GetMembers();
+  this->Means.reset();
 }
 
 //------------------------------------------------------------------------------
@@ -220,6 +279,7 @@ void ProgressiveSolution::Restart(const Keys& keys, const Settings& settings)
     keys.Light != this->Known.Light || keys.Shadows != this->Known.Shadows;
   this->Known = keys;
   this->IsKnown = true;
+  this->HaveShotsFailed = false;
   this->Errors.clear();
   this->Warnings.clear();
   this->Estimate = nullptr;
@@ -323,10 +383,9 @@ void ProgressiveSolution::AddLight()
 //------------------------------------------------------------------------------
 Outcome ProgressiveSolution::TakeWork()
 {
-  const Outcome ended = this->Work.GetOutcome();
-  if (!ended)
+  if (const Outcome& ended = this->Work.GetOutcome(); !ended)
   {
-    return this->Fail(ended.GetMessage().empty() ? this->Errors : ended.GetMessage());
+    return this->Fail(ended.GetMessage());
   }
   ++this->SolverRuns;
   const bool isDark = std::all_of(this->Problem.Source.begin(), this->Problem.Source.end(),
@@ -337,31 +396,22 @@ Outcome ProgressiveSolution::TakeWork()
                           "scene light, or actors an ambient color or the cell array \"Emission\".";
     this->HearWarning(nullptr, 0, &warning[0]);
   }
-  this->ShownMembers = this->Actors.GetMembers();
-  if (this->IsByShots)
-  {
-    this->ShownScene = this->Estimate;
-    this->State = Progress::Shooting;
-    this->Means.reset();
-  }
-  else
-  {
-    this->ShownScene = this->Solution;
-    this->State = Progress::Done;
-    this->Means.reset();
-  }
+  this->ShowEstimate();
+  this->ShownScene = this->IsByShots ? this->Estimate : this->Solution;
+  this->State = this->IsByShots ? Progress::Shooting : Progress::Done;
   return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-// Nothing is shown of what has failed.
+// Nothing is shown of what has failed. Without a message, with what has been heard.
 Outcome ProgressiveSolution::Fail(const std::string& message)
 {
+  const std::string heard = this->TakeErrors();
   this->State = Progress::Failed;
   this->ShownScene = nullptr;
   this->ShownMembers.clear();
   this->Means.reset();
-  return Outcome::Failed(message);
+  return Outcome::Failed(message.empty() ? heard : message);
 }
 
 //------------------------------------------------------------------------------
@@ -496,7 +546,7 @@ std::vector<ProgressiveSolution::Shown> ProgressiveSolution::FindShown(vtkActor*
     {
       return {};
     }
-    all.push_back({ surface, this->ShownMembers[index].Matrix });
+    all.push_back({ surface, this->ShownMembers[index].Matrix, member.Surface });
   }
   return all;
 }
@@ -536,7 +586,7 @@ void ProgressiveSolution::ReleaseGraphicsResources()
 {
   this->Means.reset();
   this->BytesRead += this->Shooter->GetNumberOfBytesRead();
-  this->Shooter = vtkSmartPointer<vtkOpenGLShooter>::New();
+  this->MakeShooter();
   this->ReadBack = nullptr;
   if (this->IsByShots && this->State == Progress::Done && this->Estimate)
   {

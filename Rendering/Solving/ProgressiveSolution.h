@@ -17,12 +17,15 @@
 #include "vtkDirectIrradiance.h"
 #include "vtkNew.h"
 #include "vtkRadiosity.h"
+#include "vtkWeakPointer.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 class vtkObject;
+class vtkRenderWindow;
 
 namespace LightTransport
 {
@@ -47,6 +50,8 @@ public:
 
   /// What users should know, since the last call.
   std::vector<std::string> TakeWarnings();
+  /// What GetOutput has failed with; empty where it has not.
+  std::string TakeErrors();
 
   /// Whether there is nothing left to do.
   bool IsConverged() const { return this->State == Progress::Done; }
@@ -56,6 +61,7 @@ public:
   {
     vtkPolyData* Surface = nullptr;
     std::array<double, 16> Matrix = {};
+    vtkPolyData* Source = nullptr; ///< what the actor's mapper would draw
   };
   /// For all blocks of an actor, of the estimate so far or of an earlier scene; none where there is
   /// none of one of them, or only of another shape.
@@ -98,8 +104,11 @@ private:
     vtkMTimeType Radiosity = 0;
     bool Shadows = false;
     bool UsesAmbient = false;
+
+    bool operator==(const Keys& other) const;
   };
 
+  bool IsFirstLightUnderWay(const Keys& keys) const;
   void Restart(const Keys& keys, const Settings& settings);
   Outcome Compute(bool needsLight, bool usesAmbient);
   bool Light();
@@ -108,16 +117,19 @@ private:
   Outcome Fail(const std::string& message);
 
   bool IsShotIn(vtkRenderer* renderer) const;
+  void ShowEstimate();
+  void MakeShooter();
   Outcome BeginShots(vtkRenderer* renderer);
   Outcome Shoot(vtkRenderer* renderer, double seconds, bool usesAmbient);
   Outcome ShowShots(bool usesAmbient);
   bool IsEnough();
 
-  ///@{ Of the filters.
+  ///@{ Of the filters and the shooter.
   void HearProgress(vtkObject* filter, unsigned long, void*);
   void HearError(vtkObject* filter, unsigned long, void* text);
   void HearWarning(vtkObject* filter, unsigned long, void* text);
   void Ignore(vtkObject*, unsigned long, void*) {}
+  void Observe(vtkObject* teller);
   void Observe(vtkAlgorithm* filter);
   ///@}
 
@@ -140,6 +152,8 @@ private:
   vtkSmartPointer<vtkMultiBlockDataSet> ReadBack; ///< of all shots so far; else nullptr
   vtkIdType Shots = 0;                            ///< of this solution
   vtkIdType UncheckedShots = 0;
+  bool HaveShotsFailed = false;
+  vtkWeakPointer<vtkRenderWindow> FailedIn; ///< there
 
   /// What is shown, and what it is of.
   vtkSmartPointer<vtkMultiBlockDataSet> ShownScene;

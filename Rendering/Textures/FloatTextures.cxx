@@ -17,6 +17,7 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 namespace LightTransport
@@ -217,7 +218,8 @@ void FloatTextures::Copy(const VectorBuffer& target, const Group& source)
   for (std::size_t index = 0; index < source.size(); ++index)
   {
     // Where a buffer is bound, an address is where to begin in it.
-    auto* const begin = static_cast<char*>(nullptr) + index * width * height * BytesPerTexel;
+    const std::uintptr_t begin = index * width * height * BytesPerTexel;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr)
     this->Download(source, index, width, height, reinterpret_cast<float*>(begin));
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

@@ -16,7 +16,8 @@ CPU seconds are those of all threads, without start-up and reading. The error is
 sqrt(sum A dB^2 / sum A (B - E)^2): what is emitted is not counted. It is that from closed forms
 where there is one (even light in a closed room of one reflectance), else from the dense method at
 --reference, and for scenes that are too large for it from many plain rays; references are kept in
-the folder. MB are those of the links. Each row is printed when it is known.
+the folder. MB are those of the links. Each row is printed when it is known; what was printed
+radiosity_peers_table.py makes tables and plots of.
 """
 
 import argparse
@@ -49,7 +50,7 @@ SETTINGS = {"auto": ("1e-1", "3e-2", "1e-2", "3e-3", "1e-3"),
             "dense": ("1e-1", "1e-2", "1e-3"),
             "hierarchical": ("1e-1", "3e-2", "1e-2"),
             "sampled": ("1e-1", "3e-2", "1e-2", "3e-3", "1e-3"),
-            "rays": ("64", "256", "1024", "4096"),
+            "rays": ("64", "256", "1024", "4096", "16384"),
             "view3d": ("1e-3",), "pyviewfactor": ("once",)}
 # Which property of vtkRadiosity a setting is.
 TOLERANCES = {"dense": "ViewFactorTolerance", "hierarchical": "LinkTolerance", "auto": "Accuracy",

@@ -53,7 +53,8 @@ void MakeSquares(vtkPolyData* squares, bool facing)
 
 //------------------------------------------------------------------------------
 // As in ViewFactorsFile: header, rows, names and numbers, tiles, and a checksum of words of each of
-// these. Mutated files are seldom read beyond a wrong one.
+// these; or as in RayHitsFile, where all are whole words. Mutated files are seldom read beyond a
+// wrong one.
 class ChecksumMender
 {
 public:
@@ -66,6 +67,12 @@ public:
       return;
     }
     this->End = this->Bytes.size() - Word;
+    if (std::memcmp(this->Bytes.data(), Rays, std::strlen(Rays)) == 0)
+    {
+      this->Add(this->End);
+      std::memcpy(this->Bytes.data() + this->End, &this->Sum, Word);
+      return;
+    }
     const std::uint64_t patches = this->Get(72), summaries = this->Get(80);
     this->Add(HeaderBytes);
     this->Add(patches < this->End / BytesPerPatch ? patches * BytesPerPatch : this->End);
@@ -81,6 +88,7 @@ public:
   }
 
 private:
+  static constexpr char Rays[] = "vtkLightTransport view factor rays";
   static constexpr std::size_t Word = sizeof(std::uint64_t);
   static constexpr std::size_t HeaderBytes = 96;
   static constexpr std::size_t BytesPerPatch = 80;

@@ -75,11 +75,16 @@ def make_squares(facing):
 
 
 def write_view_factors():
-    for name, facing, closed in (("facing", True, False), ("apart", False, False),
-                                 ("apart-closed", False, True)):
+    matrix, rays = lt.vtkViewFactors.LINK_METHOD_DENSE, lt.vtkViewFactors.LINK_METHOD_SAMPLED
+    for name, facing, closed, method in (
+            ("facing", True, False, matrix), ("apart", False, False, matrix),
+            ("apart-closed", False, True, matrix), ("facing-rays", True, True, rays),
+            ("apart-rays", False, True, rays)):
         factors = lt.vtkViewFactors()
         factors.SetInputData(make_squares(facing))
         factors.SetEnforceClosure(closed)
+        factors.SetLinkMethod(method)
+        factors.SetLinkTolerance(0.1)
         factors.Update()
         factors.Save(str(CORPUS / "ViewFactors" / name))
 

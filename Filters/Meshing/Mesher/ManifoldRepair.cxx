@@ -9,7 +9,6 @@
 #include "vtkSphere.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
@@ -17,6 +16,11 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
+#if __has_include(<CGAL/boost/graph/border.h>) // CGAL 6.2 and later
+#include <CGAL/boost/graph/border.h>
+#else
+#include <CGAL/Polygon_mesh_processing/border.h>
+#endif
 
 #include <algorithm>
 #include <iterator>
@@ -285,14 +289,22 @@ void TakeIdsOfNeighbours(RepairMesh& surface, const std::vector<Face>& added)
 }
 
 //------------------------------------------------------------------------------
+// A halfedge of each border. CGAL 6.2 has moved the function to the namespace of the mesh.
+std::vector<Halfedge> FindBorders(const Mesh& mesh)
+{
+  using namespace CGAL::Polygon_mesh_processing;
+  std::vector<Halfedge> borders;
+  extract_boundary_cycles(mesh, std::back_inserter(borders));
+  return borders;
+}
+
+//------------------------------------------------------------------------------
 std::array<std::size_t, 3> GetTopology(const Mesh& input)
 {
   Mesh mesh = input;
   mesh.collect_garbage();
-  std::vector<Halfedge> borders;
-  PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
   const Components components(mesh);
-  return { components.Faces.size(), borders.size(),
+  return { components.Faces.size(), FindBorders(mesh).size(),
     mesh.number_of_vertices() + mesh.number_of_faces() - mesh.number_of_edges() };
 }
 
@@ -314,7 +326,8 @@ struct WatchedPoints
     }
     return get(points.Points, vertex);
   }
-  friend void put(const WatchedPoints& points, Vertex vertex, const Point& point)
+  // A map of this category has it; whether it is called depends on CGAL's version.
+  [[maybe_unused]] friend void put(const WatchedPoints& points, Vertex vertex, const Point& point)
   {
     put(points.Points, vertex, point);
   }
@@ -534,10 +547,8 @@ vtkIdType ManifoldRepair::FillHoles(double size, const Monitor& monitor)
   Mesh& mesh = this->Surface->Triangles;
   const Components components(mesh);
   std::map<std::size_t, double> radii;
-  std::vector<Halfedge> borders;
-  PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
   vtkIdType filled = 0;
-  for (const Halfedge border : borders)
+  for (const Halfedge border : FindBorders(mesh))
   {
     std::vector<Vertex> vertices;
     for (const Halfedge h : mesh.halfedges_around_face(border))

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace LightTransport
@@ -398,15 +399,42 @@ bool OccluderWalls::IsInside(vtkIdType wall, const Vector& place) const
 }
 
 //------------------------------------------------------------------------------
+void OccluderWalls::End::Set(std::vector<Vector> points)
+{
+  this->Points = std::move(points);
+  this->Middle = std::accumulate(this->Points.begin(), this->Points.end(), Vector(Vector::Zero())) /
+    static_cast<double>(this->Points.size());
+  this->SquaredReach = (this->Points[0] - this->Points[this->Points.size() / 2]).squaredNorm();
+}
+
+//------------------------------------------------------------------------------
+// Whether a segment comes near a wall on its way through the plane.
+bool OccluderWalls::MayHide(vtkIdType wall, const Vector& from, const Vector& to) const
+{
+  const Vector& normal = this->GetNormal(wall);
+  const Vector& middle = this->GetCentroid(wall);
+  const double begin = normal.dot(from - middle);
+  const double end = normal.dot(to - middle);
+  if (begin * end >= 0.0)
+  {
+    return false;
+  }
+  const double reach = (1.0 + 1e-6) * this->GetRadius(wall) + BorderRounding;
+  return (from + begin / (begin - end) * (to - from) - middle).squaredNorm() <= reach * reach;
+}
+
+//------------------------------------------------------------------------------
 // All segments cross the wall's plane within the hull of the places where those between the given
 // points do.
-bool OccluderWalls::HidesAll(vtkIdType wall, const std::vector<Vector>& from,
-  const std::vector<Vector>& to, bool strictly) const
+bool OccluderWalls::HidesAll(vtkIdType wall, const End& from, const End& to, bool strictly) const
 {
   // Most walls are smaller than either end, or beside the segment between the middles.
-  const double reach = std::min((from[0] - from[from.size() / 2]).squaredNorm(),
-    (to[0] - to[to.size() / 2]).squaredNorm());
+  const double reach = std::min(from.SquaredReach, to.SquaredReach);
   if (16.0 * this->GetRadius(wall) * this->GetRadius(wall) < reach)
+  {
+    return false;
+  }
+  if (!this->MayHide(wall, from.Middle, to.Middle))
   {
     return false;
   }
@@ -417,30 +445,20 @@ bool OccluderWalls::HidesAll(vtkIdType wall, const std::vector<Vector>& from,
     const double tolerance = plane.GetTolerance((point - plane.Origin).norm());
     return std::abs(height) > tolerance ? height : 0.0;
   };
-  const auto getMiddle = [](const std::vector<Vector>& points)
-  {
-    Vector sum = Vector::Zero();
-    for (const Vector& point : points)
-    {
-      sum += point;
-    }
-    return Vector(sum / static_cast<double>(points.size()));
-  };
-  const Vector middles[2] = { getMiddle(from), getMiddle(to) };
-  const double heights[2] = { getHeight(middles[0]), getHeight(middles[1]) };
+  const double heights[2] = { getHeight(from.Middle), getHeight(to.Middle) };
   const auto crosses = [&](const Vector& a, double heightA, const Vector& b, double heightB)
   {
     const double height = heightA - heightB;
     return height == 0.0 || this->IsInside(wall, a + heightA / height * (b - a));
   };
-  if (heights[0] * heights[1] >= 0.0 || !crosses(middles[0], heights[0], middles[1], heights[1]))
+  if (heights[0] * heights[1] >= 0.0 || !crosses(from.Middle, heights[0], to.Middle, heights[1]))
   {
     return false;
   }
   const double side = heights[0] > 0.0 ? 1.0 : -1.0;
-  const auto isOnSide = [&](const std::vector<Vector>& points, double sign)
+  const auto isOnSide = [&](const End& end, double sign)
   {
-    return std::all_of(points.begin(), points.end(),
+    return std::all_of(end.Points.begin(), end.Points.end(),
       [&](const Vector& point)
       {
         const double height = sign * getHeight(point);
@@ -451,10 +469,10 @@ bool OccluderWalls::HidesAll(vtkIdType wall, const std::vector<Vector>& from,
   {
     return false;
   }
-  return std::all_of(from.begin(), from.end(),
+  return std::all_of(from.Points.begin(), from.Points.end(),
     [&](const Vector& a)
     {
-      return std::all_of(to.begin(), to.end(),
+      return std::all_of(to.Points.begin(), to.Points.end(),
         [&](const Vector& b) { return crosses(a, getHeight(a), b, getHeight(b)); });
     });
 }

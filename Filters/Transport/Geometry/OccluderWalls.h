@@ -29,18 +29,27 @@ public:
   /// A node of the scene's tree that holds all patches of a wall, and no child of it does.
   int GetNode(vtkIdType wall) const { return this->Nodes[wall]; }
 
+  /// A convex hull of points, from which others are looked at.
+  struct End
+  {
+    std::vector<Vector> Points;
+    Vector Middle;
+    double SquaredReach; ///< of two of the points that are far apart
+
+    void Set(std::vector<Vector> points);
+  };
+
   /**
-   * Whether a wall stands in the way of all segments between two convex hulls of points: then
-   * nothing of one is seen from the other. With `strictly` all points must be off the wall's plane
-   * for certain; else one of each side, what touches the plane from one side being no more than a
-   * border.
+   * Whether a wall stands in the way of all segments between two hulls: then nothing of one is seen
+   * from the other. With `strictly` all points must be off the wall's plane for certain; else one
+   * of each side, what touches the plane from one side being no more than a border.
    */
-  bool HidesAll(vtkIdType wall, const std::vector<Vector>& from, const std::vector<Vector>& to,
-    bool strictly) const;
+  bool HidesAll(vtkIdType wall, const End& from, const End& to, bool strictly) const;
 
 private:
   class Builder;
 
+  bool MayHide(vtkIdType wall, const Vector& from, const Vector& to) const;
   bool IsInside(vtkIdType wall, const Vector& place) const;
   void FindNodes(const PatchScene& scene);
   void FindBorders();

@@ -156,38 +156,28 @@ void SetPointsOfFan(const Frame& frame, Bundle& bundle)
 }
 
 //------------------------------------------------------------------------------
-// Evenly in projected solid angle. Sine and cosine of half the angle, at most a quarter turn, by
-// their series, whose next terms are below single precision.
+// Evenly in projected solid angle: rings of the square become rings of the disk (P. Shirley,
+// K. Chiu, "A Low Distortion Map Between Disk and Square", JGT 2, 1997). Sine and cosine of at most
+// an eighth of a turn by their series, whose next terms are below single precision.
 LT_INLINE void SetRays(const Frame& frame, Bundle& bundle)
 {
-  constexpr float halfPi = 1.57079632679f;
+  constexpr float quarterPi = 0.785398163397f;
   RTCRay16& ray = bundle.Rays.ray;
   for (int lane = 0; lane < Lanes; ++lane)
   {
-    const float x = halfPi * (2.0f * bundle.Numbers[3][lane] - 1.0f);
+    const float u = 2.0f * bundle.Numbers[2][lane] - 1.0f;
+    const float v = 2.0f * bundle.Numbers[3][lane] - 1.0f;
+    const bool isFlat = std::abs(u) > std::abs(v);
+    const float radius = isFlat ? u : v;
+    const float x = quarterPi * (isFlat ? v : u) / (radius != 0.0f ? radius : 1.0f);
     const float y = x * x;
-    const float sine = x *
-      (1.0f +
-        y *
-          (-1.0f / 6 +
-            y *
-              (1.0f / 120 +
-                y *
-                  (-1.0f / 5040 +
-                    y * (1.0f / 362880 + y * (-1.0f / 39916800 + y / 6227020800.0f))))));
-    const float cosine = 1.0f +
-      y *
-        (-1.0f / 2 +
-          y *
-            (1.0f / 24 +
-              y *
-                (-1.0f / 720 +
-                  y * (1.0f / 40320 + y * (-1.0f / 3628800 + y * (1.0f / 479001600))))));
-    const float squared = bundle.Numbers[2][lane];
-    const float radius = std::sqrt(squared);
-    const float a = radius * (cosine * cosine - sine * sine);
-    const float b = radius * (2.0f * sine * cosine);
-    const float c = std::sqrt(1.0f - squared);
+    const float sine =
+      x * (1.0f + y * (-1.0f / 6 + y * (1.0f / 120 + y * (-1.0f / 5040 + y / 362880.0f))));
+    const float cosine =
+      1.0f + y * (-1.0f / 2 + y * (1.0f / 24 + y * (-1.0f / 720 + y * (1.0f / 40320))));
+    const float a = radius * (isFlat ? cosine : sine);
+    const float b = radius * (isFlat ? sine : cosine);
+    const float c = std::sqrt(1.0f - radius * radius);
     ray.org_x[lane] = bundle.Points[0][lane] + frame.Lift * frame.Normal[0];
     ray.org_y[lane] = bundle.Points[1][lane] + frame.Lift * frame.Normal[1];
     ray.org_z[lane] = bundle.Points[2][lane] + frame.Lift * frame.Normal[2];
@@ -247,6 +237,20 @@ struct PatchRays::Internals
   Vector GetPoint(vtkIdType patch, const Frame& frame, double u, double v) const;
   Hit Decide(vtkIdType patch, const Vector& origin, const Vector& direction) const;
   bool IsAtRim(vtkIdType patch, const Vector& origin, double margin) const;
+
+  /// What a ray meets in single precision: a part of a patch, or none.
+  struct Meeting
+  {
+    const Facet* Part;
+    float Distance;
+    float Cosine; ///< with its normal, above 0 from in front
+  };
+  Vector GetStart(vtkIdType patch, const Frame& frame, const Bundle& bundle, int lane) const;
+  bool IsRough(vtkIdType patch, const Frame& frame, const Bundle& bundle, int lane) const;
+  Meeting GetMeeting(const Bundle& bundle, int lane) const;
+  static Hit FindCertain(vtkIdType patch, const Meeting& meeting);
+  bool IsOfNeighbour(vtkIdType patch, const Frame& frame, const Meeting& meeting,
+    const Vector& origin) const;
   Hit Judge(vtkIdType patch, const Frame& frame, const Bundle& bundle, int lane) const;
 };
 
@@ -475,47 +479,83 @@ bool PatchRays::Internals::IsAtRim(vtkIdType patch, const Vector& origin, double
 }
 
 //------------------------------------------------------------------------------
+// In double precision, as SetPoints.
+Vector PatchRays::Internals::GetStart(vtkIdType patch, const Frame& frame, const Bundle& bundle,
+  int lane) const
+{
+  return this->GetPoint(patch, frame, static_cast<double>(bundle.Numbers[0][lane]),
+    static_cast<double>(bundle.Numbers[1][lane]));
+}
+
+//------------------------------------------------------------------------------
+// Whether single precision does not tell on which side of its neighbours a ray starts.
+bool PatchRays::Internals::IsRough(vtkIdType patch, const Frame& frame, const Bundle& bundle,
+  int lane) const
+{
+  const float rim = bundle.Rims[lane];
+  return this->IsNarrow[patch] ||
+    (rim >= 0.0f ? rim < frame.Rim
+                 : this->IsAtRim(patch, this->GetStart(patch, frame, bundle, lane),
+                     static_cast<double>(frame.Rim)));
+}
+
+//------------------------------------------------------------------------------
+PatchRays::Internals::Meeting PatchRays::Internals::GetMeeting(const Bundle& bundle, int lane) const
+{
+  const RTCRay16& ray = bundle.Rays.ray;
+  Meeting meeting{ nullptr, ray.tfar[lane], 0.0f };
+  if (bundle.Rays.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID)
+  {
+    meeting.Part = &this->Facets[bundle.Rays.hit.primID[lane]];
+    const float* normal = meeting.Part->Normal;
+    meeting.Cosine =
+      -(ray.dir_x[lane] * normal[0] + ray.dir_y[lane] * normal[1] + ray.dir_z[lane] * normal[2]);
+  }
+  return meeting;
+}
+
+//------------------------------------------------------------------------------
+// What is met for certain; -1 where single precision does not tell.
+PatchRays::Hit PatchRays::Internals::FindCertain(vtkIdType patch, const Meeting& meeting)
+{
+  const Facet& part = *meeting.Part;
+  const Hit hit = meeting.Cosine > 0.0f ? part.Patch : part.Twin;
+  const bool isCertain =
+    meeting.Distance * std::abs(meeting.Cosine) > part.Height + part.Slope * meeting.Distance &&
+    hit != patch && part.Patch != patch;
+  return isCertain ? hit : -1;
+}
+
+//------------------------------------------------------------------------------
 // What starts on the plane of a neighbour, as far as coordinates tell, passes it. Where it then
 // meets nothing in front, it would find a gap in the corner of a closed room.
+bool PatchRays::Internals::IsOfNeighbour(vtkIdType patch, const Frame& frame,
+  const Meeting& meeting, const Vector& origin) const
+{
+  return meeting.Part && meeting.Cosine > 0.0f && meeting.Part->Patch != patch &&
+    !this->IsNarrow[patch] && IsAside(*meeting.Part, frame) &&
+    this->Scene->GetPlane(meeting.Part->Patch).GetCertainHeight(origin) == 0.0;
+}
+
+//------------------------------------------------------------------------------
 PatchRays::Hit PatchRays::Internals::Judge(vtkIdType patch, const Frame& frame,
   const Bundle& bundle, int lane) const
 {
-  const RTCRay16& ray = bundle.Rays.ray;
-  const float direction[3] = { ray.dir_x[lane], ray.dir_y[lane], ray.dir_z[lane] };
-  const bool isMet = bundle.Rays.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-  const auto getOrigin = [&]()
+  const Meeting meeting = this->GetMeeting(bundle, lane);
+  if (!this->IsRough(patch, frame, bundle, lane))
   {
-    return this->GetPoint(patch, frame, static_cast<double>(bundle.Numbers[0][lane]),
-      static_cast<double>(bundle.Numbers[1][lane]));
-  };
-  const float rim = bundle.Rims[lane];
-  const bool isRough = this->IsNarrow[patch] ||
-    (rim >= 0.0f ? rim < frame.Rim
-                 : this->IsAtRim(patch, getOrigin(), static_cast<double>(frame.Rim)));
-  if (!isMet && !isRough)
-  {
-    return Sky;
-  }
-  const Facet* facet = isMet ? &this->Facets[bundle.Rays.hit.primID[lane]] : nullptr;
-  const float distance = ray.tfar[lane];
-  const float cosine = facet ? -(direction[0] * facet->Normal[0] + direction[1] * facet->Normal[1] +
-                                 direction[2] * facet->Normal[2])
-                             : 0.0f;
-  if (facet && !isRough)
-  {
-    const Hit hit = cosine > 0.0f ? facet->Patch : facet->Twin;
-    if (distance * std::abs(cosine) > facet->Height + facet->Slope * distance && hit >= 0 &&
-      hit != patch && facet->Patch != patch)
+    const Hit certain = meeting.Part ? FindCertain(patch, meeting) : Sky;
+    if (!meeting.Part || certain >= 0)
     {
-      return hit;
+      return certain;
     }
   }
-  const Vector origin = getOrigin();
-  const Hit decided = this->Decide(patch, origin, Vector(direction[0], direction[1], direction[2]));
-  const bool meetsNeighbour = decided < 0 && facet && cosine > 0.0f && facet->Patch != patch &&
-    !this->IsNarrow[patch] && IsAside(*facet, frame) &&
-    this->Scene->GetPlane(facet->Patch).GetCertainHeight(origin) == 0.0;
-  return meetsNeighbour ? facet->Patch : decided;
+  const RTCRay16& ray = bundle.Rays.ray;
+  const Vector origin = this->GetStart(patch, frame, bundle, lane);
+  const Hit decided =
+    this->Decide(patch, origin, Vector(ray.dir_x[lane], ray.dir_y[lane], ray.dir_z[lane]));
+  return decided < 0 && this->IsOfNeighbour(patch, frame, meeting, origin) ? meeting.Part->Patch
+                                                                           : decided;
 }
 
 //------------------------------------------------------------------------------

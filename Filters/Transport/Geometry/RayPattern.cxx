@@ -18,8 +18,8 @@ constexpr int CellDigits = 12;
 // Cells in the order of a curve through all of them (Morton's).
 std::uint32_t GetCell(int point)
 {
-  const std::uint32_t u = PatchSampler::GetDigits(point, 2);
-  const std::uint32_t v = PatchSampler::GetDigits(point, 3);
+  const std::uint32_t u = PatchSampler::GetDigits(point, 0);
+  const std::uint32_t v = PatchSampler::GetDigits(point, 1);
   std::uint32_t cell = 0;
   for (int digit = 31; digit > 31 - CellDigits; --digit)
   {
@@ -46,8 +46,8 @@ RayPattern::RayPattern(int first, int count)
     packet.Places[lane] = order[point].second;
     for (int dimension = 0; dimension < Dimensions; ++dimension)
     {
-      packet.Digits[dimension][lane] =
-        OwenScrambling::Reverse(PatchSampler::GetDigits(first + packet.Places[lane], dimension));
+      packet.Digits[dimension][lane] = OwenScrambling::Reverse(
+        PatchSampler::GetDigits(first + packet.Places[lane], dimension ^ 2));
     }
   }
 }

@@ -7,9 +7,12 @@
 #include "Shared/Pulse.h"
 #include "Support/InstructionSets.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace LightTransport
 {
@@ -300,6 +303,33 @@ void ShaftCuller::SetBounds(Candidates& found) const
 }
 
 //------------------------------------------------------------------------------
+// By how far their edges are from the segment between two places, seen from the first: those with
+// the segment well inside come first.
+template <typename Item, typename GetWall>
+void ShaftCuller::Order(const Vector& from, const Vector& to, std::vector<Item>& items,
+  const GetWall& getWall) const
+{
+  const Vector axis = (to - from).normalized();
+  std::vector<std::pair<double, Item>> ranks;
+  ranks.reserve(items.size());
+  for (const Item& item : items)
+  {
+    const vtkIdType wall = getWall(item);
+    const Vector offset = this->Walls.GetCentroid(wall) - from;
+    const double length = std::max(offset.norm(), std::numeric_limits<double>::min());
+    const double radius = std::sqrt(
+      this->Walls.GetAreas()[wall] * std::abs(offset.dot(this->Walls.GetNormal(wall))) / length);
+    const double along = std::max(offset.dot(axis), 1e-3 * length);
+    ranks.emplace_back((offset.cross(axis).norm() - radius) / along, item);
+  }
+  std::sort(ranks.begin(), ranks.end(),
+    [&](const auto& a, const auto& b)
+    { return a.first < b.first || (a.first == b.first && getWall(a.second) < getWall(b.second)); });
+  std::transform(ranks.begin(), ranks.end(), items.begin(),
+    [](const auto& rank) { return rank.second; });
+}
+
+//------------------------------------------------------------------------------
 // Of walls without bounds yet: where the nodes have few patches, keep those that part any of them.
 void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
 {
@@ -309,6 +339,8 @@ void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
   {
     return;
   }
+  this->Order(0.5 * (i.Lower + i.Upper), 0.5 * (j.Lower + j.Upper), found.Walls,
+    [](vtkIdType wall) { return wall; });
   SideFinder finderI(this->Walls, this->Scene), finderJ(this->Walls, this->Scene);
   finderI.SetPatches(i.First, i.Last);
   finderJ.SetPatches(j.First, j.Last);
@@ -411,6 +443,8 @@ void ShaftCuller::FindBetween(vtkIdType i, vtkIdType j, std::vector<Occluder>& f
       }
       return true;
     });
+  this->Order(this->Scene.GetCentroid(i), this->Scene.GetCentroid(j), found,
+    [](const Occluder& occluder) { return occluder.Wall; });
 }
 
 //------------------------------------------------------------------------------
@@ -456,8 +490,9 @@ vtkIdType ShaftCuller::FindHiding(int nodeI, int nodeJ, const Candidates& candid
   {
     return -1;
   }
-  const std::vector<Vector> from = this->GetBox(nodeI);
-  const std::vector<Vector> to = this->GetBox(nodeJ);
+  OccluderWalls::End from, to;
+  from.Set(this->GetBox(nodeI));
+  to.Set(this->GetBox(nodeJ));
   if (guess >= 0 && this->Walls.HidesAll(guess, from, to, true))
   {
     return guess;

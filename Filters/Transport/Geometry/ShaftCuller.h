@@ -9,7 +9,7 @@
  * A shaft is tested as the family of its cross-sections: bounds along a few fixed directions, which
  * go linearly from those of the one end to those of the other. Sides are those of boxes as long as
  * nodes are large, then of patches: once for each wall and patch of two nodes, not for each pair
- * (SideFinder).
+ * (SideFinder). From there on what is found is in order: first what is likely to hide much.
  */
 #ifndef ShaftCuller_h
 #define ShaftCuller_h
@@ -115,6 +115,9 @@ private:
   void Search(const Shaft& shaft, const Visit& visit) const;
   bool MayPart(vtkIdType wall, int nodeI, int nodeJ) const;
   void FindSidesOf(int nodeI, int nodeJ, Candidates& found) const;
+  template <typename Item, typename GetWall>
+  void Order(const Vector& from, const Vector& to, std::vector<Item>& items,
+    const GetWall& getWall) const;
   void SetBounds(Candidates& found) const;
   static void Keep(const Candidates& candidates, Candidates& found);
   std::vector<Vector> GetBox(int node) const;

@@ -112,7 +112,7 @@ public:
 private:
   bool Survives(PhotonRandom& random)
   {
-    double weights[MostPhotonBands];
+    double weights[MostPhotonBands] = {};
     this->GetWeights(weights);
     const double weight = *std::max_element(weights, weights + this->Bands.GetNumber());
     if (weight >= 1.0)

@@ -81,13 +81,14 @@ private:
   std::vector<Edge> SortDiagonals() const
   {
     std::vector<std::pair<double, Edge>> diagonals;
-    for (const auto& [edge, piece] : this->Owners)
+    for (const auto& owner : this->Owners)
     {
+      const Edge& edge = owner.first;
       const auto other = this->Owners.find({ edge.second, edge.first });
       if (edge.first < edge.second && other != this->Owners.end())
       {
         const auto getAngle = [&](int corner)
-        { return this->GetAngle(piece, corner) + this->GetAngle(other->second, corner); };
+        { return this->GetAngle(owner.second, corner) + this->GetAngle(other->second, corner); };
         diagonals.emplace_back(std::max(getAngle(edge.first), getAngle(edge.second)), edge);
       }
     }

@@ -97,23 +97,22 @@ void Summarize(const ViewFactorAssembly& assembly, const Ranks& ranks, Links& li
     { "PairsFacing", count.Open.Facing }, { "PairsUnobstructed", count.Free },
     { "PairsHidden", count.Hidden }, { "PairsPartlyVisible", count.PartlyVisible },
     { "PairsLookedAt", count.Rastered }, { "MatrixBytes", links.Matrix->GetNumberOfBytes() } };
-  std::vector<double> totals = assembly.GetRowErrors();
-  const std::size_t rows = totals.size();
+  std::vector<double> totals;
   for (const auto& summary : links.Summaries)
   {
     totals.push_back(summary.second);
   }
   ranks.Sum(totals);
+  for (std::size_t k = 0; k < totals.size(); ++k)
+  {
+    links.Summaries[k].second = totals[k];
+  }
+  links.RowErrors = assembly.GetRowErrors(ranks);
   const std::vector<double>& areas = links.Matrix->GetAreas();
-  links.RowErrors.resize(rows);
-  for (std::size_t row = 0; row < rows; ++row)
+  for (std::size_t row = 0; row < areas.size(); ++row)
   {
     links.RowErrors[row] =
-      totals[row] / areas[row] + ViewFactorClosure::SinglePrecision * links.RowSums[row];
-  }
-  for (std::size_t k = 0; k < links.Summaries.size(); ++k)
-  {
-    links.Summaries[k].second = totals[rows + k];
+      links.RowErrors[row] / areas[row] + ViewFactorClosure::SinglePrecision * links.RowSums[row];
   }
   links.Summaries.emplace_back("DenseMatrixBytes",
     vtkExchangeMatrix::GetEstimatedBytes(links.Matrix->GetNumberOfPatches(), 1));

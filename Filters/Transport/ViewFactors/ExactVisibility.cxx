@@ -26,10 +26,8 @@ constexpr double InsetRoundings = 8.0;
 constexpr double LargestInset = 1e-3;
 // Shadows that have met parts after which no piece is cut any more: some ten milliseconds.
 constexpr double MaximumWork = 1e5;
-// What a piece may be off by before anything is known of it, over its area; and how much of that,
-// or of what was known later, a cut leaves to each half, however little it has changed: the points
-// of two rules may agree by luck.
-constexpr double FirstError = 0.25;
+// How much of what a piece may be off by a cut leaves to each half, however little it has changed:
+// the points of two rules may agree by luck.
 constexpr double LeastLeft = 1.0 / 24.0;
 
 //------------------------------------------------------------------------------

@@ -111,7 +111,7 @@ Outcome HierarchicalViewFactors::Build(const PatchScene& scene, const Ranks& ran
                      Openings::Confidence * refinement.GetRowDeviation()),
       links);
   }
-  if (Outcome closed = ViewFactorClosure::ScaleHierarchy(links, ranks); !closed)
+  if (Outcome closed = ViewFactorClosure::ScaleHierarchy(links, {}, ranks); !closed)
   {
     return closed;
   }

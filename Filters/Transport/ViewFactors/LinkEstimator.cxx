@@ -183,7 +183,7 @@ LinkEstimator::Estimate LinkEstimator::Integrate(const Pair& pair, double thresh
   const double allowed = weight > 0.0 ? std::sqrt(threshold / weight) : 1.0;
   if (share.Error > allowed)
   {
-    share = visibility.Integrate(allowed);
+    share = visibility.Integrate(allowed, share.Value);
   }
   estimate.Value *= share.Value;
   estimate.ErrorI = share.Error * share.Error * areaI * sentJ * sentJ;

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace LightTransport
 {
@@ -38,6 +37,9 @@ constexpr double UsualPart = 0.35;
 // Two polygons closer than this part of the larger one's extent: the raster does not resolve there
 // what one sees of the other.
 constexpr double CloseDistance = 0.125;
+// Ten times what samples that share weights are off by from a point that is as far from the target
+// as that reaches, measured; it falls with the square of the distance.
+constexpr double CoarseError = 0.02;
 // Of heights over the planes of a hull in double precision (the scene is 1 large).
 constexpr double HeightRounding = 1e-14;
 // By how much the points of grids turn, at most, to either side of where they are symmetric; grids
@@ -108,8 +110,8 @@ bool VisitTriangle(const Vector& origin, const Vector& u, const Vector& v, int c
 
 //------------------------------------------------------------------------------
 bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
-  const OccluderWalls& walls, const std::vector<ShaftCuller::Occluder>& occluders,
-  std::uint64_t key, double open)
+  const OccluderWalls& walls, const std::vector<Occluder>& occluders, std::uint64_t key,
+  double open)
 {
   this->Open = open;
   Polygon::SetToClippedPair(scene, i, j, this->Outer, this->Inner);
@@ -135,12 +137,12 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
   this->ChooseOuter();
   this->SetFrame();
   this->AddTarget();
-  this->AddTriangles();
-  return this->Triangles.Count > 0;
+  this->AddShapes();
+  return this->Shapes.GetCount() > 0;
 }
 
 //------------------------------------------------------------------------------
-void PairVisibility::SelectOccluders(const std::vector<ShaftCuller::Occluder>& occluders)
+void PairVisibility::SelectOccluders(const std::vector<Occluder>& occluders)
 {
   this->Occluders.clear();
   if (occluders.empty())
@@ -148,27 +150,27 @@ void PairVisibility::SelectOccluders(const std::vector<ShaftCuller::Occluder>& o
     return;
   }
   this->Hull.Set(this->Outer, this->Inner, this->HullRounding);
-  for (const ShaftCuller::Occluder& occluder : occluders)
+  for (const Occluder& occluder : occluders)
   {
     if (!this->Hull.IsBeyond(this->Walls->GetNumberOfCorners(occluder.Wall),
           [&](int corner) { return this->Walls->GetCorner(occluder.Wall, corner); }))
     {
-      this->Occluders.push_back({ occluder.Wall, occluder.IsCut, 0.0 });
+      this->Occluders.push_back(occluder);
     }
   }
 }
 
 //------------------------------------------------------------------------------
-bool PairVisibility::IsHiddenByOne(const std::vector<ShaftCuller::Occluder>& occluders)
+bool PairVisibility::IsHiddenByOne(const std::vector<Occluder>& occluders)
 {
   const Polygon* const polygons[2] = { &this->Outer, &this->Inner };
   for (int end = 0; end < 2; ++end)
   {
     const auto first = polygons[end]->Corners.begin();
-    this->Ends[end].assign(first, first + polygons[end]->Count);
+    this->Ends[end].Set({ first, first + polygons[end]->Count });
   }
   return std::any_of(occluders.begin(), occluders.end(),
-    [this](const ShaftCuller::Occluder& occluder)
+    [this](const Occluder& occluder)
     { return this->Walls->HidesAll(occluder.Wall, this->Ends[0], this->Ends[1], false); });
 }
 
@@ -252,52 +254,34 @@ void PairVisibility::AddTarget()
 
 //------------------------------------------------------------------------------
 template <typename GetCorner>
-void PairVisibility::AddTriangles(int count, const GetCorner& getCorner)
+void PairVisibility::AddShape(int count, const GetCorner& getCorner)
 {
-  double corners[Polygon::MaximumCorners + 2][3];
+  this->Corners.clear();
   for (int corner = 0; corner < count; ++corner)
   {
     const Vector offset = getCorner(corner) - this->Origin;
-    corners[corner][0] = offset.dot(this->AxisU);
-    corners[corner][1] = offset.dot(this->AxisW);
-    corners[corner][2] = offset.dot(this->AxisH);
+    this->Corners.push_back(
+      { offset.dot(this->AxisU), offset.dot(this->AxisW), offset.dot(this->AxisH) });
   }
-  for (int corner = 1; corner + 1 < count; ++corner)
-  {
-    this->Triangles.Add(corners[0], corners[corner], corners[corner + 1]);
-  }
+  this->Shapes.Add(this->Corners);
 }
 
 //------------------------------------------------------------------------------
-void PairVisibility::AddTriangles()
+void PairVisibility::AddShapes()
 {
-  const Vector middle = this->Outer.GetMiddle();
-  const Vector axis = (this->Origin - middle).normalized();
-  for (Occluder& occluder : this->Occluders)
-  {
-    const Vector offset = this->Walls->GetCentroid(occluder.Wall) - middle;
-    const double length = std::max(offset.norm(), std::numeric_limits<double>::min());
-    const double radius = std::sqrt(this->Walls->GetAreas()[occluder.Wall] *
-      std::abs(offset.dot(this->Walls->GetNormal(occluder.Wall))) / length);
-    const double along = std::max(offset.dot(axis), 1e-3 * length);
-    occluder.Rank = (offset.cross(axis).norm() - radius) / along;
-  }
-  std::sort(this->Occluders.begin(), this->Occluders.end(),
-    [](const Occluder& a, const Occluder& b)
-    { return a.Rank < b.Rank || (a.Rank == b.Rank && a.Wall < b.Wall); });
-  this->Triangles.Clear();
+  this->Shapes.Clear();
   Polygon cut;
   for (const Occluder& occluder : this->Occluders)
   {
     if (!occluder.IsCut)
     {
-      this->AddTriangles(this->Walls->GetNumberOfCorners(occluder.Wall),
+      this->AddShape(this->Walls->GetNumberOfCorners(occluder.Wall),
         [&](int corner) { return this->Walls->GetCorner(occluder.Wall, corner); });
       continue;
     }
     if (this->ShapeOccluder(occluder, cut))
     {
-      this->AddTriangles(cut.Count, [&](int corner) { return cut.Corners[corner]; });
+      this->AddShape(cut.Count, [&](int corner) { return cut.Corners[corner]; });
     }
   }
 }
@@ -313,20 +297,23 @@ bool PairVisibility::ShapeOccluder(const Occluder& occluder, Polygon& shape) con
 }
 
 //------------------------------------------------------------------------------
-PairVisibility::RasterPoint PairVisibility::GetNextPoint(const Vector& place)
+bool PairVisibility::LookFrom(const Vector& place, ShadowRaster::View& view)
 {
   const PatchSampler sampler(this->Key);
   const int index = this->NumberOfPoints++;
   const Vector offset = place - this->Origin;
-  return { { offset.dot(this->AxisU), offset.dot(this->AxisW), offset.dot(this->AxisH) },
-    { sampler.Get(index, 0), sampler.Get(index, 1) } };
+  const double point[3] = { offset.dot(this->AxisU), offset.dot(this->AxisW),
+    offset.dot(this->AxisH) };
+  const double shift[2] = { sampler.Get(index, 0), sampler.Get(index, 1) };
+  return ShadowRaster::Look(this->Target, this->Shapes, point, shift, view);
 }
 
 //------------------------------------------------------------------------------
 Flux PairVisibility::See(const Vector& place)
 {
-  const RasterPoint point = this->GetNextPoint(place);
-  return ShadowRaster::See(this->Target, this->Triangles, point.Place, this->Normal, point.Shift);
+  ShadowRaster::View view;
+  this->LookFrom(place, view);
+  return ShadowRaster::Weigh(view, this->Normal, this->Weights);
 }
 
 //------------------------------------------------------------------------------
@@ -367,19 +354,44 @@ bool PairVisibility::VisitRim(const Visit& visit) const
 
 //------------------------------------------------------------------------------
 // Whether no point of the first grid and of the rim sees anything. Most pairs with something in
-// between are hidden: their points need not be weighed.
+// between are hidden, or seen at once: what points see is weighed only then.
 bool PairVisibility::IsHidden()
 {
-  const auto isHidden = [this](const Vector& place)
-  {
-    const RasterPoint point = this->GetNextPoint(place);
-    return ShadowRaster::IsHidden(this->Target, this->Triangles, point.Place, point.Shift);
-  };
-  const bool hidden =
-    this->VisitGrid(Cuts[0], [&](const Vector& place, double) { return isHidden(place); }) &&
-    this->VisitRim(isHidden);
-  this->NumberOfPoints = 0;
+  this->Views.resize(this->GetNumberOfGridPoints(Cuts[0]));
+  bool hidden = true;
+  this->VisitGrid(Cuts[0],
+    [&](const Vector& place, double)
+    {
+      const int index = this->NumberOfPoints;
+      hidden = !this->LookFrom(place, this->Views[index]) && hidden;
+      return true;
+    });
+  const int points = this->NumberOfPoints;
+  ShadowRaster::View view;
+  hidden =
+    hidden && this->VisitRim([&](const Vector& place) { return !this->LookFrom(place, view); });
+  this->NumberOfPoints = points;
   return hidden;
+}
+
+//------------------------------------------------------------------------------
+// Three for each triangle.
+int PairVisibility::GetNumberOfGridPoints(int cuts) const
+{
+  return 3 * (this->Outer.Count - 2) * cuts * cuts;
+}
+
+//------------------------------------------------------------------------------
+// Samples may share weights where the target is so far away that this is nothing beside the
+// tolerance.
+void PairVisibility::ChooseWeights(double tolerance)
+{
+  const double far = std::max(1.0, CoarseError / tolerance);
+  const double apart = (this->Outer.GetMiddle() - this->Origin).norm() - GetExtent(this->Outer);
+  const double extent = GetExtent(this->Inner);
+  this->Weights = apart > 0.0 && apart * apart > far * extent * extent
+    ? ShadowRaster::Weights::Coarse
+    : ShadowRaster::Weights::Fine;
 }
 
 //------------------------------------------------------------------------------
@@ -390,9 +402,7 @@ double PairVisibility::SeeFromGrid(int cuts)
   this->VisitGrid(cuts,
     [&](const Vector& place, double area)
     {
-      const Flux flux = this->See(place);
-      total.Visible += area * flux.Visible;
-      total.Open += area * flux.Open;
+      total.Add(area, this->See(place));
       return true;
     });
   return total.GetShare();
@@ -420,7 +430,16 @@ PairVisibility::Share PairVisibility::Look()
     return { 0.0, 0.0 };
   }
   Share share;
-  share.Value = this->SeeFromGrid(Cuts[0]);
+  this->ChooseWeights(FirstError);
+  Flux total;
+  std::size_t index = 0;
+  this->VisitGrid(Cuts[0],
+    [&](const Vector&, double area)
+    {
+      total.Add(area, ShadowRaster::Weigh(this->Views[index++], this->Normal, this->Weights));
+      return true;
+    });
+  share.Value = total.GetShare();
   if (this->AreClose && share.Value > 0.0)
   {
     return this->IntegrateExactly(1.0);
@@ -455,7 +474,7 @@ PairVisibility::Share PairVisibility::IntegrateExactly(double tolerance)
 //------------------------------------------------------------------------------
 // Grids are combined by their numbers of points. The error is that of the latest grid against all
 // before, which the new one has reduced.
-PairVisibility::Share PairVisibility::Integrate(double tolerance)
+PairVisibility::Share PairVisibility::Integrate(double tolerance, double looked)
 {
   if (this->WalledOff)
   {
@@ -465,6 +484,8 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
   {
     return this->IntegrateExactly(tolerance);
   }
+  this->ChooseWeights(tolerance);
+  this->NumberOfPoints = 0;
   Share share;
   double sum = 0.0;
   double weights = 0.0;
@@ -472,7 +493,9 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
   double rim = -1.0; // not known yet
   for (const int cuts : Cuts)
   {
-    const double latest = this->SeeFromGrid(cuts);
+    const bool isKnown = cuts == Cuts[0] && looked > 0.0;
+    this->NumberOfPoints += isKnown ? this->GetNumberOfGridPoints(cuts) : 0;
+    const double latest = isKnown ? looked : this->SeeFromGrid(cuts);
     const double weight = cuts * cuts;
     const double change = weights > 0.0 ? std::abs(latest - sum / weights) : 1.0;
     sum += weight * latest;
@@ -480,7 +503,7 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
     share.Value = sum / weights;
     // Two grids may agree by luck: never less than what they usually are off by.
     double usual = UsualPart * FirstError / weight +
-      RasterError / std::sqrt(3.0 * (this->Outer.Count - 2) * weights);
+      RasterError / std::sqrt(this->GetNumberOfGridPoints(1) * weights);
     if (share.Value <= 0.0)
     {
       rim = rim < 0.0 ? this->GetRimDifference(share.Value) : rim;
@@ -490,7 +513,7 @@ PairVisibility::Share PairVisibility::Integrate(double tolerance)
     usual = share.Value * cuts < rim ? std::max(usual, RimPart * rim / cuts) : usual;
     share.Error = std::max(std::max(0.75 * change, 0.25 * previous), usual);
     previous = weights > weight ? change : 0.0;
-    const double work = static_cast<double>(this->NumberOfPoints) * (this->Triangles.Count + 8);
+    const double work = static_cast<double>(this->NumberOfPoints) * (this->Shapes.GetCount() + 8);
     if (share.Error <= tolerance || (work > MaximumWork && weights > weight))
     {
       break;

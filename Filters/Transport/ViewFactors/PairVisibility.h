@@ -22,6 +22,7 @@
 #include "ViewFactors/PairIntegrals.h"
 #include "ViewFactors/ShadowRaster.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -65,40 +66,31 @@ public:
   /// see is not known to be visible: something is between the two.
   Share Look();
 
-  /// Integrate until the estimated error is below `tolerance`, or the work is used up.
-  Share Integrate(double tolerance);
+  /// Integrate until the estimated error is below `tolerance`, or the work is used up. `looked`:
+  /// what a first look at the same pair has found, where there was one; above 0 it is not done
+  /// again.
+  Share Integrate(double tolerance, double looked = 0.0);
 
 private:
-  /// What is between, and where it comes in the order (first what hides much, so that a hidden
-  /// polygon is soon known to be hidden).
-  struct Occluder
-  {
-    vtkIdType Wall;
-    bool IsCut;
-    double Rank;
-  };
+  using Occluder = ShaftCuller::Occluder;
 
-  void SelectOccluders(const std::vector<ShaftCuller::Occluder>& occluders);
-  bool IsHiddenByOne(const std::vector<ShaftCuller::Occluder>& occluders);
+  void SelectOccluders(const std::vector<Occluder>& occluders);
+  bool IsHiddenByOne(const std::vector<Occluder>& occluders);
   void ChooseOuter();
   void SetFrame();
   void AddTarget();
-  void AddTriangles();
+  void AddShapes();
   template <typename GetCorner>
-  void AddTriangles(int count, const GetCorner& getCorner);
-  /// A place in the inner polygon's frame, and how the raster is shifted for it.
-  struct RasterPoint
-  {
-    double Place[3];
-    double Shift[2];
-  };
-  RasterPoint GetNextPoint(const Vector& place);
+  void AddShape(int count, const GetCorner& getCorner);
+  bool LookFrom(const Vector& place, ShadowRaster::View& view);
   ShadowRaster::Flux See(const Vector& place);
   template <typename Visit>
   bool VisitGrid(int cuts, const Visit& visit) const;
   template <typename Visit>
   bool VisitRim(const Visit& visit) const;
   bool IsHidden();
+  int GetNumberOfGridPoints(int cuts) const;
+  void ChooseWeights(double tolerance);
   double SeeFromGrid(int cuts);
   bool ShapeOccluder(const Occluder& occluder, Polygon& shape) const;
   Share IntegrateExactly(double tolerance);
@@ -112,9 +104,11 @@ private:
   bool WalledOff = false;
   const OccluderWalls* Walls = nullptr;
   int NumberOfPoints = 0;
+  ShadowRaster::Weights Weights = ShadowRaster::Weights::Fine;
+  std::vector<ShadowRaster::View> Views; ///< from the points of the first grid
 
   std::vector<Occluder> Occluders;
-  std::vector<Vector> Ends[2]; ///< corners of the two polygons
+  OccluderWalls::End Ends[2]; ///< the two polygons
   PairHull Hull;
   double HullRounding = 0.0;
 
@@ -122,7 +116,8 @@ private:
   Vector Origin, AxisU, AxisW, AxisH;
   double Normal[3] = {};
   ShadowRaster::Target Target;
-  ShadowRaster::Triangles Triangles;
+  ShadowRaster::Occluders Shapes;
+  std::vector<std::array<double, 3>> Corners; ///< of one of them
 
   ExactVisibility Exact;
   bool IsExactReady = false;

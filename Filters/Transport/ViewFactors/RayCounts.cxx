@@ -11,6 +11,7 @@
 #include "Support/Ranks.h"
 #include "ViewFactors/BrightRows.h"
 #include "ViewFactors/RayHits.h"
+#include "ViewFactors/RayTally.h"
 #include "vtkSMPThreadLocal.h"
 
 #include <algorithm>
@@ -70,48 +71,37 @@ struct RayCounts::Counter
 {
   const RayHits& Hits;
   Links& AllLinks;
+  std::vector<double>& SampledShares;
   vtkIdType NumberOfPatches;
   std::vector<Rows> Turns;
-  vtkSMPThreadLocal<std::vector<int>> Counts; ///< of each patch, 0 between rows
+  vtkSMPThreadLocal<RayTally> Tallies;
 
   void operator()(vtkIdType begin, vtkIdType end)
   {
-    std::vector<int>& counts = this->Counts.Local();
-    counts.resize(this->NumberOfPatches, 0);
-    std::vector<int> met;
+    RayTally& tally = this->Tallies.Local();
+    tally.SetNumberOfPatches(this->NumberOfPatches);
     Rows& rows = this->Turns[(begin - this->Hits.GetFirst()) / RowsPerTurn];
     rows.Offsets.push_back(0);
+    const double rays = this->AllLinks.RaysPerPatch;
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
       Pulse::Beat(patch);
-      met.clear();
-      double sky = 0.0, back = 0.0;
-      this->Hits.Visit(patch, 0, this->AllLinks.RaysPerPatch,
-        [&](RayHits::Hit hit)
-        {
-          if (hit >= 0)
-          {
-            if (counts[hit]++ == 0)
-            {
-              met.push_back(hit);
-            }
-          }
-          else
-          {
-            ++(hit == PatchRays::Sky ? sky : back);
-          }
-        });
-      std::sort(met.begin(), met.end());
-      for (const int other : met)
-      {
-        rows.Columns.push_back(other);
-        rows.Counts.push_back(std::exchange(counts[other], 0));
-      }
-      rows.Offsets.push_back(rows.GetSize());
-      const double rays = this->AllLinks.RaysPerPatch;
-      this->AllLinks.SkyFractions[patch] = sky / rays;
-      this->AllLinks.BackFaceFractions[patch] = back / rays;
+      this->Hits.Visit(patch, 0, this->AllLinks.RaysPerPatch, tally);
+      const double sky = tally.Sky / rays;
+      const double back = static_cast<double>(tally.Behind.size()) / rays;
+      this->AllLinks.SkyFractions[patch] = sky;
+      this->AllLinks.BackFaceFractions[patch] = back;
       this->AllLinks.OpeningErrors[patch] = sky + back > 0.0 ? GetDeviation(sky + back, rays) : 0.0;
+      rows.Behind.insert(rows.Behind.end(), tally.Behind.begin(), tally.Behind.end());
+      std::sort(tally.Met.begin(), tally.Met.end());
+      tally.Finish(
+        [&](int other, int met)
+        {
+          this->SampledShares[patch] += this->AllLinks.IsExact(other) ? 0.0 : met / rays;
+          rows.Columns.push_back(other);
+          rows.Counts.push_back(met);
+        });
+      rows.Offsets.push_back(rows.GetSize());
     }
   }
 };
@@ -121,14 +111,15 @@ void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
 {
   const vtkIdType patches = this->Scene.GetNumberOfPatches();
   this->RaysPerPatch = links.RaysPerPatch;
-  for (auto* values : { &links.SkyFractions, &links.BackFaceFractions, &links.OpeningErrors,
-         &links.FrontHits, &links.BackHits })
+  const auto results = { &this->SampledShares, &links.SkyFractions, &links.BackFaceFractions,
+    &links.OpeningErrors, &links.FrontHits, &links.BackHits };
+  for (auto* values : results)
   {
     values->assign(patches, 0.0);
   }
   const vtkIdType mine = hits.GetLast() - hits.GetFirst();
-  Counter counter{ hits, links, patches, std::vector<Rows>((mine + RowsPerTurn - 1) / RowsPerTurn),
-    {} };
+  Counter counter{ hits, links, this->SampledShares, patches,
+    std::vector<Rows>((mine + RowsPerTurn - 1) / RowsPerTurn), {} };
   Threads::For(hits.GetFirst(), hits.GetLast(), RowsPerTurn, counter);
   this->Met = Rows();
   this->Met.Offsets.assign(hits.GetFirst() + 1, 0);
@@ -139,6 +130,10 @@ void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
       std::back_inserter(this->Met.Offsets), [=](std::int64_t end) { return before + end; });
     this->Met.Columns.insert(this->Met.Columns.end(), turn.Columns.begin(), turn.Columns.end());
     this->Met.Counts.insert(this->Met.Counts.end(), turn.Counts.begin(), turn.Counts.end());
+    for (const int patch : turn.Behind)
+    {
+      ++links.BackHits[patch];
+    }
     turn = Rows();
   }
   this->Met.Offsets.resize(patches + 1, this->Met.GetSize());
@@ -146,19 +141,7 @@ void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
   {
     links.FrontHits[this->Met.Columns[k]] += this->Met.Counts[k];
   }
-  for (vtkIdType patch = hits.GetFirst(); patch < hits.GetLast(); ++patch)
-  {
-    hits.Visit(patch, 0, this->RaysPerPatch,
-      [&](RayHits::Hit hit)
-      {
-        if (hit < PatchRays::Sky)
-        {
-          ++links.BackHits[PatchRays::FromBehind(hit)];
-        }
-      });
-  }
-  for (auto* values : { &links.SkyFractions, &links.BackFaceFractions, &links.OpeningErrors,
-         &links.FrontHits, &links.BackHits })
+  for (auto* values : results)
   {
     ranks.Sum(*values);
   }

@@ -34,6 +34,9 @@ public:
   /// goes to `links`. Collective.
   void Count(const RayHits& hits, const Ranks& ranks, Links& links);
 
+  /// Of each patch: the part of its rays that meets others of which nothing is known exactly.
+  const std::vector<double>& GetSampledShares() const { return this->SampledShares; }
+
   /// What this rank's rays, and what it has of exact rows, add to the rows of a hierarchy over the
   /// scene's tree, whose patches have these weights; without weights exact links are 0, and weights
   /// are areas. Fails where there is no memory. Collective.
@@ -47,6 +50,7 @@ private:
     std::vector<std::int64_t> Offsets;
     std::vector<int> Columns; ///< ascending in each row
     std::vector<int> Counts;
+    std::vector<int> Behind; ///< patches whose backs rays of any row have met
 
     std::int64_t GetSize() const { return static_cast<std::int64_t>(this->Columns.size()); }
     Rows Transpose() const;
@@ -57,6 +61,7 @@ private:
   const PatchScene& Scene;
   int RaysPerPatch = 0;
   Rows Met;
+  std::vector<double> SampledShares;
 };
 } // namespace LightTransport
 

@@ -13,15 +13,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace LightTransport
 {
 namespace
 {
-constexpr int Groups = RayErrors::Groups;
 // Steps towards the weights that close the links of a group, each of which leaves at most half of
 // what is not closed.
-constexpr int ClosingSteps = 6;
+constexpr int ClosingSteps = 4;
 // The variance of N points of the sequence falls with this power of N, beside 1 of independent
 // ones.
 constexpr double VariancePower = 1.24;
@@ -35,8 +35,9 @@ constexpr double FacingAlike = 0.8;
 struct RayErrors::Sums
 {
   std::vector<double> Rows;     ///< sum of the exchange with others
-  std::vector<double> Sky;      ///< what leaves
-  std::vector<double> Open;     ///< and what meets back faces as well
+  std::vector<double> Sampled;  ///< the part of a patch's own rays that are part of that
+  std::vector<double> Sky;      ///< that leave
+  std::vector<double> Open;     ///< and that leave or meet back faces
   std::vector<double> Received; ///< of the radiosity
 };
 
@@ -48,86 +49,178 @@ RayErrors::RayErrors(const PatchScene& scene, const RayHits& hits, const Links& 
 }
 
 //------------------------------------------------------------------------------
+// What the rays of one group give, patch by patch: sums of their own, that are near each other.
+class RayErrors::GroupSums
+{
+public:
+  GroupSums(const RayErrors& errors, const std::vector<double>& radiosity, int numberOfBands)
+    : Owner(errors), Radiosity(radiosity), Bands(numberOfBands),
+      RaysPerGroup(errors.AllLinks.RaysPerPatch / Groups), Partners(errors.Scene.GetAreas().size())
+  {
+    const std::vector<double>& weights = errors.AllLinks.Hierarchy->GetWeights();
+    for (std::size_t patch = 0; patch < this->Partners.size(); ++patch)
+    {
+      const bool isExact = errors.AllLinks.IsExact(static_cast<vtkIdType>(patch));
+      this->Partners[patch] = { isExact ? 0.0 : weights[patch], errors.Scene.GetAreas()[patch] };
+    }
+  }
+
+  void Add(int group, Sums& sums)
+  {
+    this->Rows.assign(this->Partners.size(), 0.0);
+    this->Received.assign(this->Radiosity.size(), 0.0);
+    const RayHits& hits = this->Owner.Hits;
+    for (vtkIdType patch = hits.GetFirst(); patch < hits.GetLast(); ++patch)
+    {
+      Pulse::Beat(patch);
+      if (this->Partners[patch].Weight > 0.0)
+      {
+        this->AddPatch(patch, group, sums);
+      }
+    }
+    for (std::size_t patch = 0; patch < this->Partners.size(); ++patch)
+    {
+      const std::size_t here = patch * Groups + group;
+      sums.Rows[here] = this->Rows[patch];
+      for (int band = 0; band < this->Bands; ++band)
+      {
+        sums.Received[here * this->Bands + band] = this->Received[patch * this->Bands + band];
+      }
+    }
+  }
+
+private:
+  /// What a ray needs of the patch that it meets; no weight: the link is exact.
+  struct Partner
+  {
+    double Weight;
+    double Area;
+  };
+
+  void AddPatch(vtkIdType patch, int group, Sums& sums)
+  {
+    const Partner here = this->Partners[patch];
+    const double scale = here.Weight / this->RaysPerGroup;
+    int sampled = 0, sky = 0, open = 0;
+    this->Owner.Hits.Visit(patch, group * this->RaysPerGroup, (group + 1) * this->RaysPerGroup,
+      [&](RayHits::Hit hit)
+      {
+        if (hit < 0)
+        {
+          ++open;
+          sky += hit == PatchRays::Sky ? 1 : 0;
+          return;
+        }
+        const Partner there = this->Partners[hit];
+        const double exchange = scale * there.Weight / (here.Area + there.Area);
+        sampled += exchange > 0.0 ? 1 : 0;
+        this->Rows[patch] += exchange;
+        this->Rows[hit] += exchange;
+        for (int band = 0; band < this->Bands; ++band)
+        {
+          const std::size_t mine = patch * this->Bands + band;
+          const std::size_t other = static_cast<std::size_t>(hit) * this->Bands + band;
+          this->Received[mine] += exchange * this->Radiosity[other];
+          this->Received[other] += exchange * this->Radiosity[mine];
+        }
+      });
+    const std::size_t place = patch * Groups + group;
+    sums.Sampled[place] = static_cast<double>(sampled) / this->RaysPerGroup;
+    sums.Sky[place] = static_cast<double>(sky) / this->RaysPerGroup;
+    sums.Open[place] = static_cast<double>(open) / this->RaysPerGroup;
+  }
+
+  const RayErrors& Owner;
+  const std::vector<double>& Radiosity;
+  int Bands;
+  int RaysPerGroup;
+  std::vector<Partner> Partners;
+  std::vector<double> Rows;
+  std::vector<double> Received;
+};
+
+//------------------------------------------------------------------------------
 // A group to a thread: none of them writes what another does.
 void RayErrors::SumHits(const std::vector<double>& radiosity, int numberOfBands, Sums& sums) const
 {
-  const std::vector<double>& areas = this->Scene.GetAreas();
-  const std::vector<double>& weights = this->AllLinks.Hierarchy->GetWeights();
-  const std::size_t patches = areas.size();
-  const int rays = this->AllLinks.RaysPerPatch;
-  for (auto* values : { &sums.Rows, &sums.Sky, &sums.Open })
+  const std::size_t patches = this->Scene.GetAreas().size();
+  for (auto* values : { &sums.Rows, &sums.Sampled, &sums.Sky, &sums.Open })
   {
     values->assign(patches * Groups, 0.0);
   }
   sums.Received.assign(patches * Groups * numberOfBands, 0.0);
-  const auto count = [&](vtkIdType begin, vtkIdType end)
+  const auto add = [&](vtkIdType begin, vtkIdType end)
   {
+    GroupSums sum(*this, radiosity, numberOfBands);
     for (vtkIdType group = begin; group < end; ++group)
     {
-      const int first = static_cast<int>(group) * (rays / Groups);
-      const double share = static_cast<double>(Groups) / rays;
-      for (vtkIdType patch = this->Hits.GetFirst(); patch < this->Hits.GetLast(); ++patch)
-      {
-        Pulse::Beat(patch);
-        if (this->AllLinks.IsExact(patch))
-        {
-          continue;
-        }
-        const std::size_t here = patch * Groups + group;
-        this->Hits.Visit(patch, first, first + rays / Groups,
-          [&](RayHits::Hit hit)
-          {
-            if (hit < 0)
-            {
-              const double open = weights[patch] * share;
-              sums.Open[here] += open;
-              sums.Sky[here] += hit == PatchRays::Sky ? open : 0.0;
-              return;
-            }
-            if (this->AllLinks.IsExact(hit))
-            {
-              return;
-            }
-            const double exchange =
-              share * weights[patch] * weights[hit] / (areas[patch] + areas[hit]);
-            const std::size_t there = static_cast<std::size_t>(hit) * Groups + group;
-            sums.Rows[here] += exchange;
-            sums.Rows[there] += exchange;
-            for (int band = 0; band < numberOfBands; ++band)
-            {
-              sums.Received[here * numberOfBands + band] +=
-                exchange * radiosity[static_cast<std::size_t>(hit) * numberOfBands + band];
-              sums.Received[there * numberOfBands + band] +=
-                exchange * radiosity[patch * numberOfBands + band];
-            }
-          });
-      }
+      sum.Add(static_cast<int>(group), sums);
     }
   };
-  Threads::For(0, Groups, 1, count);
-  for (auto* values : { &sums.Rows, &sums.Sky, &sums.Open, &sums.Received })
+  Threads::For(0, Groups, 1, add);
+  for (auto* values : { &sums.Rows, &sums.Sampled, &sums.Sky, &sums.Open, &sums.Received })
   {
     this->AllRanks.Sum(*values);
   }
 }
 
 //------------------------------------------------------------------------------
+// What sampled links of a row sum to.
+double RayErrors::GetWhole(std::size_t patch, const Sums& sums)
+{
+  const auto first = sums.Rows.begin() + static_cast<std::ptrdiff_t>(patch * Groups);
+  return std::accumulate(first, first + Groups, 0.0) / Groups;
+}
+
+//------------------------------------------------------------------------------
+// What exact links leave of a row.
+double RayErrors::GetRest(std::size_t patch, const Sums& sums) const
+{
+  return GetWhole(patch, sums) / this->Scene.GetAreas()[patch] +
+    this->AllLinks.SkyFractions[patch] + this->AllLinks.BackFaceFractions[patch];
+}
+
+//------------------------------------------------------------------------------
+// Of each band, over the scene.
+std::vector<double> RayErrors::FindMeans(const std::vector<double>& radiosity,
+  int numberOfBands) const
+{
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::vector<double> means(numberOfBands, 0.0);
+  for (std::size_t k = 0; k < radiosity.size(); ++k)
+  {
+    means[k % numberOfBands] += areas[k / numberOfBands] / whole * radiosity[k];
+  }
+  return means;
+}
+
+//------------------------------------------------------------------------------
+// What is the same everywhere closed rows carry without error, but for what they take for open.
 Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
   const std::vector<double>& background, std::vector<double>& differences) const
 {
   const std::vector<double>& areas = this->Scene.GetAreas();
   const std::size_t patches = areas.size();
+  const std::vector<double> means = this->FindMeans(radiosity, numberOfBands);
+  std::vector<double> uneven = radiosity;
+  for (std::size_t k = 0; k < uneven.size(); ++k)
+  {
+    uneven[k] -= means[k % numberOfBands];
+  }
   Sums sums;
-  this->SumHits(radiosity, numberOfBands, sums);
-  std::vector<double> changes, received;
-  if (Outcome closed = this->Close(radiosity, numberOfBands, sums, changes, received); !closed)
+  this->SumHits(uneven, numberOfBands, sums);
+  std::vector<double> changes, fromOthers;
+  if (Outcome closed = this->Close(uneven, numberOfBands, sums, changes, fromOthers); !closed)
   {
     return closed;
   }
   differences.assign(sums.Received.size(), 0.0);
   for (std::size_t patch = 0; patch < patches; ++patch)
   {
-    const double sky = this->AllLinks.SkyFractions[patch] * areas[patch];
+    const double sky = this->AllLinks.SkyFractions[patch];
+    const double open = sky + this->AllLinks.BackFaceFractions[patch];
+    const double rest = this->GetRest(patch, sums);
     for (int band = 0; band < numberOfBands; ++band)
     {
       const auto at = [&](int group) { return (patch * Groups + group) * numberOfBands + band; };
@@ -139,13 +232,13 @@ Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int num
       for (int group = 0; group < Groups && !this->AllLinks.IsExact(patch); ++group)
       {
         const std::size_t here = patch * Groups + group;
-        double difference =
-          sums.Received[at(group)] - mean + changes[here] * mean + received[at(group)];
-        if (!background.empty())
-        {
-          difference += (sums.Sky[here] * (1.0 + changes[here]) - sky) * background[band];
-        }
-        differences[at(group)] = difference / areas[patch];
+        const double received =
+          sums.Received[at(group)] - mean + changes[here] * mean + fromOthers[at(group)];
+        const double own = sums.Sampled[here] + sums.Open[here];
+        const double moreSky = own > 0.0 ? rest * sums.Sky[here] / own - sky : 0.0;
+        const double moreOpen = own > 0.0 ? rest * sums.Open[here] / own - open : 0.0;
+        differences[at(group)] = received / areas[patch] - moreOpen * means[band] +
+          (background.empty() ? 0.0 : moreSky * background[band]);
       }
     }
   }
@@ -158,21 +251,20 @@ Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int num
 Outcome RayErrors::Close(const std::vector<double>& radiosity, int numberOfBands, const Sums& sums,
   std::vector<double>& changes, std::vector<double>& received) const
 {
-  const std::size_t patches = this->Scene.GetAreas().size();
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const std::size_t patches = areas.size();
   changes.assign(patches * Groups, 0.0);
   std::vector<double> wholes(patches, 0.0);
   std::vector<double> missing(patches * Groups, 0.0);
   for (std::size_t patch = 0; patch < patches; ++patch)
   {
-    for (int group = 0; group < Groups; ++group)
+    wholes[patch] = GetWhole(patch, sums);
+    const double rest = areas[patch] * this->GetRest(patch, sums);
+    for (std::size_t here = patch * Groups; here < (patch + 1) * Groups; ++here)
     {
-      const std::size_t here = patch * Groups + group;
-      missing[here] = -(sums.Rows[here] + sums.Open[here]);
-      wholes[patch] -= missing[here] / Groups;
-    }
-    for (int group = 0; group < Groups; ++group)
-    {
-      missing[patch * Groups + group] += wholes[patch];
+      const double own = sums.Sampled[here] + sums.Open[here];
+      const double target = own > 0.0 ? rest * sums.Sampled[here] / own : wholes[patch];
+      missing[here] = target - sums.Rows[here];
     }
   }
   auto product = LinkOperators::MakeOnCPU(this->AllLinks.Hierarchy, Groups, this->AllRanks);

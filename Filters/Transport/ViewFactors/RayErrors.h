@@ -14,6 +14,7 @@
 
 #include "Shared/Outcome.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace LightTransport
@@ -46,7 +47,11 @@ public:
 
 private:
   struct Sums;
+  class GroupSums;
 
+  std::vector<double> FindMeans(const std::vector<double>& radiosity, int numberOfBands) const;
+  static double GetWhole(std::size_t patch, const Sums& sums);
+  double GetRest(std::size_t patch, const Sums& sums) const;
   void SumHits(const std::vector<double>& radiosity, int numberOfBands, Sums& sums) const;
   Outcome Close(const std::vector<double>& radiosity, int numberOfBands, const Sums& sums,
     std::vector<double>& changes, std::vector<double>& received) const;

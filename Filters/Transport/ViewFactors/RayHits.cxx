@@ -38,17 +38,42 @@ double RayHits::GetEstimatedBytes(vtkIdType numberOfPatches, int raysPerPatch, c
 }
 
 //------------------------------------------------------------------------------
+bool RayHits::AreOf(const PatchScene& scene, const Ranks& ranks) const
+{
+  const vtkIdType patches = scene.GetNumberOfPatches();
+  return this->Fingerprint == scene.GetFingerprint() &&
+    this->First == GetShare(patches, ranks.GetMine(), ranks) &&
+    this->Last == GetShare(patches, ranks.GetMine() + 1, ranks);
+}
+
+//------------------------------------------------------------------------------
+void RayHits::Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const Ranks& ranks)
+{
+  *this = RayHits();
+  this->Fingerprint = fingerprint;
+  this->First = GetShare(numberOfPatches, ranks.GetMine(), ranks);
+  this->Last = GetShare(numberOfPatches, ranks.GetMine() + 1, ranks);
+}
+
+//------------------------------------------------------------------------------
+std::vector<RayHits::Hit>& RayHits::Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches,
+  int raysPerPatch, const Ranks& ranks)
+{
+  this->Begin(fingerprint, numberOfPatches, ranks);
+  this->Segments.push_back({ 0, raysPerPatch, {} });
+  std::vector<Hit>& hits = this->Segments.back().Hits;
+  hits.resize((this->Last - this->First) * raysPerPatch);
+  this->Rays = raysPerPatch;
+  return hits;
+}
+
+//------------------------------------------------------------------------------
 Outcome RayHits::Allocate(int raysPerPatch, const PatchScene& scene, const Ranks& ranks)
 {
   const vtkIdType patches = scene.GetNumberOfPatches();
-  if (this->Fingerprint != scene.GetFingerprint() ||
-    this->First != GetShare(patches, ranks.GetMine(), ranks) ||
-    this->Last != GetShare(patches, ranks.GetMine() + 1, ranks))
+  if (!this->AreOf(scene, ranks))
   {
-    *this = RayHits();
-    this->Fingerprint = scene.GetFingerprint();
-    this->First = GetShare(patches, ranks.GetMine(), ranks);
-    this->Last = GetShare(patches, ranks.GetMine() + 1, ranks);
+    this->Begin(scene.GetFingerprint(), patches, ranks);
   }
   const int more = raysPerPatch - this->Rays;
   const double bytes = more > 0 ? GetEstimatedBytes(patches, raysPerPatch, ranks) : 0.0;

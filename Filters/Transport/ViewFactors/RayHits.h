@@ -40,6 +40,20 @@ public:
   Outcome CastTo(int raysPerPatch, const PatchScene& scene, const Ranks& ranks,
     const Monitor& monitor);
 
+  /// Whether CastTo would have nothing to do.
+  bool Have(int raysPerPatch, const PatchScene& scene, const Ranks& ranks) const
+  {
+    return this->AreOf(scene, ranks) && this->Rays >= raysPerPatch;
+  }
+
+  /// Begin anew with hits from elsewhere, `raysPerPatch` of each patch of a scene: those of this
+  /// rank, one patch after the other, for the caller to fill.
+  std::vector<Hit>& Reset(std::uint64_t fingerprint, vtkIdType numberOfPatches, int raysPerPatch,
+    const Ranks& ranks);
+
+  /// Of the scene.
+  std::uint64_t GetFingerprint() const { return this->Fingerprint; }
+
   ///@{ The patches of this rank.
   vtkIdType GetFirst() const { return this->First; }
   vtkIdType GetLast() const { return this->Last; }
@@ -69,9 +83,11 @@ private:
     std::vector<Hit> Hits;
   };
 
+  bool AreOf(const PatchScene& scene, const Ranks& ranks) const;
+  void Begin(std::uint64_t fingerprint, vtkIdType numberOfPatches, const Ranks& ranks);
   Outcome Allocate(int raysPerPatch, const PatchScene& scene, const Ranks& ranks);
 
-  std::uint64_t Fingerprint = 0; ///< of the scene
+  std::uint64_t Fingerprint = 0;
   int Rays = 0;
   vtkIdType First = 0;
   vtkIdType Last = 0;

@@ -22,8 +22,11 @@ namespace
 // The stages as fractions of the progress.
 constexpr double RaysDone = 0.6; // where there are exact rows
 constexpr double RowsDone = 0.95;
-// What rounding leaves of closed rows.
-constexpr double Rounding = 1e-12;
+// Openings move by this power of what links move by.
+constexpr double OpenPower = 0.1;
+// What is left of gaps before exact links are there, and of closed rows.
+constexpr double RoughGap = 1e-5;
+constexpr double Rounding = 1e-11;
 // What is left of a row beside what is exact is at least this much.
 constexpr double SmallestRest = 1e-6;
 // Rays of which a tolerance is the error of the irradiance: (share / tolerance)^power.
@@ -31,49 +34,52 @@ constexpr double ErrorOfOneRay = 0.5;
 constexpr double RayPower = 1.6;
 
 //------------------------------------------------------------------------------
-// What is left of each row beside its exact part; nothing of rows that are exact.
-std::vector<double> FindTargets(const BrightRows& exact)
+// What exact links leave of a row its own rays divide between openings and what they sample there;
+// nothing that others have met is nothing. Returns what both are to sum to.
+std::vector<double> DivideRests(const BrightRows& exact, const RayCounts& counts, Links& links)
 {
-  std::vector<double> targets = exact.GetSums();
+  const double leastShare = 0.5 / links.RaysPerPatch;
+  std::vector<double> targets = counts.GetSampledShares();
   for (std::size_t row = 0; row < targets.size(); ++row)
   {
-    targets[row] =
-      exact.Has(static_cast<vtkIdType>(row)) ? 0.0 : std::max(1.0 - targets[row], SmallestRest);
+    const bool isExact = exact.Has(static_cast<vtkIdType>(row));
+    const double rest =
+      std::max(1.0 - (exact.IsEmpty() ? 0.0 : exact.GetSums()[row]), isExact ? 0.0 : SmallestRest);
+    const double sampled =
+      !isExact && links.RowSums[row] > 0.0 ? std::max(targets[row], leastShare) : 0.0;
+    double& sky = links.SkyFractions[row];
+    double& back = links.BackFaceFractions[row];
+    const double share = sampled + sky + back;
+    const double scale = share > 0.0 ? rest / share : 0.0;
+    sky *= scale;
+    back *= scale;
+    targets[row] = isExact ? 0.0 : share * scale;
   }
   return targets;
 }
 
 //------------------------------------------------------------------------------
-// What exact rows miss is what is open in them, if rays have met any opening.
-void SetOpenings(const BrightRows& exact, Links& links)
-{
-  for (std::size_t row = 0; row < links.SkyFractions.size(); ++row)
-  {
-    double& sky = links.SkyFractions[row];
-    double& back = links.BackFaceFractions[row];
-    const double met = sky + back;
-    if (exact.Has(static_cast<vtkIdType>(row)) && met > 0.0)
-    {
-      const double scale = std::max(0.0, 1.0 - exact.GetSums()[row]) / met;
-      sky *= scale;
-      back *= scale;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// What cannot be closed is light that nobody knows the way of: it leaves.
+// What cannot be closed is light that nobody knows the way of: it leaves. Openings give what rows
+// have too much.
 void SendRestToSky(Links& links)
 {
   double rest = 0.0;
   for (std::size_t row = 0; row < links.RowSums.size(); ++row)
   {
-    const double left =
-      1.0 - links.RowSums[row] - links.SkyFractions[row] - links.BackFaceFractions[row];
+    double& sky = links.SkyFractions[row];
+    double& back = links.BackFaceFractions[row];
+    const double open = sky + back;
+    const double left = 1.0 - links.RowSums[row] - open;
     if (left > Rounding)
     {
-      links.SkyFractions[row] += left;
+      sky += left;
       rest = std::max(rest, left);
+    }
+    else if (left < -Rounding && open > 0.0)
+    {
+      const double scale = std::max(0.0, 1.0 + left / open);
+      sky *= scale;
+      back *= scale;
     }
   }
   links.Summaries.emplace_back("ClosureRest", rest);
@@ -114,15 +120,21 @@ LinkKey SampledViewFactors::GetKey() const
 }
 
 //------------------------------------------------------------------------------
-// Exact links are no part of what is scaled: first the others are, to what is left of each row,
-// then all together by what rounding and the errors of exact rows leave.
+// Openings are scaled little: what the rays of each patch say is better known than what both
+// directions give others. Nor are exact links part of what is scaled: first the others are, to what
+// is left of each row, then all together by what rounding and the errors of exact rows leave.
 Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, Links& links) const
 {
   const BrightRows& exact = this->Samples->Exact;
+  ViewFactorClosure::Scaling scaling;
+  scaling.OpenPower = OpenPower;
+  scaling.Targets = DivideRests(exact, counts, links);
   if (!exact.IsEmpty())
   {
+    ViewFactorClosure::Scaling rough = scaling;
+    rough.Goal = RoughGap;
     ViewFactorClosure::Report report;
-    Outcome scaled = ViewFactorClosure::Scale(links, FindTargets(exact), ranks, report);
+    Outcome scaled = ViewFactorClosure::Scale(links, rough, ranks, report);
     const std::vector<double> weights = links.Hierarchy->GetWeights();
     scaled = scaled ? counts.Store(exact, weights, ranks, links.Hierarchy) : scaled;
     scaled = scaled ? links.SumRows(ranks) : scaled;
@@ -130,9 +142,9 @@ Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, L
     {
       return scaled;
     }
-    SetOpenings(exact, links);
+    scaling.Targets.clear();
   }
-  Outcome closed = ViewFactorClosure::ScaleHierarchy(links, ranks);
+  Outcome closed = ViewFactorClosure::ScaleHierarchy(links, scaling, ranks);
   if (closed)
   {
     SendRestToSky(links);
@@ -141,57 +153,71 @@ Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, L
 }
 
 //------------------------------------------------------------------------------
-Outcome SampledViewFactors::Build(const PatchScene& scene, const Ranks& ranks,
-  const Monitor& monitor, Links& links) const
+// What rays meet, and exact rows, as far as they are not there already.
+Outcome SampledViewFactors::Gather(const PatchScene& scene, const Ranks& ranks,
+  const Monitor& monitor) const
 {
-  const double begin = vtkTimerLog::GetUniversalTime();
-  const bool hasBright =
-    std::find(this->Plan.Bright.begin(), this->Plan.Bright.end(), true) != this->Plan.Bright.end();
+  const bool hasBright = !this->Plan.Bright.empty();
   Outcome outcome = this->Samples->Hits.CastTo(this->Plan.RaysPerPatch, scene, ranks,
     monitor.GetStage(0.0, hasBright ? RaysDone : RowsDone));
-  BrightRows& exact = this->Samples->Exact;
-  if (outcome)
-  {
-    outcome = exact.Fill(scene, hasBright ? this->Plan.Bright : std::vector<bool>(),
-      this->Plan.Tolerance, ranks, monitor.GetStage(RaysDone, RowsDone));
-  }
-  if (!outcome)
-  {
-    return outcome;
-  }
+  return outcome ? this->Samples->Exact.Fill(scene, this->Plan.Bright, this->Plan.Tolerance, ranks,
+                     monitor.GetStage(RaysDone, RowsDone))
+                 : outcome;
+}
+
+//------------------------------------------------------------------------------
+// As they are before any closure, with exact links left out.
+Outcome SampledViewFactors::Count(RayCounts& counts, const Ranks& ranks, Links& links) const
+{
+  const BrightRows& exact = this->Samples->Exact;
   links.RaysPerPatch = this->Plan.RaysPerPatch;
-  links.ExactPatches = hasBright ? this->Plan.Bright : std::vector<bool>();
-  RayCounts counts(scene);
+  links.ExactPatches = this->Plan.Bright;
   counts.Count(this->Samples->Hits, ranks, links);
   links.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
-  outcome = counts.Store(exact, {}, ranks, links.Hierarchy);
+  Outcome outcome = counts.Store(exact, {}, ranks, links.Hierarchy);
   outcome = outcome ? links.SumRows(ranks) : outcome;
-  if (!outcome)
-  {
-    return outcome;
-  }
   links.RawRowSums = links.RowSums;
-  if (hasBright)
+  if (outcome && !exact.IsEmpty())
   {
     std::transform(links.RawRowSums.begin(), links.RawRowSums.end(), exact.GetSums().begin(),
       links.RawRowSums.begin(), std::plus<double>());
   }
   // What rays that meet nothing else tell of an opening is all that rows are not sure of.
   links.RowErrors = links.OpeningErrors;
-  outcome = this->Close(counts, ranks, links);
+  return outcome;
+}
+
+//------------------------------------------------------------------------------
+void SampledViewFactors::Summarize(const Ranks& ranks, Links& links) const
+{
   std::vector<double> sizes{ static_cast<double>(links.Hierarchy->GetNumberOfLinks()),
     links.Hierarchy->GetNumberOfBytes() };
   ranks.Sum(sizes);
   const double rays = this->Plan.RaysPerPatch;
+  const vtkIdType patches = links.Hierarchy->GetNumberOfPatches();
   links.Summaries.insert(links.Summaries.begin(),
-    { { "RaysPerPatch", rays },
-      { "RaysCast", static_cast<double>(scene.GetNumberOfPatches()) * rays },
+    { { "RaysPerPatch", rays }, { "RaysCast", static_cast<double>(patches) * rays },
       { "ExactRows",
         static_cast<double>(std::count(this->Plan.Bright.begin(), this->Plan.Bright.end(), true)) },
       { "NumberOfLinks", sizes[0] }, { "MatrixBytes", sizes[1] },
-      { "DenseMatrixBytes",
-        vtkExchangeMatrix::GetEstimatedBytes(scene.GetNumberOfPatches(), 1) } });
+      { "DenseMatrixBytes", vtkExchangeMatrix::GetEstimatedBytes(patches, 1) } });
+}
+
+//------------------------------------------------------------------------------
+Outcome SampledViewFactors::Build(const PatchScene& scene, const Ranks& ranks,
+  const Monitor& monitor, Links& links) const
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
+  RayCounts counts(scene);
+  Outcome outcome = this->Gather(scene, ranks, monitor);
+  outcome = outcome ? this->Count(counts, ranks, links) : outcome;
+  outcome = outcome ? this->Close(counts, ranks, links) : outcome;
+  if (!outcome)
+  {
+    return outcome;
+  }
+  this->Summarize(ranks, links);
   links.Summaries.emplace_back("ViewFactorSeconds", vtkTimerLog::GetUniversalTime() - begin);
-  return outcome ? monitor.Check(1.0) : outcome;
+  return monitor.Check(1.0);
 }
 } // namespace LightTransport

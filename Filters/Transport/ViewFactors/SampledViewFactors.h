@@ -33,7 +33,10 @@ public:
     Links& links) const override;
 
 private:
+  Outcome Gather(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor) const;
+  Outcome Count(RayCounts& counts, const Ranks& ranks, Links& links) const;
   Outcome Close(const RayCounts& counts, const Ranks& ranks, Links& links) const;
+  void Summarize(const Ranks& ranks, Links& links) const;
 
   SamplingPlan Plan;
   std::shared_ptr<RaySamples> Samples;

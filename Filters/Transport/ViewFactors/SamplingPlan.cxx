@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 
@@ -19,13 +20,12 @@ constexpr double VariancePower = 1.24;
 constexpr double Aim = 0.95;
 // The cost of an exact pair, in rays, and what it costs that there are any at all, in rays of each
 // patch.
-constexpr double RaysPerPair = 30.0;
-constexpr double RaysForRows = 150.0;
+constexpr double RaysPerPair = 18.0;
+constexpr double RaysForRows = 60.0;
 // Patches that are nearly as bright as the last that gets an exact row are of the same lamp, which
-// should not be left in part; so many more rows at most, beside a part of their number.
+// should not be left in part, unless it has more patches than this.
 constexpr double AsBright = 0.5;
-constexpr std::size_t MoreRows = 12;
-constexpr std::size_t PartOfRows = 4;
+constexpr std::size_t RowsAtOnce = 64;
 // Rows that are exact, at most, and patches of which they are a part at least.
 constexpr std::size_t MostRows = 4096;
 constexpr std::size_t PatchesPerRow = 4;
@@ -68,6 +68,40 @@ std::vector<double> FindVariances(const SamplingPlan::Trial& trial)
   }
   return variances;
 }
+
+//------------------------------------------------------------------------------
+std::size_t GetMostRows(std::size_t patches)
+{
+  return std::min(MostRows, patches / PatchesPerRow);
+}
+
+//------------------------------------------------------------------------------
+// Patches, those first that add most.
+std::vector<std::size_t> SortPatches(const std::vector<double>& variances)
+{
+  std::vector<std::size_t> order(variances.size() - 1);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return variances[a] > variances[b]; });
+  return order;
+}
+
+//------------------------------------------------------------------------------
+// Whether the first so many of the patches are whole lamps, or enough.
+bool AreWhole(std::size_t rows, const std::vector<double>& variances,
+  const std::vector<std::size_t>& order)
+{
+  return rows % RowsAtOnce == 0 || rows == order.size() ||
+    variances[order[rows]] <= AsBright * variances[order[rows - 1]];
+}
+
+//------------------------------------------------------------------------------
+double FindRowTolerance(double accuracy, std::size_t patches)
+{
+  const double averaged =
+    RowTolerance * std::min(1.0, std::sqrt(static_cast<double>(patches) / ManyPatches));
+  return std::min(std::max(averaged * accuracy, LeastTolerance), MostTolerance);
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -79,65 +113,72 @@ SamplingPlan SamplingPlan::Begin()
 }
 
 //------------------------------------------------------------------------------
-SamplingPlan SamplingPlan::Improve(const Trial& trial, double accuracy) const
+// What all patches but those with exact rows add to the square of the error now.
+double SamplingPlan::SumSampled(const std::vector<double>& variances) const
 {
-  const std::size_t patches = trial.Areas.size();
-  const std::vector<double> variances = FindVariances(trial);
-  std::vector<std::size_t> order(patches);
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return variances[a] > variances[b]; });
-  double now = 0.0;
-  for (std::size_t k = 0; k <= patches; ++k)
+  double sum = 0.0;
+  for (std::size_t k = 0; k < variances.size(); ++k)
   {
-    now += k < patches && !this->Bright.empty() && this->Bright[k] ? 0.0 : variances[k];
+    sum += k < this->Bright.size() && this->Bright[k] ? 0.0 : variances[k];
   }
-  const double excess = std::pow(trial.Error / (Aim * accuracy), 2);
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+// Rays that keep what is aimed at where the error's square, times the power of their number, is so
+// many times what it should be.
+int SamplingPlan::FindRays(double excess) const
+{
+  const double needed = this->RaysPerPatch * std::pow(std::max(excess, 0.0), 1.0 / VariancePower);
+  int rays = this->RaysPerPatch;
+  while (rays < needed && rays < RayHits::MostRays)
+  {
+    rays *= 2;
+  }
+  return rays;
+}
+
+//------------------------------------------------------------------------------
+// The number of exact rows for which they and the rays cost least together; and those rays.
+std::size_t SamplingPlan::FindCheapest(const std::vector<double>& variances,
+  const std::vector<std::size_t>& order, double excess, int& bestRays) const
+{
+  const double now = std::max(this->SumSampled(variances), std::numeric_limits<double>::min());
   double left = std::accumulate(variances.begin(), variances.end(), 0.0);
   double least = std::numeric_limits<double>::infinity();
   std::size_t bestRows = 0;
-  int bestRays = this->RaysPerPatch;
-  const std::size_t mostRows = std::min(MostRows, patches / PatchesPerRow);
-  for (std::size_t rows = 0; rows <= mostRows; ++rows)
+  for (std::size_t rows = 0; rows <= GetMostRows(order.size()); ++rows)
   {
-    const double needed = this->RaysPerPatch *
-      std::pow(excess * std::max(left, 0.0) / std::max(now, 1e-300), 1.0 / VariancePower);
-    int rays = RayHits::FewestRays;
-    while (rays < needed && rays < RayHits::MostRays)
-    {
-      rays *= 2;
-    }
+    const int rays = this->FindRays(excess * left / now);
     const double cost =
       (rows > 0 ? RaysForRows + RaysPerPair * static_cast<double>(rows) : 0.0) + rays;
-    if (cost < least)
+    if (cost < least && AreWhole(rows, variances, order))
     {
       least = cost;
       bestRows = rows;
       bestRays = rays;
     }
-    left -= rows < patches ? variances[order[rows]] : 0.0;
+    left -= rows < order.size() ? variances[order[rows]] : 0.0;
   }
-  const std::size_t more = bestRows + bestRows / PartOfRows + MoreRows;
-  while (bestRows > 0 && bestRows < std::min(more, mostRows) &&
-    variances[order[bestRows]] > AsBright * variances[order[bestRows - 1]])
-  {
-    ++bestRows;
-  }
-  SamplingPlan better;
-  better.RaysPerPatch = std::max(bestRays, this->RaysPerPatch);
-  better.Bright = this->Bright;
-  better.Tolerance = this->Tolerance;
-  if (bestRows > 0)
+  return bestRows;
+}
+
+//------------------------------------------------------------------------------
+SamplingPlan SamplingPlan::Improve(const Trial& trial, double accuracy) const
+{
+  const std::size_t patches = trial.Areas.size();
+  const std::vector<double> variances = FindVariances(trial);
+  const std::vector<std::size_t> order = SortPatches(variances);
+  const double excess = std::pow(trial.Error / (Aim * accuracy), 2);
+  SamplingPlan better = *this;
+  const std::size_t rows = this->FindCheapest(variances, order, excess, better.RaysPerPatch);
+  if (rows > 0)
   {
     better.Bright.resize(patches, false);
-    for (std::size_t k = 0; k < bestRows; ++k)
-    {
-      better.Bright[order[k]] = true;
-    }
-    const double averaged =
-      RowTolerance * std::min(1.0, std::sqrt(static_cast<double>(patches) / ManyPatches));
-    better.Tolerance = std::min(std::max(averaged * accuracy, LeastTolerance), MostTolerance);
+    better.Tolerance = FindRowTolerance(accuracy, patches);
   }
+  std::for_each(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(rows),
+    [&](std::size_t patch) { better.Bright[patch] = true; });
   if (better == *this && this->RaysPerPatch < RayHits::MostRays)
   {
     better.RaysPerPatch *= 2;

@@ -5,11 +5,12 @@
  * with fewer rays, and how wrong that is, follows what keeps an accuracy in the least time: the
  * square of the error comes from the patches by A B^2 (what differs from the mean, which closed
  * rows carry without error), and falls with the power 1.24 of the number of rays; a row costs what
- * some thirty rays of all patches do, and the first of them a hundred more.
+ * some twenty rays of all patches do, and the first of them sixty more.
  */
 #ifndef SamplingPlan_h
 #define SamplingPlan_h
 
+#include <cstddef>
 #include <vector>
 
 namespace LightTransport
@@ -41,6 +42,12 @@ struct SamplingPlan
   {
     return this->RaysPerPatch == other.RaysPerPatch && this->Bright == other.Bright;
   }
+
+private:
+  double SumSampled(const std::vector<double>& variances) const;
+  int FindRays(double excess) const;
+  std::size_t FindCheapest(const std::vector<double>& variances,
+    const std::vector<std::size_t>& order, double excess, int& bestRays) const;
 };
 } // namespace LightTransport
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What a point sees of a planar convex target past a number of triangles: the target is covered
- * with Lines parallel lines of Bits samples each; the shadow that a triangle throws on a line is an
- * interval, so a triangle costs a few vector instructions for all samples together.
+ * What a point sees of a planar convex target past a number of convex polygons: the target is
+ * covered with Lines parallel lines of Bits samples each; the shadow that a polygon throws on a
+ * line is an interval, so an edge costs a few vector instructions for all samples together.
  *
  * Coordinates (u, w, h) are those of the target: it lies in the plane h = 0 and looks towards h >
  * 0; lines run along w.
@@ -11,6 +11,8 @@
 #ifndef ShadowRaster_h
 #define ShadowRaster_h
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace LightTransport
@@ -33,15 +35,26 @@ struct Target
   double End = 0.0;
 };
 
-/// Triangles strictly between the point's plane and the target's, one array per coordinate of each
-/// corner.
-struct Triangles
+/// Convex plane polygons strictly between the point's plane and the target's, as triangles and
+/// quadrilaterals: one array per coordinate of each corner.
+struct Occluders
 {
-  std::vector<double> Corner[3][3];
-  int Count = 0;
+  template <int Corners>
+  struct Shapes
+  {
+    std::vector<double> Corner[Corners][3];
+    int Count = 0;
 
-  void Clear() { this->Count = 0; }
-  void Add(const double* a, const double* b, const double* c);
+    void Add(const double* const* corners);
+  };
+  Shapes<3> Triangles;
+  Shapes<4> Quadrilaterals;
+
+  std::vector<const double*> Kept; ///< while one is added
+
+  void Clear();
+  void Add(const std::vector<std::array<double, 3>>& corners);
+  int GetCount() const { return this->Triangles.Count + this->Quadrilaterals.Count; }
 };
 
 /// Integrals over the target of what the point receives, in a unit that belongs to the target.
@@ -50,6 +63,12 @@ struct Flux
   double Visible = 0.0;
   double Open = 0.0;
 
+  void Add(double weight, const Flux& other)
+  {
+    this->Visible += weight * other.Visible;
+    this->Open += weight * other.Open;
+  }
+
   /// The visible part; `other` where there is no flux at all.
   double GetShare(double other = 1.0) const
   {
@@ -57,16 +76,35 @@ struct Flux
   }
 };
 
-/**
- * The flux at a point (u, w, h) with a normal. `shift` (0 to 1 each) moves lines, and samples along
- * them, within their spacing: over many points the samples fill the target evenly.
- */
-Flux See(const Target& target, const Triangles& triangles, const double point[3],
-  const double normal[3], const double shift[2]);
+/// Samples along a line that share a weight: it follows the kernel linearly. A weight of few
+/// samples for each is exact wherever the target is, one of many costs a third and is for targets
+/// far away.
+enum class Weights
+{
+  Fine,
+  Coarse
+};
 
-/// Whether the point sees no sample at all: what See would find, without weighing the samples.
-bool IsHidden(const Target& target, const Triangles& triangles, const double point[3],
-  const double shift[2]);
+/// What a point sees of the target, not weighed yet.
+struct View
+{
+  double Point[3];
+  float U[Lines];     ///< where the lines are
+  float Start[Lines]; ///< sample b of a line is at w = Start + b * Step
+  float Step[Lines];
+  std::uint32_t Visible[Lines]; ///< a bit for each sample
+};
+
+/**
+ * Look from a point (u, w, h); false where it sees no sample. `shift` (0 to 1 each) moves lines,
+ * and samples along them, within their spacing: over many points the samples fill the target
+ * evenly.
+ */
+bool Look(const Target& target, const Occluders& occluders, const double point[3],
+  const double shift[2], View& view);
+
+/// The flux at the point of a view, with a normal.
+Flux Weigh(const View& view, const double normal[3], Weights weights = Weights::Fine);
 } // namespace ShadowRaster
 } // namespace LightTransport
 

@@ -6,6 +6,7 @@
 #include "Shared/Pulse.h"
 #include "Shared/Threads.h"
 #include "Support/Ranks.h"
+#include "ViewFactors/RowBudget.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,16 @@ namespace
 // Weights and errors are counted in whole numbers of these parts.
 constexpr double WeightUnits = 65536.0;
 constexpr double BudgetUnits = 1099511627776.0;
+
+/// Of the pairs of a row, in these parts: those that are exact enough, and the others.
+enum Share
+{
+  ERRORS,
+  SQUARED_ERRORS,
+  WEIGHTS,
+  SQUARED_WEIGHTS,
+  NUMBER_OF_SHARES
+};
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -39,6 +50,8 @@ struct ViewFactorAssembly::UnitResult
 {
   double ErrorsI[UnitSize] = {};
   double ErrorsJ[UnitSize] = {};
+  VerdictErrors VerdictsI[UnitSize];
+  VerdictErrors VerdictsJ[UnitSize];
   std::vector<PartlyVisiblePair> Pairs;
   Counters Count;
 };
@@ -215,6 +228,10 @@ struct ViewFactorAssembly::Looker
       this->Hide(nodeI, nodeJ, work);
       return;
     }
+    if (this->Outer.Rays && work.GetList(depth).HasSides && this->Judge(nodeI, nodeJ, work))
+    {
+      return;
+    }
     if (i.IsLeaf() && j.IsLeaf())
     {
       VisitPairs(nodeI, nodeJ, work.Tree,
@@ -228,6 +245,33 @@ struct ViewFactorAssembly::Looker
         this->Outer.Culler.Narrow(childI, childJ, work.GetList(depth), work.GetList(depth + 1));
         this->Descend(childI, childJ, depth + 1, work);
       });
+  }
+
+  // Whether rays tell that all pairs are hidden, or free: then they are done with.
+  bool Judge(int nodeI, int nodeJ, Work& work) const
+  {
+    const BlockRays& rays = *this->Outer.Rays;
+    const vtkIdType firstI = work.Tree.GetNode(nodeI).First;
+    const vtkIdType firstJ = work.Tree.GetNode(nodeJ).First;
+    const BlockRays::Verdict verdict =
+      rays.Ask(nodeI, nodeJ, &work.GetValue(firstI, firstJ), vtkExchangeMatrix::TileSize);
+    if (verdict == BlockRays::Verdict::Unknown)
+    {
+      return false;
+    }
+    VisitPairs(nodeI, nodeJ, work.Tree,
+      [&](vtkIdType i, vtkIdType j)
+      {
+        const double error = rays.GetError() * static_cast<double>(work.GetValue(i, j));
+        work.Result.VerdictsI[i - work.FirstI].Add(error);
+        work.Result.VerdictsJ[j - work.FirstJ].Add(error);
+      });
+    if (verdict == BlockRays::Verdict::Hidden)
+    {
+      work.Result.Count.Hidden += this->CountFacing(nodeI, nodeJ, work);
+      this->Hide(nodeI, nodeJ, work);
+    }
+    return true;
   }
 
   double CountFacing(int nodeI, int nodeJ, const Work& work) const
@@ -333,7 +377,8 @@ struct ViewFactorAssembly::Refiner
       if (visibility.SetPair(this->Outer.Scene, pair.I, pair.J, this->Outer.Culler.GetWalls(),
             between, PairVisibility::GetKey(pair.I, pair.J), pair.Open))
       {
-        const PairVisibility::Share share = visibility.Integrate(allowed / pair.Open);
+        const PairVisibility::Share share =
+          visibility.Integrate(allowed / pair.Open, pair.Value / pair.Open);
         pair.Value = share.Value * pair.Open;
         pair.Error = share.Error * pair.Open;
       }
@@ -349,9 +394,14 @@ struct ViewFactorAssembly::Refiner
 ViewFactorAssembly::ViewFactorAssembly(const PatchScene& scene, double tolerance,
   const std::vector<bool>* senders)
   : Scene(scene), Tolerance(tolerance), Senders(senders), Open(scene, OpenShare * tolerance),
-    Culler(scene), RowErrors(scene.GetNumberOfPatches(), 0.0)
+    Culler(scene), RowErrors(scene.GetNumberOfPatches(), 0.0), Verdicts(scene.GetNumberOfPatches())
 {
   this->CountSenders();
+  // Of a few bright patches, which are asked for to be exact, nothing is left to rays.
+  if (this->Culler.HasOccluders() && this->NodeSenders[0] == scene.GetNumberOfPatches())
+  {
+    this->Rays = std::make_unique<BlockRays>(scene, tolerance);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -469,10 +519,12 @@ void ViewFactorAssembly::Collect(const Unit& unit, const UnitResult& result)
   for (vtkIdType k = 0; k < nodes[unit.I].GetSize(); ++k)
   {
     this->RowErrors[nodes[unit.I].First + k] += result.ErrorsI[k];
+    this->Verdicts[nodes[unit.I].First + k].Add(result.VerdictsI[k]);
   }
   for (vtkIdType k = 0; k < nodes[unit.J].GetSize(); ++k)
   {
     this->RowErrors[nodes[unit.J].First + k] += result.ErrorsJ[k];
+    this->Verdicts[nodes[unit.J].First + k].Add(result.VerdictsJ[k]);
   }
   this->Pairs.insert(this->Pairs.end(), result.Pairs.begin(), result.Pairs.end());
   if (!result.Pairs.empty())
@@ -508,6 +560,13 @@ double ViewFactorAssembly::GetWeight(const PartlyVisiblePair& pair, vtkIdType ro
 }
 
 //------------------------------------------------------------------------------
+// What partly visible pairs may put a row off by.
+double ViewFactorAssembly::GetBudget(vtkIdType row) const
+{
+  return VisibilityShare * this->Tolerance * this->Scene.GetAreas()[row];
+}
+
+//------------------------------------------------------------------------------
 double ViewFactorAssembly::GetAllowedError(const PartlyVisiblePair& pair) const
 {
   return std::min(this->GetWeight(pair, pair.I) * this->Allowances[pair.I],
@@ -521,18 +580,33 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
 {
   constexpr int divisions = 3;
   const std::size_t rows = this->RowErrors.size();
-  const std::vector<double>& areas = this->Scene.GetAreas();
   this->Allowances.assign(rows, 0.0);
   for (int division = 0; division < divisions; ++division)
   {
     // Sums of whole numbers, which do not depend on the order: all ranks decide the same.
-    std::vector<double> sums(2 * rows, 0.0);
+    std::vector<double> sums(NUMBER_OF_SHARES * rows, 0.0);
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      const double budget = this->GetBudget(static_cast<vtkIdType>(row));
+      const VerdictErrors& verdicts = this->Verdicts[row];
+      sums[NUMBER_OF_SHARES * row + ERRORS] = std::ceil(BudgetUnits * verdicts.Sum / budget);
+      sums[NUMBER_OF_SHARES * row + SQUARED_ERRORS] =
+        std::ceil(BudgetUnits * verdicts.Squares / (budget * budget));
+    }
     std::size_t step = 0;
     const auto add = [&](const PartlyVisiblePair& pair, bool isSettled, vtkIdType row)
     {
-      const double budget = VisibilityShare * this->Tolerance * areas[row];
-      (isSettled ? sums[2 * row] : sums[2 * row + 1]) +=
-        isSettled ? std::ceil(BudgetUnits * pair.Error / budget) : this->GetWeight(pair, row);
+      double* own = &sums[NUMBER_OF_SHARES * row];
+      if (isSettled)
+      {
+        const double part = pair.Error / this->GetBudget(row);
+        own[ERRORS] += std::ceil(BudgetUnits * part);
+        own[SQUARED_ERRORS] += std::ceil(BudgetUnits * part * part);
+        return;
+      }
+      const double weight = this->GetWeight(pair, row);
+      own[WEIGHTS] += weight;
+      own[SQUARED_WEIGHTS] += weight * weight;
     };
     for (const PartlyVisiblePair& pair : this->Pairs)
     {
@@ -544,9 +618,10 @@ void ViewFactorAssembly::PrepareRefinement(const Ranks& ranks)
     ranks.Sum(sums);
     for (std::size_t row = 0; row < rows; ++row)
     {
-      const double left = 1.0 - sums[2 * row] / BudgetUnits;
-      const double allowance =
-        VisibilityShare * this->Tolerance * areas[row] * left / std::max(sums[2 * row + 1], 1.0);
+      const double* own = &sums[NUMBER_OF_SHARES * row];
+      const double allowance = this->GetBudget(static_cast<vtkIdType>(row)) *
+        RowBudget::GetAllowance(1.0, own[ERRORS] / BudgetUnits, own[SQUARED_ERRORS] / BudgetUnits,
+          own[WEIGHTS], own[SQUARED_WEIGHTS]);
       this->Allowances[row] = std::max(this->Allowances[row], allowance);
     }
   }
@@ -560,14 +635,30 @@ void ViewFactorAssembly::Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vt
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> ViewFactorAssembly::GetRowErrors() const
+std::vector<double> ViewFactorAssembly::GetRowErrors(const Ranks& ranks) const
 {
-  std::vector<double> errors = this->RowErrors;
+  const std::size_t rows = this->RowErrors.size();
+  std::vector<double> sums = this->RowErrors;
+  sums.resize(3 * rows, 0.0);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    sums[rows + row] = this->Verdicts[row].Sum;
+    sums[2 * rows + row] = this->Verdicts[row].Squares;
+  }
   for (const PartlyVisiblePair& pair : this->Pairs)
   {
-    errors[pair.I] += pair.Error;
-    errors[pair.J] += pair.Error;
+    for (const vtkIdType row : { pair.I, pair.J })
+    {
+      sums[rows + row] += pair.Error;
+      sums[2 * rows + row] += pair.Error * pair.Error;
+    }
   }
-  return errors;
+  ranks.Sum(sums);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    sums[row] += RowBudget::GetError(sums[rows + row], sums[2 * rows + row]);
+  }
+  sums.resize(rows);
+  return sums;
 }
 } // namespace LightTransport

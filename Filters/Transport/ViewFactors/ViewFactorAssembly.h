@@ -7,8 +7,9 @@
  *   1. *Look*: for each pair of blocks the exchange with nothing in between (UnoccludedPairs); then
  *      down both nodes of the tree with the list of walls that may be between them (ShaftCuller):
  *      where it becomes empty all pairs below are visible, where one of them stands in all ways
- *      they are hidden, and whatever remains at a pair is looked past from a few points
- *      (PairVisibility). Pairs that are then neither visible nor hidden for certain are put down.
+ *      they are hidden, where little is at stake rays judge (BlockRays), and whatever remains at a
+ * pair is looked past from a few points (PairVisibility). Pairs that are then neither visible nor
+ * hidden for certain are put down.
  *   2. *Refine*: how many such pairs a row has, and how large, says how exact each of them must be;
  *      those that are not yet are integrated until they are.
  */
@@ -16,11 +17,13 @@
 #define ViewFactorAssembly_h
 
 #include "Geometry/ShaftCuller.h"
+#include "ViewFactors/BlockRays.h"
 #include "ViewFactors/PairVisibility.h"
 #include "ViewFactors/PartlyVisiblePair.h"
 #include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeMatrix.h"
 
+#include <memory>
 #include <vector>
 
 namespace LightTransport
@@ -71,10 +74,11 @@ public:
   void Refine(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   ///@}
 
-  /// After both stages, of this rank. Errors of rows in units of exchange.
+  /// After both stages, of this rank.
   const std::vector<PartlyVisiblePair>& GetPairs() const { return this->Pairs; }
   const Counters& GetCounters() const { return this->Total; }
-  std::vector<double> GetRowErrors() const;
+  /// And of all ranks together (collective), in units of exchange: see RowBudget.
+  std::vector<double> GetRowErrors(const Ranks& ranks) const;
 
 private:
   /// Two nodes of at most UnitSize patches, and the tile that holds their exchange.
@@ -84,6 +88,22 @@ private:
     int I, J;
   };
   static constexpr int UnitSize = 64;
+  /// Of the pairs of a row on which rays have given a verdict.
+  struct VerdictErrors
+  {
+    double Sum = 0.0;
+    double Squares = 0.0;
+    void Add(double error)
+    {
+      this->Sum += error;
+      this->Squares += error * error;
+    }
+    void Add(const VerdictErrors& other)
+    {
+      this->Sum += other.Sum;
+      this->Squares += other.Squares;
+    }
+  };
   struct UnitResult;
   struct Looker;
   struct Refiner;
@@ -94,6 +114,7 @@ private:
   void Collect(const Unit& unit, const UnitResult& result);
   void ReleaseTiles(vtkExchangeMatrix* exchange, vtkIdType begin, vtkIdType end);
   double GetWeight(const PartlyVisiblePair& pair, vtkIdType row) const;
+  double GetBudget(vtkIdType row) const;
   double GetAllowedError(const PartlyVisiblePair& pair) const;
 
   const PatchScene& Scene;
@@ -102,9 +123,11 @@ private:
   std::vector<vtkIdType> NodeSenders;
   UnoccludedPairs Open;
   ShaftCuller Culler;
+  std::unique_ptr<BlockRays> Rays; ///< where they may judge
   std::vector<Unit> Units;
   std::vector<bool> TilesWithPairs;
-  std::vector<double> RowErrors;  ///< of the exchange with nothing in between
+  std::vector<double> RowErrors; ///< of the exchange with nothing in between
+  std::vector<VerdictErrors> Verdicts;
   std::vector<double> Allowances; ///< error for a unit of weight, of each row
   std::vector<PartlyVisiblePair> Pairs;
   Counters Total;

@@ -23,11 +23,17 @@ namespace LightTransport
 {
 namespace
 {
-// Row sums of scaled links, and how often they are scaled.
-constexpr double ScaledGap = 1e-13;
-constexpr int MaximumScalings = 300;
-// A step that gains less has no better one after it: these rows cannot all be closed.
-constexpr double SlowestGain = 0.999;
+// How often links are scaled.
+constexpr int MaximumScalings = 30;
+// Where so many steps in a row gain less, these rows cannot all be closed.
+constexpr double SlowestGain = 0.9;
+constexpr int StuckSteps = 3;
+// Of the logarithm of a scale; what a step may leave of what is missing, squared; what it need not
+// go below, of the goal; and the curvature along what cannot be closed.
+constexpr double LongestStep = 1.0;
+constexpr double RestOfGap = 0.03;
+constexpr double LargestRest = 1e-2;
+constexpr double SmallestCurvature = 1e-9;
 
 using Array = Eigen::ArrayXd;
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
@@ -408,42 +414,49 @@ void Summarize(const ViewFactorClosure::Report& report, Links& links)
 }
 
 //------------------------------------------------------------------------------
-// Symmetric scaling of the links between clusters.
+/*
+ * Symmetric scaling of links by the weights w of patches; openings by a power p of their row's
+ * scale. Rows sum to their targets where the convex function
+ * 1/2 sum_ij G_ij e^(x_i + x_j) + sum_i (O_i e^(p x_i) / p - T_i x_i) of the logarithms x of the
+ * scales is least: Newton's method finds it, each step by conjugate gradients.
+ */
 class Balancing
 {
 public:
-  Balancing(Links& links, const std::vector<double>& targets, const Ranks& ranks)
-    : AllLinks(links), Targets(targets), Hierarchy(links.Hierarchy),
-      Areas(this->Hierarchy->GetAreas()),
-      Product(LinkOperators::MakeOnCPU(this->Hierarchy, 1, ranks)), Sums(this->Areas.size(), 1.0),
-      Open(this->Areas.size()), FirstWeights(this->Hierarchy->GetWeights()),
-      Good(this->Product && this->Product->SetVector(0, this->Sums.data()))
+  Balancing(Links& links, const ViewFactorClosure::Scaling& asked, const Ranks& ranks)
+    : AllLinks(links), Asked(asked), Hierarchy(links.Hierarchy),
+      Areas(ToArray(this->Hierarchy->GetAreas())), Targets(this->Areas),
+      Product(LinkOperators::MakeOnCPU(this->Hierarchy, 1, ranks)),
+      FirstWeights(ToArray(this->Hierarchy->GetWeights())),
+      FirstOpen(this->Areas * (ToArray(links.SkyFractions) + ToArray(links.BackFaceFractions))),
+      Good(this->Product != nullptr)
   {
-    for (std::size_t row = 0; row < this->Open.size(); ++row)
+    if (!asked.Targets.empty())
     {
-      this->Open[row] =
-        (links.SkyFractions[row] + links.BackFaceFractions[row]) / this->GetOpenScale(row);
+      this->Targets *= ToArray(asked.Targets);
     }
   }
 
   bool Run(ViewFactorClosure::Report& report)
   {
     double last = std::numeric_limits<double>::max();
-    for (int step = 0; step <= MaximumScalings; ++step)
+    int stuck = 0;
+    for (int step = 0; step < MaximumScalings; ++step)
     {
       report.Gap = this->FindGap();
-      if (!this->Good || report.Gap <= ScaledGap || report.Gap > SlowestGain * last)
+      stuck = report.Gap > SlowestGain * last ? stuck + 1 : 0;
+      if (!this->Good || report.Gap <= this->Asked.Goal || stuck == StuckSteps)
       {
         break;
       }
       last = report.Gap;
-      this->ScaleWeights([](double sum, double target)
-        { return sum > 0.0 ? std::sqrt(target) / std::sqrt(sum) : 1.0; });
+      this->ScaleWeights(this->FindStep().max(-LongestStep).min(LongestStep).exp());
     }
-    if (this->Good && report.Gap > ScaledGap)
+    if (this->Good && report.Gap > this->Asked.Goal)
     {
       // Some cannot be closed; none may be overfull, nor does this make another so.
-      this->ScaleWeights([](double sum, double target) { return target / std::max(sum, target); });
+      this->ScaleWeights(
+        this->IsScaled().select(this->Targets / this->Whole.max(this->Targets), 1.0));
       report.Gap = this->FindGap();
     }
     this->Finish(report);
@@ -451,71 +464,104 @@ public:
   }
 
 private:
-  double GetOpenScale(std::size_t row) const
+  static Eigen::Map<const Array> ToArray(const std::vector<double>& values)
   {
-    return this->Hierarchy->GetWeights()[row] / this->Areas[row];
+    return { values.data(), static_cast<Eigen::Index>(values.size()) };
   }
 
-  double GetTarget(std::size_t row) const
+  Array Multiply(const Array& x)
   {
-    return this->Targets.empty() ? 1.0 : this->Targets[row];
+    Array product = Array::Zero(x.size());
+    this->Good = this->Good && this->Product->SetVector(0, x.data()) &&
+      this->Product->Multiply(1, 0) && this->Product->GetVector(1, product.data());
+    return product;
   }
 
-  // The rows as they are. One without links and openings stays empty.
+  // A row without links and openings stays empty, and one whose target is 0 as it is.
+  Eigen::Array<bool, Eigen::Dynamic, 1> IsScaled() const
+  {
+    return this->Whole > 0.0 && this->Targets > 0.0;
+  }
+
+  // Of openings.
+  Array GetOpenScales() const
+  {
+    return (ToArray(this->Hierarchy->GetWeights()) / this->FirstWeights).pow(this->Asked.OpenPower);
+  }
+
+  // The rows as they are.
   double FindGap()
   {
-    this->Good =
-      this->Good && this->Product->Multiply(1, 0) && this->Product->GetVector(1, this->Sums.data());
-    double gap = 0.0;
-    for (std::size_t row = 0; this->Good && row < this->Sums.size(); ++row)
-    {
-      this->Sums[row] /= this->Areas[row];
-      const double whole = this->GetWhole(row);
-      const double target = this->GetTarget(row);
-      gap = std::max(gap, whole > 0.0 && target > 0.0 ? std::abs(target - whole) : 0.0);
-    }
-    return gap;
+    this->Sums = this->Multiply(Array::Ones(this->Areas.size()));
+    this->Open = this->FirstOpen * this->GetOpenScales();
+    this->Whole = this->Sums + this->Open;
+    this->Missing = this->IsScaled().select(this->Targets - this->Whole, 0.0);
+    return (this->Missing.abs() / this->Areas).maxCoeff();
   }
 
-  double GetWhole(std::size_t row) const
+  // The step of Newton's method: rows that are nearly closed need a better one.
+  Array FindStep()
   {
-    return this->Sums[row] + this->Open[row] * this->GetOpenScale(row);
+    const Array diagonal = this->Sums + this->Asked.OpenPower * this->Open;
+    const Array inverse = this->IsScaled().select(1.0 / diagonal, 0.0);
+    Array step = Array::Zero(inverse.size());
+    Array residual = this->Missing;
+    Array direction = inverse * residual;
+    double squared = (residual * direction).sum();
+    const double area = this->Areas.sum();
+    const double goal = std::max(squared * std::min(LargestRest, squared / area),
+      std::pow(RestOfGap * this->Asked.Goal, 2) * area);
+    for (int iteration = 0; iteration < MaximumIterations && squared > goal; ++iteration)
+    {
+      const Array image =
+        this->IsScaled().select(diagonal * direction + this->Multiply(direction), 0.0);
+      const double curvature = (direction * image).sum();
+      // Zero along what cannot be closed: a part of the scene that is linked like a chessboard.
+      if (!(curvature > SmallestCurvature * (direction * diagonal * direction).sum()))
+      {
+        break;
+      }
+      step += squared / curvature * direction;
+      residual -= squared / curvature * image;
+      const double next = (residual * inverse * residual).sum();
+      direction = inverse * residual + next / squared * direction;
+      squared = next;
+    }
+    return step;
   }
 
-  template <typename Scale>
-  void ScaleWeights(const Scale& scale)
+  void ScaleWeights(const Array& scales)
   {
-    std::vector<double> weights = this->Hierarchy->GetWeights();
-    for (std::size_t row = 0; row < weights.size(); ++row)
-    {
-      const double target = this->GetTarget(row);
-      weights[row] *= target > 0.0 ? scale(this->GetWhole(row), target) : 1.0;
-    }
-    this->Hierarchy->SetWeights(weights);
+    const Array scaled = scales * ToArray(this->Hierarchy->GetWeights());
+    this->Hierarchy->SetWeights({ scaled.begin(), scaled.end() });
   }
 
   void Finish(ViewFactorClosure::Report& report)
   {
-    for (std::size_t row = 0; row < this->Sums.size(); ++row)
+    const Array sums = this->Sums / this->Areas;
+    report.Change = (sums - ToArray(this->AllLinks.RowSums)).abs().maxCoeff();
+    const Array scales = this->GetOpenScales();
+    for (std::size_t row = 0; row < this->AllLinks.RowSums.size(); ++row)
     {
-      report.Change =
-        std::max(report.Change, std::abs(this->Sums[row] - this->AllLinks.RowSums[row]));
-      const double scale = this->Hierarchy->GetWeights()[row] / this->FirstWeights[row];
-      this->AllLinks.SkyFractions[row] *= scale;
-      this->AllLinks.BackFaceFractions[row] *= scale;
+      this->AllLinks.SkyFractions[row] *= scales[static_cast<Eigen::Index>(row)];
+      this->AllLinks.BackFaceFractions[row] *= scales[static_cast<Eigen::Index>(row)];
     }
-    this->AllLinks.RowSums = this->Sums;
+    this->AllLinks.RowSums.assign(sums.begin(), sums.end());
   }
 
   Links& AllLinks;
-  const std::vector<double>& Targets;
+  const ViewFactorClosure::Scaling& Asked;
   vtkExchangeHierarchy* Hierarchy;
-  const std::vector<double>& Areas;
+  Array Areas;
+  Array Targets; ///< times areas, as all that follow
   vtkSmartPointer<vtkCPULinkOperator> Product;
-  std::vector<double> Sums; ///< of the rows
-  std::vector<double> Open; ///< fractions where a weight is the area
-  std::vector<double> FirstWeights;
+  Array FirstWeights;
+  Array FirstOpen;
   bool Good;
+  Array Sums; ///< of links
+  Array Open;
+  Array Whole; ///< with openings
+  Array Missing;
 };
 } // namespace
 
@@ -543,10 +589,10 @@ Outcome ViewFactorClosure::Close(Links& links, const std::vector<PartlyVisiblePa
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorClosure::Scale(Links& links, const std::vector<double>& targets,
-  const Ranks& ranks, Report& report)
+Outcome ViewFactorClosure::Scale(Links& links, const Scaling& scaling, const Ranks& ranks,
+  Report& report)
 {
-  return Balancing(links, targets, ranks).Run(report) ? Outcome::Done()
+  return Balancing(links, scaling, ranks).Run(report) ? Outcome::Done()
                                                       : Outcome::FailedAsReported();
 }
 
@@ -565,10 +611,10 @@ Outcome ViewFactorClosure::CloseMatrix(Links& links, const std::vector<PartlyVis
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const Ranks& ranks)
+Outcome ViewFactorClosure::ScaleHierarchy(Links& links, const Scaling& scaling, const Ranks& ranks)
 {
   Report report;
-  Outcome scaled = Scale(links, {}, ranks, report);
+  Outcome scaled = Scale(links, scaling, ranks, report);
   if (scaled)
   {
     Summarize(report, links);

@@ -47,21 +47,32 @@ Outcome Close(Links& links, const std::vector<PartlyVisiblePair>& pairs,
   const std::vector<double>& openingErrors, double relativeError, const Ranks& ranks,
   Report& report);
 
+/// How links of a hierarchy are scaled.
+struct Scaling
+{
+  /// What rows are to sum to with their openings (empty: to 1). One whose target is 0 keeps its
+  /// weight.
+  std::vector<double> Targets;
+  /// Openings are scaled by this power of the scale of their patch: less than 1 where they are
+  /// better known than links.
+  double OpenPower = 1.0;
+  double Goal = 1e-12; ///< the gap that need not become smaller
+};
+
 /**
- * For links between clusters: scale the weights of the patches, and what is open in a row by the
- * weight of its patch alone, until the rows are closed (symmetric scaling: Sinkhorn and Knopp
- * 1967). Where that cannot be none is left with more than 1. RowSums and fractions follow.
- * `targets` are what rows are to sum to instead of 1 (empty: 1 for all); a row whose target is 0
- * keeps its weight. Collective.
+ * For links of a hierarchy: scale the weights of the patches until the rows are closed (symmetric
+ * scaling: Sinkhorn and Knopp 1967, by Newton's method: Knight and Ruiz 2013). Where that cannot be
+ * none is left with more than its target, but for what its openings are scaled less. RowSums and
+ * fractions follow. Collective.
  */
-Outcome Scale(Links& links, const std::vector<double>& targets, const Ranks& ranks, Report& report);
+Outcome Scale(Links& links, const Scaling& scaling, const Ranks& ranks, Report& report);
 
 ///@{
 /// The same with the report among the summaries of links ("ClosureChange", "ClosureGap").
 /// `tolerance` is that of the matrix's assembly.
 Outcome CloseMatrix(Links& links, const std::vector<PartlyVisiblePair>& pairs,
   const std::vector<double>& openingErrors, double tolerance, const Ranks& ranks);
-Outcome ScaleHierarchy(Links& links, const Ranks& ranks);
+Outcome ScaleHierarchy(Links& links, const Scaling& scaling, const Ranks& ranks);
 ///@}
 } // namespace ViewFactorClosure
 } // namespace LightTransport

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewFactors/ViewFactorStore.h"
 
+#include "Links/ExchangeRow.h"
 #include "Scene/PatchScene.h"
 #include "Support/Ranks.h"
 #include "ViewFactors/DenseViewFactors.h"
 #include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/RayHitsFile.h"
 #include "ViewFactors/RaySamples.h"
 #include "ViewFactors/SampledViewFactors.h"
 #include "ViewFactors/ViewFactorsFile.h"
@@ -29,7 +31,7 @@ Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSetting
                            "ClusterTree to Spatial or LinkMethod to Hierarchical.");
   }
   Outcome updated = this->LoadedFile.empty() ? this->Make(scene, settings, senders, ranks, monitor)
-                                             : this->CheckLoaded(scene, ranks);
+                                             : this->TakeLoaded(scene, ranks, monitor);
   if (updated)
   {
     this->Faces = scene.GetFaces();
@@ -56,7 +58,13 @@ Outcome ViewFactorStore::Make(const PatchScene& scene, const ViewFactorSettings&
       plan.RaysPerPatch = SampledViewFactors::GetRaysFor(settings.LinkTolerance);
     }
     const SampledViewFactors builder(plan, this->Samples);
-    return this->Cache.Update(scene, builder, ranks, monitor);
+    Outcome updated = this->Cache.Update(scene, builder, ranks, monitor);
+    if (this->Cache.WereMade())
+    {
+      this->Plan = plan;
+      this->PlanTolerance = settings.LinkTolerance;
+    }
+    return updated;
   }
   // A closure needs whole rows.
   const bool all = settings.EnforceClosure ||
@@ -68,16 +76,43 @@ Outcome ViewFactorStore::Make(const PatchScene& scene, const ViewFactorSettings&
 }
 
 //------------------------------------------------------------------------------
-Outcome ViewFactorStore::CheckLoaded(const PatchScene& scene, const Ranks& ranks) const
+LinkMethod ViewFactorStore::GetMethod(const ViewFactorSettings& settings) const
+{
+  return this->LoadedFile.empty() ? settings.Method
+    : this->LoadedRays > 0        ? LinkMethod::Sampled
+                                  : LinkMethod::Dense;
+}
+
+//------------------------------------------------------------------------------
+SamplingPlan ViewFactorStore::FindPlan(const PatchScene& scene, double linkTolerance,
+  const Ranks& ranks) const
+{
+  const bool serves = this->GetLinks().IsSampled() && this->PlanTolerance <= linkTolerance &&
+    this->Samples->Hits.Have(this->Plan.RaysPerPatch, scene, ranks);
+  return serves ? this->Plan : SamplingPlan::Begin();
+}
+
+//------------------------------------------------------------------------------
+// Of rays the links are to be made of what they have met, a matrix is there.
+Outcome ViewFactorStore::TakeLoaded(const PatchScene& scene, const Ranks& ranks,
+  const Monitor& monitor)
 {
   const Links& links = this->GetLinks();
-  const bool fits = links.Fingerprint == scene.GetFingerprint() &&
-    links.Matrix->GetNumberOfPatches() == scene.GetNumberOfPatches();
-  return ranks.Agree(fits
+  const bool fits = this->LoadedRays > 0 ? this->Samples->Hits.Have(this->LoadedRays, scene, ranks)
+                                         : links.Fingerprint == scene.GetFingerprint() &&
+      links.Matrix->GetNumberOfPatches() == scene.GetNumberOfPatches();
+  Outcome taken = ranks.Agree(fits
       ? Outcome::Done()
       : Outcome::Failed("The view factors in \"" + this->LoadedFile +
           "\" were computed for another geometry: give the mesh that they belong to, or compute "
           "them (Load(nullptr)) and save them again."));
+  if (taken && this->LoadedRays > 0)
+  {
+    SamplingPlan plan;
+    plan.RaysPerPatch = this->LoadedRays;
+    taken = this->Cache.Update(scene, SampledViewFactors(plan, this->Samples), ranks, monitor);
+  }
+  return taken;
 }
 
 //------------------------------------------------------------------------------
@@ -109,45 +144,84 @@ double ViewFactorStore::GetViewFactor(vtkIdType i, vtkIdType j) const
 }
 
 //------------------------------------------------------------------------------
+void ViewFactorStore::CopyRow(vtkIdType i, double* factors) const
+{
+  const vtkIdType faces = this->GetNumberOfFaces();
+  std::fill_n(factors, faces, 0.0);
+  const vtkExchange* exchange = this->GetLinks().GetExchange();
+  std::vector<double> values;
+  for (const vtkIdType row : this->Faces.GetPatches(i))
+  {
+    ExchangeRow::Copy(exchange, row, values);
+    for (vtkIdType j = 0; j < faces; ++j)
+    {
+      double exchanged = 0.0;
+      for (const vtkIdType column : this->Faces.GetPatches(j))
+      {
+        exchanged += values[column];
+      }
+      factors[j] += this->Faces.GetShare(row) * (exchanged / exchange->GetAreas()[row]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 Outcome ViewFactorStore::Save(const std::string& fileName, const Ranks& ranks) const
 {
   if (fileName.empty())
   {
     return Outcome::Failed("The name of the file to save view factors in is empty.");
   }
+  const Links& links = this->GetLinks();
+  if (links.IsSampled())
+  {
+    return RayHitsFile::Write(fileName, this->Samples->Hits, links.Hierarchy->GetNumberOfPatches(),
+      links.RaysPerPatch, ranks);
+  }
   if (ranks.AreSeveral())
   {
     return Outcome::Failed(
-      "View factors can be saved on one process only: each of several holds a part.");
+      "A matrix of view factors can be saved on one process only: each of several holds a part. "
+      "Use one process, or set LinkMethod to Sampled.");
   }
-  if (this->GetLinks().Hierarchy)
+  if (links.Hierarchy)
   {
-    return Outcome::Failed(this->GetLinks().IsSampled()
-        ? "Links from rays cannot be saved: set LinkMethod to Dense and update."
-        : "Links between clusters cannot be saved: switch Hierarchical off and update.");
+    return Outcome::Failed("Links between clusters cannot be saved: switch Hierarchical off and "
+                           "update.");
   }
-  if (!this->GetLinks().Matrix || !this->Cache.GetKey().Senders.empty())
+  if (!links.Matrix || !this->Cache.GetKey().Senders.empty())
   {
     return Outcome::Failed("There are no view factors to save: call Update first.");
   }
-  return ViewFactorsFile::Write(fileName, this->GetLinks());
+  return ViewFactorsFile::Write(fileName, links);
 }
 
 //------------------------------------------------------------------------------
 Outcome ViewFactorStore::Load(const std::string& fileName, const Ranks& ranks)
 {
-  if (ranks.AreSeveral())
-  {
-    return Outcome::Failed(
-      "View factors can be loaded on one process only: each of several holds a part.");
-  }
   Links loaded;
-  Outcome read = ViewFactorsFile::Read(fileName, loaded);
+  int rays = 0;
+  Outcome read = Outcome::Done();
+  if (ranks.GetLargest(RayHitsFile::Is(fileName) ? 1 : 0) > 0)
+  {
+    read = RayHitsFile::Read(fileName, ranks, this->Samples->Hits, rays);
+  }
+  else if (ranks.AreSeveral())
+  {
+    read = Outcome::Failed(
+      "A matrix of view factors can be loaded on one process only: each of several holds a part. "
+      "Use one process, or save those of LinkMethod Sampled.");
+  }
+  else
+  {
+    read = ViewFactorsFile::Read(fileName, loaded);
+  }
   if (read)
   {
     this->Cache.Put(std::move(loaded));
     this->Faces = SceneFaces();
     this->LoadedFile = fileName;
+    this->LoadedRays = rays;
   }
   return read;
 }
@@ -156,7 +230,9 @@ Outcome ViewFactorStore::Load(const std::string& fileName, const Ranks& ranks)
 void ViewFactorStore::Forget()
 {
   this->Cache.Put(Links());
+  *this->Samples = RaySamples();
   this->Faces = SceneFaces();
   this->LoadedFile.clear();
+  this->LoadedRays = 0;
 }
 } // namespace LightTransport

@@ -56,8 +56,14 @@ public:
   Outcome Update(const PatchScene& scene, const ViewFactorSettings& settings,
     const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
 
+  /// The plan to begin with: that of the links that are kept, if they are of this scene and were
+  /// made for this tolerance or a smaller one, so that they need not be made again for other light.
+  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const Ranks& ranks) const;
+
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
+  /// What links are between: as the settings have it, or a file.
+  LinkMethod GetMethod(const ViewFactorSettings& settings) const;
   /// Whether it made them, and did not find them kept.
   bool WereMade() const { return this->LoadedFile.empty() && this->Cache.WereMade(); }
 
@@ -67,13 +73,15 @@ public:
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
   double GetViewFactor(vtkIdType i, vtkIdType j) const;
+  /// Those of a face with all others: the same, and where rows are stored much faster.
+  void CopyRow(vtkIdType i, double* factors) const;
   /// Their number, 0 after a failure.
   vtkIdType GetNumberOfFaces() const { return this->Faces.GetNumberOfFaces(); }
   /// In the input's unit squared.
   double GetArea(vtkIdType face) const { return this->AreaUnit * this->Faces.GetArea(face); }
 
-  ///@{ On one process: save what the last update computed; take it from a file until Forget or
-  /// another file.
+  ///@{ Save what the last update computed; take it from a file until Forget or another file. On
+  /// one process, or collective where it comes from rays.
   Outcome Save(const std::string& fileName, const Ranks& ranks) const;
   Outcome Load(const std::string& fileName, const Ranks& ranks);
   void Forget();
@@ -82,15 +90,20 @@ public:
   const std::string& GetLoadedFile() const { return this->LoadedFile; }
 
 private:
-  Outcome CheckLoaded(const PatchScene& scene, const Ranks& ranks) const;
+  Outcome TakeLoaded(const PatchScene& scene, const Ranks& ranks, const Monitor& monitor);
   Outcome Make(const PatchScene& scene, const ViewFactorSettings& settings,
     const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
 
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
-  SceneFaces Faces;                    ///< of the scene of the last update
-  double AreaUnit = 1.0;               ///< and its unit
+  ///@{ How they were made.
+  SamplingPlan Plan;
+  double PlanTolerance = 0.0;
+  ///@}
+  SceneFaces Faces;      ///< of the scene of the last update
+  double AreaUnit = 1.0; ///< and its unit
   std::string LoadedFile;
+  int LoadedRays = 0; ///< of each patch, where the file has any
 };
 } // namespace LightTransport
 

@@ -3,44 +3,34 @@
 #include "ViewFactors/ViewFactorsFile.h"
 
 #include "Links/Links.h"
-#include "Shared/FileReplacement.h"
 #include "Shared/TransportMemory.h"
+#include "ViewFactors/CheckedFile.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <new>
-#include <system_error>
+#include <utility>
 
 namespace LightTransport
 {
 namespace
 {
-using Count = std::uint64_t;
+using CheckedFile::Count;
+using CheckedFile::Reader;
 using Tile = vtkExchangeMatrix::Tile;
 
 constexpr int N = vtkExchangeMatrix::TileSize;
-constexpr std::size_t LineLength = 40;
-constexpr char Format[] = "vtkLightTransport view factors ";
-constexpr char Version[] = "3";
-constexpr Count ByteOrder = 0x0102030405060708;
-constexpr Count SwappedByteOrder = 0x0807060504030201;
+constexpr CheckedFile::Format Format{ "vtkLightTransport view factors ", "3", "view factors" };
 
 /// More than anybody needs; a file that wants more is damaged.
 constexpr Count MaximumSummaries = 1000;
 constexpr Count MaximumNameLength = 1000;
 
-constexpr char Again[] = " Compute the view factors again and save them, or take another copy.";
-
 struct Header
 {
-  char Line[LineLength];
-  Count Order;
+  CheckedFile::Start Begin;
   Count TileSize;
   Count Fingerprint;
   double Tolerance;
@@ -48,7 +38,8 @@ struct Header
   Count NumberOfSummaries;
   Count NumberOfTiles;
 };
-static_assert(sizeof(Header) == LineLength + 7 * sizeof(Count), "a header without gaps");
+static_assert(sizeof(Header) == sizeof(CheckedFile::Start) + 6 * sizeof(Count),
+  "a header without gaps");
 
 struct TileName
 {
@@ -66,54 +57,6 @@ constexpr Row Rows[] = { &Links::RawRowSums, &Links::RowSums, &Links::RowErrors,
 constexpr Count BytesPerPatch = sizeof(double) * (2 + std::size(Rows));
 /// The largest remainder of a row, relative to its area.
 constexpr double LargestRemainder = 1e-6;
-
-//------------------------------------------------------------------------------
-std::string MakeLine()
-{
-  std::string line = std::string(Format) + Version;
-  line.resize(LineLength - 1, ' ');
-  return line + '\n';
-}
-
-//------------------------------------------------------------------------------
-// What streams do not tell.
-std::error_code GetSystemError()
-{
-  return { errno == 0 ? EIO : errno, std::generic_category() };
-}
-
-//------------------------------------------------------------------------------
-// A hash of 64-bit words (in the manner of FNV-1a, with a shift that brings high bits down). Each
-// step is a one-to-one map, so that a change within one word can never go unnoticed.
-class Checksum
-{
-public:
-  void Add(const void* data, std::size_t bytes)
-  {
-    const auto* next = static_cast<const char*>(data);
-    for (; bytes >= sizeof(Count); bytes -= sizeof(Count), next += sizeof(Count))
-    {
-      this->AddWord(next, sizeof(Count));
-    }
-    if (bytes > 0)
-    {
-      this->AddWord(next, bytes);
-    }
-  }
-
-  Count Get() const { return this->State; }
-
-private:
-  void AddWord(const char* data, std::size_t bytes)
-  {
-    Count word = 0;
-    std::memcpy(&word, data, bytes);
-    this->State = (this->State ^ word) * 0x100000001b3;
-    this->State ^= this->State >> 32;
-  }
-
-  Count State = 0xcbf29ce484222325;
-};
 
 //------------------------------------------------------------------------------
 // No value may be infinite, not a number, or below `lowest`.
@@ -171,7 +114,7 @@ bool IsUsable(const Tile& tile, vtkIdType numberOfPatches)
 }
 
 //------------------------------------------------------------------------------
-class Writer
+class MatrixWriter
 {
 public:
   Outcome Write(const std::string& fileName, const Links& links)
@@ -182,77 +125,63 @@ public:
       return begun;
     }
     this->PutHeader(links);
-    this->PutValues(links.Matrix->GetAreas());
+    this->File.PutValues(links.Matrix->GetAreas());
     for (Row row : Rows)
     {
-      this->PutValues(links.*row);
+      this->File.PutValues(links.*row);
     }
     std::vector<double> remainders = links.Matrix->GetRemainders();
     remainders.resize(links.Matrix->GetAreas().size(), 0.0);
-    this->PutValues(remainders);
+    this->File.PutValues(remainders);
     for (const auto& [name, value] : links.Summaries)
     {
       const Count length = name.size();
-      this->Put(&length, sizeof(length));
-      this->Put(name.data(), name.size());
-      this->Put(&value, sizeof(value));
+      this->File.Put(&length, sizeof(length));
+      this->File.Put(name.data(), name.size());
+      this->File.Put(&value, sizeof(value));
     }
     for (const Tile& tile : links.Matrix->GetTiles())
     {
       if (tile.Values && !this->File.HasFailed())
       {
         const TileName name{ static_cast<Count>(tile.Row), static_cast<Count>(tile.Column) };
-        this->Put(&name, sizeof(name));
-        this->Put(tile.Values, sizeof(float) * N * N);
+        this->File.Put(&name, sizeof(name));
+        this->File.Put(tile.Values, sizeof(float) * N * N);
       }
     }
-    const Count sum = this->Sum.Get();
-    this->Put(&sum, sizeof(sum));
     return this->File.Finish();
   }
 
 private:
-  void Put(const void* data, std::size_t bytes)
-  {
-    this->Sum.Add(data, bytes);
-    this->File.Write(data, bytes);
-  }
-
-  void PutValues(const std::vector<double>& values)
-  {
-    this->Put(values.data(), values.size() * sizeof(double));
-  }
-
   void PutHeader(const Links& links)
   {
     Header header;
-    MakeLine().copy(header.Line, LineLength);
-    header.Order = ByteOrder;
+    header.Begin = CheckedFile::Writer::MakeStart(Format);
     header.TileSize = N;
     header.Fingerprint = links.Fingerprint;
     header.Tolerance = links.Tolerance;
     header.NumberOfPatches = static_cast<Count>(links.Matrix->GetNumberOfPatches());
     header.NumberOfSummaries = links.Summaries.size();
     header.NumberOfTiles = static_cast<Count>(links.Matrix->GetNumberOfStoredTiles());
-    this->Put(&header, sizeof(header));
+    this->File.Put(&header, sizeof(header));
   }
 
-  FileReplacement File;
-  Checksum Sum;
+  CheckedFile::Writer File;
 };
 
 //------------------------------------------------------------------------------
 // Reads one file from its beginning to its end; a failure's message begins after the file's name.
-class Reader
+class MatrixReader
 {
 public:
   Links Result;
 
   Outcome Read(const std::string& fileName)
   {
-    Outcome outcome = this->Open(fileName);
-    for (const auto step : { &Reader::GetHeader, &Reader::CheckSizes, &Reader::GetRows,
-           &Reader::GetSummaries, &Reader::MakeMatrix, &Reader::GetTiles, &Reader::GetChecksum })
+    Outcome outcome = this->File.Open(fileName);
+    for (const auto step : { &MatrixReader::GetHeader, &MatrixReader::CheckSizes,
+           &MatrixReader::GetRows, &MatrixReader::GetSummaries, &MatrixReader::MakeMatrix,
+           &MatrixReader::GetTiles, &MatrixReader::GetChecksum })
     {
       outcome = outcome ? (this->*step)() : outcome;
     }
@@ -260,36 +189,12 @@ public:
   }
 
 private:
-  static Outcome FailDamaged() { return Outcome::Failed(std::string("it is damaged.") + Again); }
-
-  static Outcome FailTooShort()
-  {
-    return Outcome::Failed(std::string("it has been cut short.") + Again);
-  }
-
-  Outcome Get(void* data, Count bytes)
-  {
-    if (bytes > this->Remaining)
-    {
-      return FailTooShort();
-    }
-    errno = 0;
-    if (!this->Stream.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes)))
-    {
-      return Outcome::Failed("reading fails (" + GetSystemError().message() + ")." + Again);
-    }
-    this->Sum.Add(data, static_cast<std::size_t>(bytes));
-    this->Remaining -= bytes;
-    return Outcome::Done();
-  }
-
   Outcome GetValues(std::vector<double>& values)
   {
     values.resize(static_cast<std::size_t>(this->Head.NumberOfPatches));
-    return this->Get(values.data(), this->Head.NumberOfPatches * sizeof(double));
+    return this->File.Get(values.data(), this->Head.NumberOfPatches * sizeof(double));
   }
 
-  Outcome Open(const std::string& fileName);
   Outcome GetHeader();
   Outcome CheckSizes();
   Outcome GetRows();
@@ -298,100 +203,46 @@ private:
   Outcome GetTiles();
   Outcome GetChecksum();
 
-  std::ifstream Stream;
-  Count Remaining = 0;
-  Checksum Sum;
+  Reader File;
   Header Head;
   std::vector<double> Areas;
   std::vector<double> Remainders;
 };
 
 //------------------------------------------------------------------------------
-Outcome Reader::Open(const std::string& fileName)
+Outcome MatrixReader::GetHeader()
 {
-  // Nothing but a file has a length to check all sizes against.
-  const std::filesystem::path path = std::filesystem::u8path(fileName);
-  std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem))
+  Outcome got = this->File.GetHead(Format, this->Head);
+  if (got && this->Head.TileSize != N)
   {
-    return Outcome::Failed("there is no such file. Check the name and the folder.");
+    return Reader::FailVersion(Format);
   }
-  this->Remaining = std::filesystem::file_size(path, problem);
-  if (problem)
-  {
-    return Outcome::Failed("its length is not known (" + problem.message() + ").");
-  }
-  errno = 0;
-  this->Stream.open(path, std::ios::binary);
-  if (!this->Stream)
-  {
-    return Outcome::Failed(
-      "it cannot be opened (" + GetSystemError().message() + "). Check its permissions.");
-  }
-  return Outcome::Done();
-}
-
-//------------------------------------------------------------------------------
-Outcome Reader::GetHeader()
-{
-  const std::string line = MakeLine();
-  const Count start = std::min<Count>(this->Remaining, sizeof(Header));
-  this->Head = {};
-  if (Outcome got = this->Get(&this->Head, start); !got)
-  {
-    return got;
-  }
-  if (line.compare(0, sizeof(Format) - 1, this->Head.Line, sizeof(Format) - 1) != 0)
-  {
-    return Outcome::Failed("it is not a file of view factors. Check the name.");
-  }
-  if (start < sizeof(Header))
-  {
-    return FailTooShort();
-  }
-  if (this->Head.Order == SwappedByteOrder)
-  {
-    return Outcome::Failed(
-      "it comes from a machine with the other order of bytes. Compute the view "
-      "factors on this one.");
-  }
-  if (line.compare(0, LineLength, this->Head.Line, LineLength) != 0 || this->Head.TileSize != N)
-  {
-    return Outcome::Failed(std::string("its format is not version ") + Version +
-      ", the one that this version of vtkLightTransport reads. Compute the view factors again and "
-      "save them.");
-  }
-  const bool good = this->Head.Order == ByteOrder && AreUsable(&this->Head.Tolerance, 1, 0.0);
-  return good ? Outcome::Done() : FailDamaged();
+  return got && !AreUsable(&this->Head.Tolerance, 1, 0.0) ? Reader::FailDamaged() : got;
 }
 
 //------------------------------------------------------------------------------
 // Before anything is allocated: the file is as long as what it announces, and there is the memory.
-Outcome Reader::CheckSizes()
+Outcome MatrixReader::CheckSizes()
 {
   const Count patches = this->Head.NumberOfPatches;
   const Count tiles = this->Head.NumberOfTiles;
-  if (patches > this->Remaining / BytesPerPatch || tiles > this->Remaining / BytesPerTile ||
-    patches > static_cast<Count>(VTK_ID_MAX))
+  if (patches > this->File.GetRemaining() / BytesPerPatch ||
+    tiles > this->File.GetRemaining() / BytesPerTile || patches > static_cast<Count>(VTK_ID_MAX))
   {
-    return FailTooShort();
+    return Reader::FailTooShort();
   }
   if (this->Head.NumberOfSummaries > MaximumSummaries)
   {
-    return FailDamaged();
+    return Reader::FailDamaged();
   }
   const double bytes = static_cast<double>(patches * BytesPerPatch) +
     vtkExchangeMatrix::GetEstimatedSparseBytes(static_cast<vtkIdType>(patches), 1,
       static_cast<vtkIdType>(tiles));
-  const double available = TransportMemory::GetAvailableBytes();
-  return bytes <= available
-    ? Outcome::Done()
-    : Outcome::Failed("it needs " + TransportMemory::Format(bytes) + " of memory and " +
-        TransportMemory::Format(available) + " are free. Load it on a machine with more memory.");
+  return Reader::CheckMemory(bytes);
 }
 
 //------------------------------------------------------------------------------
-Outcome Reader::GetRows()
+Outcome MatrixReader::GetRows()
 {
   Outcome got = this->GetValues(this->Areas);
   bool usable = got && AreUsable(this->Areas.data(), this->Areas.size(), 0.0);
@@ -402,30 +253,28 @@ Outcome Reader::GetRows()
   }
   got = got ? this->GetValues(this->Remainders) : got;
   usable = usable && got && AreRemainders(this->Remainders, this->Areas);
-  return got && !usable ? Outcome::Failed(std::string("it holds areas or sums that are negative or "
-                                                      "not finite.") +
-                            Again)
+  return got && !usable ? Reader::Fail("it holds areas or sums that are negative or not finite.")
                         : got;
 }
 
 //------------------------------------------------------------------------------
-Outcome Reader::GetSummaries()
+Outcome MatrixReader::GetSummaries()
 {
   for (Count k = 0; k < this->Head.NumberOfSummaries; ++k)
   {
     Count length = 0;
-    if (Outcome got = this->Get(&length, sizeof(length)); !got)
+    if (Outcome got = this->File.Get(&length, sizeof(length)); !got)
     {
       return got;
     }
     if (length > MaximumNameLength)
     {
-      return FailDamaged();
+      return Reader::FailDamaged();
     }
     this->Result.Summaries.emplace_back(std::string(static_cast<std::size_t>(length), ' '), 0.0);
     auto& [name, value] = this->Result.Summaries.back();
-    Outcome got = this->Get(name.data(), length);
-    got = got ? this->Get(&value, sizeof(value)) : got;
+    Outcome got = this->File.Get(name.data(), length);
+    got = got ? this->File.Get(&value, sizeof(value)) : got;
     if (!got)
     {
       return got;
@@ -437,16 +286,11 @@ Outcome Reader::GetSummaries()
 }
 
 //------------------------------------------------------------------------------
-Outcome Reader::MakeMatrix()
+Outcome MatrixReader::MakeMatrix()
 {
-  const Count expected = this->Head.NumberOfTiles * BytesPerTile + sizeof(Count);
-  if (this->Remaining < expected)
+  if (Outcome all = this->File.ExpectLast(this->Head.NumberOfTiles * BytesPerTile); !all)
   {
-    return FailTooShort();
-  }
-  if (this->Remaining > expected)
-  {
-    return Outcome::Failed(std::string("something follows behind its end.") + Again);
+    return all;
   }
   this->Result.Matrix = vtkSmartPointer<vtkExchangeMatrix>::New();
   this->Result.Matrix->AllocateSparse(this->Areas, 1);
@@ -459,7 +303,7 @@ Outcome Reader::MakeMatrix()
 }
 
 //------------------------------------------------------------------------------
-Outcome Reader::GetTiles()
+Outcome MatrixReader::GetTiles()
 {
   vtkExchangeMatrix* exchange = this->Result.Matrix;
   const auto rows = static_cast<Count>(exchange->GetNumberOfTileRows());
@@ -467,7 +311,7 @@ Outcome Reader::GetTiles()
   for (Count k = 0; k < this->Head.NumberOfTiles; ++k)
   {
     TileName name;
-    if (Outcome got = this->Get(&name, sizeof(name)); !got)
+    if (Outcome got = this->File.Get(&name, sizeof(name)); !got)
     {
       return got;
     }
@@ -477,8 +321,7 @@ Outcome Reader::GetTiles()
                                    : -1;
     if (index <= previous)
     {
-      return Outcome::Failed(
-        std::string("it names a block of view factors that cannot be.") + Again);
+      return Reader::Fail("it names a block of view factors that cannot be.");
     }
     previous = index;
     Tile& tile = exchange->GetTiles()[index];
@@ -486,35 +329,25 @@ Outcome Reader::GetTiles()
     {
       return Outcome::Failed("there is not enough memory. Load it on a machine with more.");
     }
-    if (Outcome got = this->Get(tile.Values, sizeof(float) * N * N); !got)
+    if (Outcome got = this->File.Get(tile.Values, sizeof(float) * N * N); !got)
     {
       return got;
     }
     if (!IsUsable(tile, exchange->GetNumberOfPatches()))
     {
-      return Outcome::Failed(
-        std::string("it holds view factors that cannot be (negative, not finite, "
-                    "or not reciprocal).") +
-        Again);
+      return Reader::Fail("it holds view factors that cannot be (negative, not finite, or not "
+                          "reciprocal).");
     }
   }
   return Outcome::Done();
 }
 
 //------------------------------------------------------------------------------
-Outcome Reader::GetChecksum()
+Outcome MatrixReader::GetChecksum()
 {
-  const Count expected = this->Sum.Get();
-  Count sum = 0;
-  if (Outcome got = this->Get(&sum, sizeof(sum)); !got)
-  {
-    return got;
-  }
   this->Result.Fingerprint = this->Head.Fingerprint;
   this->Result.Tolerance = this->Head.Tolerance;
-  return sum == expected
-    ? Outcome::Done()
-    : Outcome::Failed(std::string("it is damaged: its checksum is wrong.") + Again);
+  return this->File.GetChecksum();
 }
 
 //------------------------------------------------------------------------------
@@ -556,7 +389,7 @@ Outcome ViewFactorsFile::Write(const std::string& fileName, const Links& links)
   Outcome written = Outcome::Done();
   try
   {
-    written = Writer().Write(fileName, links);
+    written = MatrixWriter().Write(fileName, links);
   }
   catch (const std::bad_alloc&)
   {
@@ -571,7 +404,7 @@ Outcome ViewFactorsFile::Write(const std::string& fileName, const Links& links)
 //------------------------------------------------------------------------------
 Outcome ViewFactorsFile::Read(const std::string& fileName, Links& links)
 {
-  Reader reader;
+  MatrixReader reader;
   Outcome read = Outcome::Done();
   try
   {

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * View factors in a file. What is written is read back bit by bit; the tiles of the exchange matrix
- * that are not stored take no place in the file either.
+ * View factors of all pairs in a file (those from rays: RayHitsFile). What is written is read back
+ * bit by bit; the tiles of the exchange matrix that are not stored take no place in the file
+ * either.
  *
- * The format, in the byte order of the machine that writes, all counts 64 bits:
- *  - a line of 40 characters, "vtkLightTransport view factors" and the version, padded with blanks;
- *  - 0x0102030405060708, TileSize, fingerprint, tolerance, numbers of patches, summaries and tiles;
+ * The format (CheckedFile):
+ *  - "vtkLightTransport view factors", TileSize, fingerprint, tolerance, numbers of patches,
+ *    summaries and tiles;
  *  - double precision, one per patch: areas, raw row sums, row sums, row errors, sky fractions,
  *    back face fractions, errors of the fractions, numbers of rays that met fronts and backs,
  *    remainders of the diagonal (vtkExchangeMatrix::GetRemainders);
  *  - each summary: the length of its name, the name, the value;
  *  - each stored tile: row, column, TileSize x TileSize values in single precision, row by row; in
- *    the order of vtkExchangeMatrix::GetTiles;
- *  - a checksum of all that.
+ *    the order of vtkExchangeMatrix::GetTiles.
  */
 #ifndef ViewFactorsFile_h
 #define ViewFactorsFile_h

@@ -167,6 +167,13 @@ def add_properties(parser, class_name, table):
         model = find_class(class_name)()
         for option in table:
             option.add_to(parser, model)
+            note_flag(parser, option)
+
+
+def note_flag(parser, option):
+    """Messages of filters name properties and arrays, and not the options for them."""
+    flags = parser.get_default("flags") or {}
+    parser.set_defaults(flags={**flags, option.name: option.flag})
 
 
 def get_given(options, table):
@@ -196,6 +203,7 @@ def add_arrays(parser, table):
         parser.add_argument(array.flag, metavar="NAME|VALUE|REGION=VALUE", type=parse_material,
                             action="append", default=[], dest=array.destination,
                             help=f"{array.text} [{array.name}]")
+        note_flag(parser, array)
 
 
 def choose_arrays(options, algorithm, table):

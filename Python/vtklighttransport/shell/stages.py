@@ -4,6 +4,7 @@
 
 import contextlib
 import dataclasses
+import re
 import sys
 import time
 
@@ -19,9 +20,11 @@ class Failure(Exception):
 
 
 class Messages:
-    """Takes what VTK reports, from whichever object, and keeps errors as plain lines."""
+    """Takes what VTK reports, from whichever object, and keeps errors as plain lines. `flags` are
+    the options for the properties and arrays that these lines may name."""
 
-    def __init__(self):
+    def __init__(self, flags=None):
+        self.flags = flags or {}
         self.errors = []
         self.warnings = []
         # Otherwise each message is on stderr a second time, with its place in the source.
@@ -35,11 +38,18 @@ class Messages:
     def on_error(self, _window, _event, text):
         # The pipeline repeats each failure in its own words.
         if "returned failure for request" not in text:
-            self.errors.append(plain(text))
+            self.errors.append(self.explain(text))
 
     @calldata_type(VTK_STRING)
     def on_warning(self, _window, _event, text):
-        self.warn(plain(text))
+        self.warn(self.explain(text))
+
+    def explain(self, text):
+        """A plain line, with the options for what it names at its end."""
+        line = plain(text)
+        words = set(re.findall(r"\w+", line))
+        named = dict.fromkeys(flag for name, flag in self.flags.items() if name in words)
+        return f"{line} (options: {', '.join(named)})" if named else line
 
     def warn(self, text):
         self.warnings.append(text)

@@ -4,14 +4,17 @@
 #ifndef PictureTesting_h
 #define PictureTesting_h
 
+#include "vtkDualDepthPeelingPass.h"
 #include "vtkFloatArray.h"
 #include "vtkImageProcessingPass.h"
 #include "vtkNew.h"
 #include "vtkRenderPassCollection.h"
+#include "vtkRenderStepsPass.h"
 #include "vtkRenderWindow.h"
 #include "vtkSSAAPass.h"
 #include "vtkSequencePass.h"
 #include "vtkSmartPointer.h"
+#include "vtkTranslucentPass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +71,16 @@ inline vtkSmartPointer<vtkRenderPass> MakeSequence(std::initializer_list<vtkRend
   auto sequence = vtkSmartPointer<vtkSequencePass>::New();
   sequence->SetPasses(collection);
   return sequence;
+}
+
+/// The usual steps, with translucent layers in their order.
+inline vtkSmartPointer<vtkRenderStepsPass> MakePeelingSteps()
+{
+  vtkNew<vtkDualDepthPeelingPass> peeling;
+  peeling->SetTranslucentPass(vtkNew<vtkTranslucentPass>());
+  auto steps = vtkSmartPointer<vtkRenderStepsPass>::New();
+  steps->SetTranslucentPass(peeling);
+  return steps;
 }
 
 ///@{ Whatever calls its delegate so.

@@ -4,12 +4,16 @@
 #ifndef RadiosityScene_h
 #define RadiosityScene_h
 
+#include "CornellBoxTesting.h"
+#include "LightTransportTesting.h"
 #include "vtkOffScreenOpenGLRenderWindow.h"
 #include "vtkRadiosity.h"
 #include "vtkRadiosityPass.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
@@ -18,6 +22,12 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace RadiosityScene
 {
@@ -117,6 +127,74 @@ struct Scene
     this->Wall->GetProperty()->SetDiffuse(0.5);
   }
 };
+
+inline void Fill(vtkPolyData* surface, const char* name, const std::array<double, 3>& value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
+  {
+    array->InsertNextTuple(value.data());
+  }
+  surface->GetCellData()->AddArray(array);
+}
+
+/// Values of an array of all actors of a scene, one after another.
+inline std::vector<double> Read(Scene& scene, const char* name)
+{
+  std::vector<double> values;
+  for (vtkActor* actor : { scene.Floor.Get(), scene.Wall.Get(), scene.Lamp.Get() })
+  {
+    vtkPolyData* output = scene.Pass->GetOutput(actor);
+    if (LightTransportTesting::Check(output != nullptr, "an actor has no output"))
+    {
+      const std::vector<double> more = LightTransportTesting::GetCellValues(output, name);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+  }
+  return values;
+}
+
+inline double GetLargest(const std::vector<double>& values)
+{
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+inline std::array<vtkIdType, 3> GetRuns(Scene& scene)
+{
+  return { scene.Pass->GetNumberOfLinkRuns(), scene.Pass->GetNumberOfLightRuns(),
+    scene.Pass->GetNumberOfSolverRuns() };
+}
+
+/// Frames until it has converged; 0 where it does not.
+inline int DrawAll(Scene& scene, int most = 100000)
+{
+  for (int frame = 1; frame <= most; ++frame)
+  {
+    scene.Window->Render();
+    if (scene.Pass->IsConverged())
+    {
+      return frame;
+    }
+  }
+  LightTransportTesting::Check(false, "it does not converge");
+  return 0;
+}
+
+/// What of an actor is drawn, where it is.
+inline vtkSmartPointer<vtkPolyData> MoveToWorld(vtkActor* actor, vtkPolyData* surface)
+{
+  vtkNew<vtkTransform> transform;
+  actor->ComputeMatrix();
+  transform->SetMatrix(actor->GetMatrix());
+  vtkNew<vtkTransformPolyDataFilter> moved;
+  moved->SetTransform(transform);
+  moved->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  moved->SetInputData(surface);
+  moved->Update();
+  return moved->GetOutput();
+}
 } // namespace RadiosityScene
 
 #endif

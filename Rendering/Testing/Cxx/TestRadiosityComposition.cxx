@@ -11,13 +11,11 @@
 #include "vtkSurfaceLighting.h"
 
 #include "vtkCameraPass.h"
-#include "vtkDualDepthPeelingPass.h"
 #include "vtkLightsPass.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLFXAAPass.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkToneMappingPass.h"
-#include "vtkTranslucentPass.h"
 
 #include <iostream>
 #include <string>
@@ -122,12 +120,7 @@ void TestToneMapping(bool byShots)
 void TestDepthPeeling(bool byShots)
 {
   Solved scene(byShots);
-  vtkNew<vtkTranslucentPass> layers;
-  vtkNew<vtkDualDepthPeelingPass> peeling;
-  peeling->SetTranslucentPass(layers);
-  vtkNew<vtkRenderStepsPass> steps;
-  steps->SetTranslucentPass(peeling);
-  scene.Pass->SetDelegatePass(steps);
+  scene.Pass->SetDelegatePass(MakePeelingSteps());
   auto veil = MakeActor(MakeSquare(1));
   veil->GetProperty()->SetOpacity(0.5);
   veil->GetProperty()->SetDiffuse(0.0);

@@ -10,7 +10,6 @@
 #include "vtkRadiosityPass.h"
 
 #include "vtkCameraPass.h"
-#include "vtkDualDepthPeelingPass.h"
 #include "vtkLightsPass.h"
 #include "vtkOpaquePass.h"
 #include "vtkOpenGLFXAAPass.h"
@@ -19,7 +18,6 @@
 #include "vtkSSAAPass.h"
 #include "vtkTestErrorObserver.h"
 #include "vtkToneMappingPass.h"
-#include "vtkTranslucentPass.h"
 
 #include <cmath>
 #include <iostream>
@@ -160,12 +158,7 @@ void TestToneMapping()
 void TestDepthPeeling()
 {
   Picture scene;
-  vtkNew<vtkTranslucentPass> layers;
-  vtkNew<vtkDualDepthPeelingPass> peeling;
-  peeling->SetTranslucentPass(layers);
-  vtkNew<vtkRenderStepsPass> steps;
-  steps->SetTranslucentPass(peeling);
-  scene.Pass->SetDelegatePass(steps);
+  scene.Pass->SetDelegatePass(MakePeelingSteps());
   vtkNew<vtkPlaneSource> source;
   source->SetCenter(100.0, 0.0, 0.0);
   vtkNew<vtkPolyDataMapper> mapper;

@@ -146,7 +146,8 @@ void TestRelativeNoise(meshTest::Checker& check)
       meshTest::Vector point = meshTest::GetPoint(soup, i);
       for (double& coordinate : point)
       {
-        coordinate *= 1.0 + noise / 3.0 * (++turn * turn % 7 - 3);
+        ++turn;
+        coordinate *= 1.0 + noise / 3.0 * (turn * turn % 7 - 3);
       }
       soup->GetPoints()->SetPoint(i, point.data());
     }

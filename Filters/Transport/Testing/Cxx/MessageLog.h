@@ -47,6 +47,8 @@ public:
     return all;
   }
 
+  void Clear() { this->Lines.clear(); }
+
 private:
   std::vector<std::string> Lines;
 };

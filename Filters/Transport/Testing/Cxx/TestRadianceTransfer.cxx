@@ -303,6 +303,49 @@ void TestErrors()
       observer->CheckErrorMessage("no environment") == 0,
     "no picture");
 }
+
+/// The back of the floor of a corner sees nothing but the sky below; fronts see what they did.
+void TestTwoSided()
+{
+  vtkNew<vtkRadianceTransfer> filters[2];
+  for (const bool isTwoSided : { false, true })
+  {
+    vtkRadianceTransfer* filter = filters[isTwoSided ? 1 : 0];
+    filter->SetInputData(MakeCorner(3));
+    filter->SetDegree(Degree);
+    filter->SetTwoSided(isTwoSided);
+    // Rays are others: as many that it does not matter.
+    filter->SetSamples(4096);
+    filter->Update();
+  }
+  vtkCellData* both = filters[1]->GetPolyDataOutput()->GetCellData();
+  vtkDataArray* backs = both->GetArray("RadianceTransferBack");
+  vtkCellData* single = filters[0]->GetPolyDataOutput()->GetCellData();
+  Check(!single->GetArray("RadianceTransferBack"), "backs that nobody asked for");
+  if (!Check(backs != nullptr, "no backs"))
+  {
+    return;
+  }
+  const double down[3] = { 0.0, 0.0, -1.0 };
+  double harmonics[(Degree + 1) * (Degree + 1)];
+  SphericalHarmonics::Evaluate(Degree, down, harmonics);
+  const std::vector<double> kernel = SphericalHarmonics::GetCosineKernel(Degree, 1.0);
+  double worst = 0.0;
+  double errors = 0.0;
+  double squares = 0.0;
+  for (int k = 0; k < (Degree + 1) * (Degree + 1); ++k)
+  {
+    const auto degree = static_cast<std::size_t>(std::sqrt(k));
+    worst = std::max(worst, std::abs(backs->GetComponent(0, k) - kernel[degree] * harmonics[k]));
+    const double front = single->GetArray("RadianceTransfer")->GetComponent(0, k);
+    const double other = both->GetArray("RadianceTransfer")->GetComponent(0, k);
+    errors += std::pow(other - front, 2);
+    squares += front * front;
+  }
+  Check(worst < 1e-12, "the back of a floor is off by " + std::to_string(worst));
+  std::cout << "fronts of two sides differ by " << std::sqrt(errors / squares) << "\n";
+  Check(errors < 4e-4 * squares, "fronts are others where backs count");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -315,5 +358,6 @@ int TestRadianceTransfer(int, char*[])
   TestTurns();
   TestInputs();
   TestErrors();
+  TestTwoSided();
   return Result();
 }

@@ -4,6 +4,8 @@
 // errors, against the matrix of all pairs.
 #include "RadiosityTesting.h"
 
+#include "vtkSMPTools.h"
+
 #include <functional>
 
 using namespace LightTransportTesting;
@@ -146,6 +148,61 @@ void TestErrors()
 }
 
 //------------------------------------------------------------------------------
+/// With the power of the number of rays that was measured, .62, as far as one scene tells.
+void TestFall()
+{
+  for (const bool open : { false, true })
+  {
+    auto scene = MakeScene(0.7, open);
+    vtkDataArray* emission = scene->GetCellData()->GetArray("Emission");
+    for (vtkIdType patch = 0; patch < scene->GetNumberOfCells(); ++patch)
+    {
+      emission->SetComponent(patch, 0, patch % 3 == 0 ? 1.0 : 0.0);
+    }
+    const Vector right = Solved(scene, Dense).Get("Radiosity");
+    const auto measure = [&](double tolerance, double& rays)
+    {
+      const Solved run(scene, Sampled,
+        [&](vtkRadiosity* filter) { filter->SetLinkTolerance(tolerance); });
+      rays = run.GetNumber("RaysPerPatch");
+      return Compare(scene, run.Get("Radiosity"), right);
+    };
+    double few = 0.0, many = 0.0;
+    const double first = measure(3.7e-2, few);
+    const double last = measure(3e-3, many);
+    const double power = std::log(first / last) / std::log(many / few);
+    CheckClose(power, 0.62, 0.17, "power of the number of rays by which the error falls");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The same bits with any number of threads, errors too.
+void TestThreads()
+{
+  auto scene = MakeScene(0.7);
+  std::vector<Vector> results;
+  for (const int threads : { 1, 2, 5 })
+  {
+    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
+      [&]()
+      {
+        const Solved run(scene, Sampled,
+          [](vtkRadiosity* filter)
+          {
+            filter->SetAccuracy(3e-2);
+            filter->ComputeErrorsOn();
+          });
+        results.push_back(run.Get("Radiosity"));
+        results.push_back(run.Get("RadiosityError"));
+      });
+  }
+  for (std::size_t k = 2; k < results.size(); ++k)
+  {
+    Check(results[k] == results[k % 2], "the same bits with any number of threads");
+  }
+}
+
+//------------------------------------------------------------------------------
 /// The links are there for all solvers, and for one that was given them.
 void TestSolvers()
 {
@@ -202,10 +259,19 @@ void TestExtremes()
   CheckClose((furnace.Get("Radiosity").array() - 2.0).abs().maxCoeff(), 0.0, 1e-7,
     "even light in a closed room");
   CheckClose(furnace.GetNumber("RaysPerPatch"), 64.0, 0.0, "needs few rays");
+  CheckClose(furnace.GetNumber("AccuracyReached"), 0.0, 1e-9, "and knows that it is exact");
 
   AddArray(even, "Emission", { 0.0 });
   const Solved none(even, Sampled);
   Check(none.Get("Radiosity").cwiseAbs().maxCoeff() == 0.0, "no light: " + none.Messages);
+
+  Surface one;
+  one.AddPolygon({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
+  auto single = one.Get();
+  AddArray(single, "Reflectance", { 0.5 });
+  AddArray(single, "Emission", { 1.0 });
+  const Solved alone(single, Sampled);
+  Check(alone.Get("Radiosity")[0] == 1.0, "one patch: " + alone.Messages);
 }
 
 //------------------------------------------------------------------------------
@@ -254,6 +320,64 @@ void TestSky()
   Check(reached <= 1e-2 && error < 2.0 * reached && error > 0.3 * reached,
     "sky: said " + std::to_string(reached) + ", is " + std::to_string(error));
 }
+
+//------------------------------------------------------------------------------
+/// Links that are kept serve other light, if they are good enough for it; what is missing is added.
+void TestOtherLight()
+{
+  auto scene = MakeScene(0.7);
+  auto* emission = vtkDoubleArray::SafeDownCast(scene->GetCellData()->GetArray("Emission"));
+  const vtkIdType lamp = scene->GetNumberOfCells() - 1;
+  const Solved run(scene, Sampled);
+  vtkRadiosity* filter = run.Filter;
+  const auto update = [&](const std::string& what)
+  {
+    emission->Modified();
+    filter->Update();
+    const double reached = run.GetNumber("AccuracyReached");
+    const double error =
+      Compare(scene, run.Get("Radiosity"), Solved(scene, Dense).Get("Radiosity"));
+    Check(reached <= filter->GetAccuracy() && error < 2.0 * reached,
+      what + ": said " + std::to_string(reached) + ", is " + std::to_string(error));
+  };
+  const Vector first = run.Get("Radiosity");
+  const vtkIdType runs = filter->GetNumberOfLinkRuns();
+  Check(runs > 1, "a first look and better ones");
+  emission->SetValue(lamp, 3.0);
+  update("a brighter lamp");
+  CheckClose(filter->GetNumberOfLinkRuns(), runs, 0.0, "no links for a brighter lamp");
+  Check((run.Get("Radiosity") - 3.0 * first).cwiseAbs().maxCoeff() < 1e-6, "all is brighter");
+
+  filter->SetAccuracy(5e-2);
+  emission->SetValue(lamp, 1.0);
+  update("less is asked");
+  CheckClose(filter->GetNumberOfLinkRuns(), runs, 0.0, "no links where less is asked for");
+  Check((run.Get("Radiosity") - first).cwiseAbs().maxCoeff() < 1e-6, "as it was");
+  filter->SetAccuracy(1e-2);
+
+  const double rows = run.GetNumber("ExactRows");
+  const double rays = run.GetNumber("RaysPerPatch");
+  emission->SetValue(lamp, 0.0);
+  emission->SetValue(0, 1.0);
+  update("another lamp");
+  const vtkIdType more = filter->GetNumberOfLinkRuns() - runs;
+  Check(more >= 1 && more < runs, "what is missing: " + std::to_string(more) + " runs");
+  Check(run.GetNumber("ExactRows") > rows && run.GetNumber("RaysPerPatch") >= rays,
+    "what was there stays");
+  emission->SetValue(lamp, 2.0);
+  update("both");
+  CheckClose(filter->GetNumberOfLinkRuns(), runs + more, 0.0, "no links for both");
+
+  // What moves has links of its own.
+  auto moved = MakeScene(0.7);
+  moved->GetPoints()->SetPoint(0, -0.1, 0.0, 0.0);
+  filter->SetInputData(moved);
+  filter->Update();
+  const Solved anew(moved, Sampled);
+  Check(run.Get("Radiosity") == anew.Get("Radiosity"), "a scene that has moved");
+  CheckClose(filter->GetNumberOfLinkRuns() - runs - more, anew.Filter->GetNumberOfLinkRuns(), 0.0,
+    "all links of that");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -261,9 +385,12 @@ int TestSampledRadiosity(int, char*[])
 {
   TestAccuracy();
   TestErrors();
+  TestFall();
+  TestThreads();
   TestSolvers();
   TestExtremes();
   TestTemperatures();
   TestSky();
+  TestOtherLight();
   return Result();
 }

@@ -8,6 +8,7 @@
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkLight.h"
+#include "vtkPointData.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkTestErrorObserver.h"
 

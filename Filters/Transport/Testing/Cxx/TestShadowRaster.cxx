@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a point sees of a target past triangles, from rasters of all shifts together, against the
+// What a point sees of a target past polygons, from rasters of all shifts together, against the
 // exact view; closed sheets let nothing through.
 
 #include "ViewFactors/ShadowRaster.h"
@@ -38,19 +38,41 @@ ShadowRaster::Target MakeTarget(const Corners& corners)
 }
 
 //------------------------------------------------------------------------------
-ShadowRaster::Triangles MakeTriangles(const std::vector<Corners>& triangles)
+void SetShapes(const std::vector<Corners>& polygons, ShadowRaster::Occluders& shapes)
 {
-  ShadowRaster::Triangles result;
-  for (const Corners& triangle : triangles)
+  shapes.Clear();
+  for (const Corners& polygon : polygons)
   {
-    result.Add(triangle[0].data(), triangle[1].data(), triangle[2].data());
+    std::vector<std::array<double, 3>> places;
+    for (const Vector& corner : polygon)
+    {
+      places.push_back({ corner.x(), corner.y(), corner.z() });
+    }
+    shapes.Add(places);
   }
-  return result;
+}
+
+//------------------------------------------------------------------------------
+ShadowRaster::Occluders MakeShapes(const std::vector<Corners>& polygons)
+{
+  ShadowRaster::Occluders shapes;
+  SetShapes(polygons, shapes);
+  return shapes;
+}
+
+//------------------------------------------------------------------------------
+ShadowRaster::Flux See(const ShadowRaster::Target& target, const ShadowRaster::Occluders& occluders,
+  const double* point, const double* normal, const double* shift,
+  ShadowRaster::Weights weights = ShadowRaster::Weights::Fine)
+{
+  ShadowRaster::View view;
+  ShadowRaster::Look(target, occluders, point, shift, view);
+  return ShadowRaster::Weigh(view, normal, weights);
 }
 
 //------------------------------------------------------------------------------
 // The visible part from rasters of size x size shifts.
-double GetMeanShare(const ShadowRaster::Target& target, const ShadowRaster::Triangles& triangles,
+double GetMeanShare(const ShadowRaster::Target& target, const ShadowRaster::Occluders& occluders,
   const Vector& point, const double* normal, int size)
 {
   ShadowRaster::Flux sum;
@@ -59,7 +81,7 @@ double GetMeanShare(const ShadowRaster::Target& target, const ShadowRaster::Tria
     for (int j = 0; j < size; ++j)
     {
       const double shift[2] = { (i + 0.5) / size, (j + 0.5) / size };
-      const auto flux = ShadowRaster::See(target, triangles, point.data(), normal, shift);
+      const auto flux = See(target, occluders, point.data(), normal, shift);
       sum.Visible += flux.Visible;
       sum.Open += flux.Open;
     }
@@ -112,6 +134,20 @@ std::vector<Corners> MakeOccluders(int kind, Random& random)
   {
     occluders.push_back(random.Triangle(random.Point(0.3) + Vector(0.0, 0.0, 0.5), 0.15));
   }
+  if (kind == 4) // with many corners, one of them on an edge
+  {
+    Corners polygon = Scale(MakePolygon(7, 0.2), 0.25, 0.2, 1.0);
+    polygon.insert(polygon.begin() + 1, 0.5 * (polygon[0] + polygon[1]));
+    for (Vector& corner : polygon)
+    {
+      corner.z() = 0.5 + 0.2 * corner.x();
+    }
+    occluders = { polygon, Scale(MakePolygon(4, 0.2), 0.2, 0.35, 1.0) };
+    for (Vector& corner : occluders[1])
+    {
+      corner.z() = 0.3;
+    }
+  }
   return occluders;
 }
 
@@ -122,7 +158,7 @@ void CheckShadow(const Corners& target, const std::vector<Corners>& occluders, c
   const double exact =
     GetVisibleFlux(target, occluders, point, normal) / GetFlux(target, point, normal);
   const double share =
-    GetMeanShare(MakeTarget(target), MakeTriangles(occluders), point, normal.data(), 48);
+    GetMeanShare(MakeTarget(target), MakeShapes(occluders), point, normal.data(), 48);
   Check(std::abs(share - exact) < 1e-4,
     what + ": " + std::to_string(share) + " instead of " + std::to_string(exact));
 }
@@ -136,7 +172,7 @@ void TestShadows()
     MakePolygon(4, 1.1), MakePolygon(12, 0.1), Scale(MakePolygon(3, 0.5), 1e-4, 1.0, 1.0) };
   for (std::size_t k = 0; k < targets.size(); ++k)
   {
-    for (int kind = 0; kind < 4; ++kind)
+    for (int kind = 0; kind < 5; ++kind)
     {
       for (const double unit : { 1e-6, 1.0, 1e6 })
       {
@@ -204,7 +240,7 @@ void TestClosedSheets()
     // Points and shifts with few digits put edges and corners on lines and samples.
     const double shift[2] = { even ? 0.125 * (k / 2 % 8) : random.Uniform(),
       even ? 0.125 * (k / 16 % 8) : random.Uniform() };
-    visible += ShadowRaster::See(square, MakeTriangles(sheet), point.data(), Down, shift).Visible;
+    visible += See(square, MakeShapes(sheet), point.data(), Down, shift).Visible;
   }
   CheckClose(visible, 0.0, 0.0, "what a closed sheet lets through");
 }
@@ -229,34 +265,80 @@ void TestEdgeOn()
       triangle.push_back(point - direction * (random.Uniform(0.1, 0.9) / direction.z()));
     }
     const double shift[2] = { random.Uniform(), random.Uniform() };
-    const auto flux =
-      ShadowRaster::See(square, MakeTriangles({ triangle }), point.data(), Down, shift);
+    const auto flux = See(square, MakeShapes({ triangle }), point.data(), Down, shift);
     largest = std::max(largest, 1.0 - flux.GetShare());
   }
   CheckClose(largest, 0.0, 0.0, "shadow of a triangle seen from its plane");
 }
 
 //------------------------------------------------------------------------------
-// What is left over in the arrays of triangles counts for nothing.
+// What is left over in the arrays of shapes counts for nothing.
 void TestCounts()
 {
   Random random(4);
   const Corners target = MakePolygon(4, 0.7);
-  ShadowRaster::Triangles triangles;
+  ShadowRaster::Occluders shapes;
   for (int count = 40; count >= 0; --count)
   {
     std::vector<Corners> occluders;
-    triangles.Clear();
     for (int k = 0; k < count; ++k)
     {
       occluders.push_back(random.Triangle(random.Point(0.4) + Vector(0.0, 0.0, 0.6), 0.1));
-      triangles.Add(occluders[k][0].data(), occluders[k][1].data(), occluders[k][2].data());
     }
+    SetShapes(occluders, shapes);
     const Vector point(0.1, 0.2, 2.0);
     const double exact = GetVisibleFlux(target, occluders, point, -Vector::UnitZ()) /
       GetFlux(target, point, Vector::UnitZ());
-    const double share = GetMeanShare(MakeTarget(target), triangles, point, Down, 16);
+    const double share = GetMeanShare(MakeTarget(target), shapes, point, Down, 16);
     Check(std::abs(share - exact) < 5e-4, std::to_string(count) + " triangles");
+  }
+}
+
+//------------------------------------------------------------------------------
+// A corner that is there twice, but for rounding, leads nowhere.
+void TestTwins()
+{
+  const ShadowRaster::Target target = MakeTarget(MakePolygon(4, 0.7));
+  Corners polygon = Scale(MakePolygon(5, 0.3), 0.4, 0.3, 0.0);
+  for (Vector& corner : polygon)
+  {
+    corner.z() = 0.5;
+  }
+  const Vector point(0.1, 0.2, 2.0);
+  const double once = GetMeanShare(target, MakeShapes({ polygon }), point, Down, 16);
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+  {
+    Corners twins = polygon;
+    twins.insert(twins.begin() + static_cast<std::ptrdiff_t>(k),
+      polygon[k] + Vector(1e-15, 1e-15 * static_cast<double>(k), 0.0));
+    CheckClose(GetMeanShare(target, MakeShapes({ twins }), point, Down, 16), once, 1e-6,
+      "a corner that is there twice");
+  }
+}
+
+//------------------------------------------------------------------------------
+// Many samples share a weight where the target is far away: that is off by less and less.
+void TestCoarseWeights()
+{
+  Random random(5);
+  const ShadowRaster::Target square =
+    MakeTarget({ { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } });
+  const double shift[2] = { 0.5, 0.5 };
+  for (const double distance : { 3.0, 10.0, 30.0 })
+  {
+    double largest = 0.0;
+    for (int k = 0; k < 1000; ++k)
+    {
+      const auto triangles =
+        MakeShapes({ random.Triangle(random.Point(0.8) + Vector(0.0, 0.0, 1.0), 0.6) });
+      const Vector point(random.Uniform(), random.Uniform(), distance);
+      const auto fine = See(square, triangles, point.data(), Down, shift);
+      const auto coarse =
+        See(square, triangles, point.data(), Down, shift, ShadowRaster::Weights::Coarse);
+      largest = std::max(largest, std::abs(fine.GetShare() - coarse.GetShare()));
+    }
+    std::cout << "coarse weights at " << distance << ": " << largest << "\n";
+    Check(largest < 0.02 / (distance * distance) + 1e-6, "weights of many samples");
   }
 }
 } // namespace
@@ -268,5 +350,7 @@ int TestShadowRaster(int, char*[])
   TestClosedSheets();
   TestEdgeOn();
   TestCounts();
+  TestTwins();
+  TestCoarseWeights();
   return Result();
 }

@@ -333,16 +333,23 @@ void TestHiding()
   { return GetCorners(scene, scene.GetPatch(polygon)); };
   const auto getWall = [&](vtkIdType polygon) { return walls.GetWall(scene.GetPatch(polygon)); };
   const Corners a = getCorners(0), b = getCorners(1);
-  Check(walls.HidesAll(getWall(2), a, b, true), "a screen as large as the plates hides them");
+  const auto hides = [&](vtkIdType polygon, const Corners& from, const Corners& to, bool strictly)
+  {
+    OccluderWalls::End ends[2];
+    ends[0].Set(from);
+    ends[1].Set(to);
+    return walls.HidesAll(getWall(polygon), ends[0], ends[1], strictly);
+  };
+  Check(hides(2, a, b, true), "a screen as large as the plates hides them");
   Corners beside = b;
   beside[0] -= 0.01 * (beside[2] - beside[0]);
-  Check(!walls.HidesAll(getWall(2), a, beside, true), "a corner is seen past it");
-  Check(!walls.HidesAll(getWall(0), a, b, false), "a plate does not hide itself");
-  Check(!walls.HidesAll(getWall(2), a, a, false), "nothing is between what is on one side");
+  Check(!hides(2, a, beside, true), "a corner is seen past it");
+  Check(!hides(0, a, b, false), "a plate does not hide itself");
+  Check(!hides(2, a, a, false), "nothing is between what is on one side");
   Corners touching = getCorners(2);
   touching[1] += 0.5 * (b[0] - a[0]);
-  Check(!walls.HidesAll(getWall(2), a, touching, true), "it is on the plane in part");
-  Check(walls.HidesAll(getWall(2), a, touching, false), "but behind it all the same");
+  Check(!hides(2, a, touching, true), "it is on the plane in part");
+  Check(hides(2, a, touching, false), "but behind it all the same");
 }
 } // namespace
 

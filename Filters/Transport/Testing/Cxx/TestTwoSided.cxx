@@ -7,6 +7,7 @@
 #include "vtkDirectIrradiance.h"
 #include "vtkLight.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <cstdio>
@@ -483,7 +484,7 @@ void TestMessages()
 
   AddArray(data, "EmissionBack", { 1.0, 2.0 });
   data->Modified();
-  Expect(radiosity, "\"EmissionBack\" has 2 components where \"Emission\" has 1");
+  Expect(radiosity, R"("EmissionBack" has 2 components where "Emission" has 1)");
   AddArray(data, "EmissionBack", { -1.0 });
   data->Modified();
   Expect(radiosity, "\"Emission\" is -1 at the back of polygon 0");

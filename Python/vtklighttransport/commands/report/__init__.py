@@ -76,6 +76,12 @@ class Group:
     def add_argument(self, *names, **settings):
         self.actions.append(self.group.add_argument(*names, **settings))
 
+    def get_default(self, name):
+        return self.group.get_default(name)
+
+    def set_defaults(self, **values):
+        self.group.set_defaults(**values)
+
     def find_given(self, options):
         return [action.option_strings[0] for action in self.actions
                 if getattr(options, action.dest) != action.default]
