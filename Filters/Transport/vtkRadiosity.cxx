@@ -5,6 +5,7 @@
 #include "Links/LinkOperators.h"
 #include "Radiosity/Brightness.h"
 #include "Radiosity/ConvergenceTable.h"
+#include "Radiosity/LinkMethodChoice.h"
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolver.h"
@@ -75,13 +76,6 @@ double GetElement(const std::vector<double>& values, int index)
 }
 
 //------------------------------------------------------------------------------
-const char* GetName(LightTransport::LinkMethod method)
-{
-  using Method = LightTransport::LinkMethod;
-  return method == Method::Dense ? "Dense" : method == Method::Sampled ? "Sampled" : "Hierarchical";
-}
-
-//------------------------------------------------------------------------------
 void PrintValues(ostream& os, const std::vector<double>& values)
 {
   for (const double value : values)
@@ -121,10 +115,11 @@ protected:
   void Write() override;
 
 private:
-  LightTransport::LinkMethod GetLinkMethod() const;
+  LinkMethodChoice ChooseLinkMethod() const;
+  void DecideLinkMethod();
   bool IsHierarchical() const
   {
-    return this->GetLinkMethod() == LightTransport::LinkMethod::Hierarchical;
+    return this->Choice.Get() == LightTransport::LinkMethod::Hierarchical;
   }
   Outcome CheckSolver() const;
 
@@ -159,6 +154,7 @@ private:
   vtkRadiosity* Owner;
   OwnShots* Others;                    // null but where others shoot
   const SolverEntry* Solver = nullptr; // set by Check
+  LinkMethodChoice Choice;             // begun by Check
   RadiosityMaterials Materials;
   const LightTransport::Links* Links = nullptr; // null where the solver needs none
   LightTransport::Links BrightLinks;            // serve this run's light alone
@@ -201,13 +197,15 @@ Outcome vtkRadiosity::Run::Check()
     return Outcome::Failed(SolverTable::ExplainUnknown(this->Owner->Solver));
   }
   const vtkViewFactors* given = this->Solver->NeedsLinks() ? this->Owner->ViewFactors : nullptr;
-  const LightTransport::LinkMethod linked = this->GetLinkMethod();
+  this->Choice = this->ChooseLinkMethod();
+  const LightTransport::LinkMethod linked = this->Choice.Get();
   if (given && this->Owner->LinkMethod != LINK_METHOD_AUTO &&
     static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod) != linked)
   {
     return Outcome::Failed(std::string("LinkMethod is not what the given view factors are: set it "
                                        "to Auto, or LinkMethod of vtkViewFactors to ") +
-      GetName(static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod)) + ".");
+      LinkMethodChoice::GetName(static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod)) +
+      ".");
   }
   if (given && given->TwoSided != this->Owner->TwoSided)
   {
@@ -254,25 +252,34 @@ Outcome vtkRadiosity::Run::Gather()
 }
 
 //------------------------------------------------------------------------------
-LightTransport::LinkMethod vtkRadiosity::Run::GetLinkMethod() const
+LinkMethodChoice vtkRadiosity::Run::ChooseLinkMethod() const
+{
+  LinkMethodChoice::Wishes wishes;
+  if (vtkViewFactors* given = this->Solver->NeedsLinks() ? this->Owner->ViewFactors : nullptr)
+  {
+    wishes.AreGiven = true;
+    wishes.Given = given->Store->GetMethod(given->GetSettings());
+  }
+  wishes.Method = this->Owner->LinkMethod;
+  wishes.PairSolver = this->Solver->NeedsEachPair() ? this->Solver->Name : nullptr;
+  wishes.ViewFactorTolerance = this->Owner->ViewFactorTolerance;
+  wishes.LinkTolerance = this->Owner->LinkTolerance;
+  wishes.RefinesByBrightness = this->Owner->RefineByBrightness;
+  wishes.UsesAtlas = this->Owner->ClusterTree == CLUSTER_TREE_ATLAS;
+  return LinkMethodChoice(wishes);
+}
+
+//------------------------------------------------------------------------------
+void vtkRadiosity::Run::DecideLinkMethod()
 {
   using Method = LightTransport::LinkMethod;
-  if (vtkViewFactors* given = this->Owner->ViewFactors)
+  if (this->Choice.IsOpen())
   {
-    return given->Store->GetMethod(given->GetSettings());
+    const bool areFew = this->Scene.GetNumberOfPatches() <= MostDensePatches;
+    this->Choice.Decide(areFew ? Method::Dense : Method::Sampled,
+      areFew ? "few patches" : "many patches");
   }
-  if (this->Owner->LinkMethod != LINK_METHOD_AUTO)
-  {
-    return static_cast<Method>(this->Owner->LinkMethod);
-  }
-  if (this->Scene.GetNumberOfPatches() <= MostDensePatches || this->Solver->NeedsEachPair())
-  {
-    return Method::Dense;
-  }
-  // What only links between clusters have asks for them.
-  return this->Owner->RefineByBrightness || this->Owner->ClusterTree == CLUSTER_TREE_ATLAS
-    ? Method::Hierarchical
-    : Method::Sampled;
+  this->WarnOnce(this->Choice.ListUnheeded());
 }
 
 //------------------------------------------------------------------------------
@@ -319,7 +326,8 @@ Outcome vtkRadiosity::Run::Link()
   {
     return Outcome::Done();
   }
-  if (this->GetLinkMethod() == LightTransport::LinkMethod::Sampled && !this->Owner->ViewFactors &&
+  this->DecideLinkMethod();
+  if (this->Choice.Get() == LightTransport::LinkMethod::Sampled && !this->Owner->ViewFactors &&
     this->Owner->LinkTolerance == 0.0)
   {
     return this->LinkByRays();
@@ -354,7 +362,7 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
   const bool needsAll =
     given || this->Owner->EnforceClosure || this->Materials.Settings.HasBackground();
   const ViewFactorSettings own{ this->GetViewFactorTolerance(), this->Owner->EnforceClosure,
-    this->GetLinkMethod(), linkTolerance, plan };
+    this->Choice.Get(), linkTolerance, plan };
   this->Links = &store.GetLinks();
   const Outcome updated = store.Update(this->Scene, given ? given->GetSettings() : own,
     needsAll ? std::vector<bool>() : this->Materials.FindSenders(), this->AllRanks, monitor);
@@ -822,9 +830,8 @@ void vtkRadiosity::Run::WriteSummaries() const
   if (this->Links)
   {
     FieldValues::Add(fields, "LinkMethodUsed",
-      std::string(GetName(this->Links->Matrix ? LightTransport::LinkMethod::Dense
-          : this->Links->IsSampled()          ? LightTransport::LinkMethod::Sampled
-                                              : LightTransport::LinkMethod::Hierarchical)));
+      std::string(LinkMethodChoice::GetName(this->Choice.Get())));
+    FieldValues::Add(fields, "LinkMethodExplanation", this->Choice.Explain());
     this->Links->AddSummaries(fields);
     if (this->Links->IsSampled())
     {

@@ -194,9 +194,12 @@ public:
    * patches (vtkExchangeHierarchy), whose number hardly grows with that of the patches, to an
    * accuracy of LinkTolerance; Sampled by what rays of each patch meet, and exact view factors of
    * the few patches that send most of the light (see Accuracy), which is the fastest where 1 % or
-   * more is enough. Default LINK_METHOD_AUTO: what SetViewFactors gave; Dense up to 8,192 patches,
-   * and with the solvers that need it (GaussSeidel); Hierarchical with RefineByBrightness or the
-   * ClusterTree Atlas; else Sampled. Field data LinkMethodUsed says which.
+   * more is enough. Default LINK_METHOD_AUTO: what SetViewFactors gave; else what is asked
+   * for decides, the first of: Dense with a solver that needs it (GaussSeidel), or a
+   * ViewFactorTolerance; Hierarchical with RefineByBrightness or the ClusterTree Atlas; Sampled
+   * with a LinkTolerance. Where nothing of that is asked for, Dense up to 8,192 patches, else
+   * Sampled. Field data LinkMethodUsed says which, and LinkMethodExplanation why; a warning tells
+   * of a tolerance that has no effect on the links.
    */
   vtkSetClampMacro(LinkMethod, int, LINK_METHOD_AUTO, LINK_METHOD_SAMPLED);
   vtkGetMacro(LinkMethod, int);

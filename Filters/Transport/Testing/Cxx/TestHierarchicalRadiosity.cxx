@@ -41,12 +41,13 @@ struct Solved
   }
 
   double Get(const char* name) const { return GetSummary(this->Filter->GetPolyDataOutput(), name); }
-  std::string GetLinkMethod() const
+  std::string GetText(const char* name) const
   {
     vtkAbstractArray* used =
-      this->Filter->GetPolyDataOutput()->GetFieldData()->GetAbstractArray("LinkMethodUsed");
+      this->Filter->GetPolyDataOutput()->GetFieldData()->GetAbstractArray(name);
     return used ? std::string(used->GetVariantValue(0).ToString()) : "";
   }
+  std::string GetLinkMethod() const { return this->GetText("LinkMethodUsed"); }
 
 private:
   vtkSmartPointer<vtkRadiosity> Filter;
@@ -60,7 +61,7 @@ Solved Solve(
   vtkNew<vtkRadiosity> filter;
   filter->SetDeviceToCPU();
   filter->SetTolerance(1e-8);
-  filter->SetViewFactorTolerance(1e-3);
+  filter->SetViewFactorTolerance(linkMethod == vtkRadiosity::LINK_METHOD_DENSE ? 1e-3 : 0.0);
   filter->SetLinkMethod(linkMethod);
   settings(filter);
   return { filter, data };
@@ -144,6 +145,57 @@ void TestMethods()
   CheckMessage(Solve(scene, Hierarchical, gaussSeidel),
     "GaussSeidel needs a link for each pair of patches: set LinkMethod to Dense, or use");
   Check(Solve(scene, Auto, gaussSeidel).GetLinkMethod() == "Dense", "GaussSeidel gets a matrix");
+}
+
+//------------------------------------------------------------------------------
+/// What is asked for decides, or is told of.
+void TestWishes()
+{
+  auto scene = MakeScene(1.2, 20);
+  const auto tolerate = [](double ofFactors, double ofLinks)
+  {
+    return [=](vtkRadiosity* filter)
+    {
+      filter->SetViewFactorTolerance(ofFactors);
+      filter->SetLinkTolerance(ofLinks);
+    };
+  };
+  const auto check = [&](int method, const Settings& settings, const std::string& explained,
+                       const std::string& message)
+  {
+    const Solved run = Solve(scene, method, settings);
+    Check(run.GetText("LinkMethodExplanation") == explained &&
+        explained.find(run.GetLinkMethod() + ": ") == 0,
+      explained + ", not " + run.GetText("LinkMethodExplanation"));
+    Check(message.empty() ? run.Messages.empty() : run.Messages.find(message) != std::string::npos,
+      explained + " with: " + run.Messages);
+    Check(run.Radiosity.size() > 0, explained + ": a solution");
+  };
+  check(Auto, tolerate(1e-2, 0.0), "Dense: ViewFactorTolerance asks for it", "");
+  check(Auto, tolerate(0.0, 1e-2), "Sampled: LinkTolerance asks for links that it decides on", "");
+  check(Auto, tolerate(1e-2, 1e-2), "Dense: ViewFactorTolerance asks for it",
+    "LinkTolerance has no effect on the links");
+  check(Dense, tolerate(1e-2, 1e-2), "Dense: asked for",
+    "set LinkMethod to Sampled or Hierarchical, or LinkTolerance to 0");
+  for (const int method : { Hierarchical, static_cast<int>(vtkRadiosity::LINK_METHOD_SAMPLED) })
+  {
+    const std::string name = method == Hierarchical ? "Hierarchical" : "Sampled";
+    check(method, tolerate(0.0, 1e-2), name + ": asked for", "");
+    check(method, tolerate(1e-2, 1e-2), name + ": asked for",
+      "ViewFactorTolerance has no effect on the links (" + name + ": asked for)");
+  }
+  check(
+    Auto, [](vtkRadiosity* filter) { filter->RefineByBrightnessOn(); },
+    "Hierarchical: RefineByBrightness asks for it", "");
+  vtkNew<vtkViewFactors> factors;
+  check(
+    Auto,
+    [&](vtkRadiosity* filter)
+    {
+      filter->SetViewFactors(factors);
+      filter->SetViewFactorTolerance(1e-2);
+    },
+    "Dense: given by SetViewFactors", "set it in their vtkViewFactors");
 }
 
 //------------------------------------------------------------------------------
@@ -243,9 +295,9 @@ void TestTinyLamp()
     vtkNew<vtkRadiosity> filter;
     filter->SetDeviceToCPU();
     filter->SetTolerance(1e-8);
-    filter->SetViewFactorTolerance(1e-5);
     filter->SetLinkMethod(linkMethod);
-    filter->SetLinkTolerance(tolerance);
+    linkMethod == Dense ? filter->SetViewFactorTolerance(1e-5)
+                        : filter->SetLinkTolerance(tolerance);
     filter->RefineByBrightnessOn();
     const Solved run(filter, room);
     vtkDataArray* array = filter->GetPolyDataOutput()->GetCellData()->GetArray("Irradiance");
@@ -487,6 +539,7 @@ void TestFurnace()
 int TestHierarchicalRadiosity(int, char*[])
 {
   TestMethods();
+  TestWishes();
   TestGivenFactors();
   TestManyPatches();
   TestBrightness();

@@ -372,8 +372,8 @@ void TestEquilibrium()
     vtkNew<vtkRadiosity> radiosity;
     radiosity->SetInputData(cube);
     radiosity->SetLinkMethod(method);
-    radiosity->SetLinkTolerance(tolerance);
-    radiosity->SetViewFactorTolerance(tolerance);
+    method == vtkRadiosity::LINK_METHOD_DENSE ? radiosity->SetViewFactorTolerance(tolerance)
+                                              : radiosity->SetLinkTolerance(tolerance);
     radiosity->SetEnforceClosure(closed);
     radiosity->SetBackgroundTemperature(300.0);
     radiosity->Update();

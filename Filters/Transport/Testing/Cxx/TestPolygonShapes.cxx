@@ -241,9 +241,9 @@ void Solve(vtkDataObject* data, vtkRadiosity* radiosity, int linkMethod)
 {
   radiosity->SetInputDataObject(data);
   radiosity->SetTolerance(1e-10);
-  radiosity->SetViewFactorTolerance(1e-6);
   radiosity->SetLinkMethod(linkMethod);
-  radiosity->SetLinkTolerance(1e-4);
+  linkMethod == vtkRadiosity::LINK_METHOD_HIERARCHICAL ? radiosity->SetLinkTolerance(1e-4)
+                                                       : radiosity->SetViewFactorTolerance(1e-6);
   radiosity->Update();
 }
 

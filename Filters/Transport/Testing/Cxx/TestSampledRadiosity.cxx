@@ -31,7 +31,8 @@ struct Solved
     this->Filter->SetDeviceToCPU();
     this->Filter->SetTolerance(1e-8);
     this->Filter->SetLinkMethod(linkMethod);
-    this->Filter->SetViewFactorTolerance(1e-3);
+    this->Filter->SetViewFactorTolerance(
+      linkMethod == vtkRadiosity::LINK_METHOD_DENSE ? 1e-3 : 0.0);
     settings(this->Filter);
     this->Filter->Update();
     this->Messages = observer->GetAllButVerdict();
