@@ -668,7 +668,7 @@ RadiosityEquation vtkRadiosity::Run::DescribeLinks(RadiosityEquation equation) c
 {
   equation.Areas = &this->Links->GetExchange()->GetAreas();
   equation.RowSums = &this->Links->RowSums;
-  equation.RowSumError = this->Links->GetRowSumError();
+  equation.RowSumErrors = this->Links->GetRowSumErrors();
   equation.GetPolygon = [this](vtkIdType patch) { return this->Scene.GetPolygon(patch); };
   return equation;
 }

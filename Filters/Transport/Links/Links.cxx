@@ -57,26 +57,28 @@ std::vector<double> Links::GetErrors() const
 }
 
 //------------------------------------------------------------------------------
-double Links::GetRowSumError() const
+std::vector<double> Links::GetRowSumErrors() const
 {
+  std::vector<double> errors = this->RowErrors;
+  errors.resize(this->RowSums.size(), 0.0);
   if (this->IsSampled())
   {
     double squares = 0.0;
-    for (const double error : this->RowErrors)
+    for (const double error : errors)
     {
       squares += error * error;
     }
-    return std::max(std::sqrt(squares) / static_cast<double>(this->RowErrors.size()),
-      DoublePrecision);
+    errors.assign(errors.size(), std::sqrt(squares) / static_cast<double>(errors.size()));
   }
-  double largest = DoublePrecision;
-  for (std::size_t row = 0; row < this->RowErrors.size(); ++row)
+  for (std::size_t row = 0; row < errors.size(); ++row)
   {
-    const double error = this->RowErrors[row];
-    const double gap = this->AreRowsClosed ? std::abs(1.0 - this->RowSums[row]) : error;
-    largest = std::max(largest, std::min(error, gap));
+    if (this->AreRowsClosed && !this->IsSampled())
+    {
+      errors[row] = std::min(errors[row], std::abs(1.0 - this->RowSums[row]));
+    }
+    errors[row] = std::max(errors[row], DoublePrecision);
   }
-  return largest;
+  return errors;
 }
 
 //------------------------------------------------------------------------------

@@ -106,9 +106,9 @@ struct Links
   /// fractions, and of their sum.
   std::vector<double> GetErrors() const;
 
-  /// The largest error of a row sum. A row without openings that has been closed is as good as
-  /// its sum. Rows of rays are wrong independently of each other: of them that of their mean.
-  double GetRowSumError() const;
+  /// Of each row sum. A row without openings that has been closed is as good as its sum. Rows of
+  /// rays are wrong independently of each other: of them that of their mean.
+  std::vector<double> GetRowSumErrors() const;
 
   /// Row sums of the exchange as it is, into RowSums. Collective.
   Outcome SumRows(const Ranks& ranks);

@@ -45,13 +45,15 @@ struct Place
   std::size_t Index = 0;
   double Reflectance = 0.0;
   double RowSum = 0.0;
+  double RowSumError = 0.0;
 };
 
 //------------------------------------------------------------------------------
 Place GetPlace(const RadiosityEquation& equation, std::size_t index)
 {
-  return { index, equation.Reflectance[index],
-    (*equation.RowSums)[index / equation.NumberOfBands] };
+  const std::size_t patch = index / equation.NumberOfBands;
+  return { index, equation.Reflectance[index], (*equation.RowSums)[patch],
+    equation.RowSumErrors[patch] };
 }
 
 //------------------------------------------------------------------------------
@@ -100,7 +102,7 @@ std::string ExplainNoSolution(const RadiosityEquation& equation, const Place& pl
   const std::string beginning =
     "The radiosity equation has no unique solution: " + Describe(equation, place);
   const double excess = place.Reflectance * place.RowSum - 1.0;
-  if (excess > std::max(equation.RowSumError, MostRounding))
+  if (excess > std::max(place.RowSumError, MostRounding))
   {
     return beginning +
       " returns more than it receives. Remove patches that overlap or lie on each other "
@@ -119,24 +121,53 @@ std::string ExplainNoSolution(const RadiosityEquation& equation, const Place& pl
 }
 
 //------------------------------------------------------------------------------
-// What errors of the view factors may do to B, relative to its largest value.
-Outcome CheckViewFactors(const RadiosityEquation& equation, const Place& place,
-  double amplification, ErrorBound& bound)
+// The error of the row sums of what `w` is large in: by how much the largest eigenvalue of rho F
+// may be off, of which w is nearly the vector, to first order of perturbation (that from the left
+// is w times the areas over rho). A single row that is poorly known does to a scene what its area
+// can.
+double FindRowSumError(const RadiosityEquation& equation, const std::vector<double>& w, int band)
 {
-  const double effect = amplification * equation.RowSumError;
+  double errors = 0.0, weights = 0.0;
+  for (std::size_t patch = 0; patch < equation.RowSumErrors.size(); ++patch)
+  {
+    const double here = w[patch * equation.NumberOfBands + band];
+    const double weight = (*equation.Areas)[patch] * here * here;
+    errors += weight * equation.RowSumErrors[patch];
+    weights += weight;
+  }
+  return weights > 0.0 ? errors / weights : 0.0;
+}
+
+//------------------------------------------------------------------------------
+// What errors of the view factors may do to B, relative to its largest value.
+Outcome CheckViewFactors(const RadiosityEquation& equation, const std::vector<double>& w,
+  ErrorBound& bound)
+{
+  double amplification = 0.0, rowSumError = 0.0, effect = 0.0;
+  for (int band = 0; band < equation.NumberOfBands; ++band)
+  {
+    const double times = bound.LargestW[band] * bound.LargestInverse[band];
+    const double error = FindRowSumError(equation, w, band);
+    if (times * error > effect)
+    {
+      amplification = times;
+      rowSumError = error;
+      effect = times * error;
+    }
+  }
   if (effect < WorthAWarning)
   {
     return Outcome::Done();
   }
-  if (effect >= Meaningless && place.Reflectance >= FullReflectance &&
-    equation.RowSumError <= WellKnown)
+  const Place place = FindWorst(equation, w);
+  if (effect >= Meaningless && place.Reflectance >= FullReflectance && rowSumError <= WellKnown)
   {
     return Outcome::Failed(ExplainNoSolution(equation, place));
   }
   std::ostringstream text;
   text << "Light is reflected about " << amplification << " times around "
        << Describe(equation, place) << ", and row sums of the view factors are known to "
-       << equation.RowSumError << ": ";
+       << rowSumError << ": ";
   const char* const remedy = " Switch EnforceClosure on, lower ViewFactorTolerance, "
                              "LinkTolerance or the reflectance.";
   // Where no row sums to more than 1, light cannot grow: doubtful, but a solution.
@@ -158,9 +189,9 @@ void CheckRows(const RadiosityEquation& equation, ErrorBound& bound)
 {
   const std::vector<double>& sums = *equation.RowSums;
   const auto fullest = std::max_element(sums.begin(), sums.end());
-  if (fullest != sums.end() && *fullest > OverfullRow + equation.RowSumError)
+  const auto patch = static_cast<std::size_t>(fullest - sums.begin());
+  if (fullest != sums.end() && *fullest > OverfullRow + equation.RowSumErrors[patch])
   {
-    const auto patch = static_cast<std::size_t>(fullest - sums.begin());
     bound.Warning = "What leaves " +
       Describe(equation, GetPlace(equation, patch * equation.NumberOfBands)) +
       " arrives more than once: patches that it sees overlap or lie on each other. Remove them "
@@ -247,12 +278,7 @@ Outcome ErrorBound::Find(const RadiosityEquation& equation, ErrorBound& bound)
   {
     return Outcome::Failed(ExplainNoSolution(equation, FindWorst(equation, w)));
   }
-  double amplification = 0.0;
-  for (int band = 0; band < equation.NumberOfBands; ++band)
-  {
-    amplification = std::max(amplification, bound.LargestW[band] * bound.LargestInverse[band]);
-  }
-  Outcome found = CheckViewFactors(equation, FindWorst(equation, w), amplification, bound);
+  Outcome found = CheckViewFactors(equation, w, bound);
   CheckRows(equation, bound);
   return found;
 }

@@ -28,7 +28,7 @@ struct RadiosityEquation
   vtkCPULinkOperator* Reference = nullptr;
   const std::vector<double>* Areas = nullptr;
   const std::vector<double>* RowSums = nullptr; ///< of F
-  double RowSumError = 0.0;                     ///< largest error of a row sum
+  std::vector<double> RowSumErrors;
   ///@}
   vtkIdType NumberOfPatches = 0;
   int NumberOfBands = 0;
