@@ -49,9 +49,6 @@ vtkCxxSetObjectMacro(vtkRadiosity, ViewFactors, vtkViewFactors);
 
 namespace
 {
-// More patches than this are linked by rays unless asked for otherwise: a matrix takes about half
-// a minute from here on.
-constexpr vtkIdType MostDensePatches = 8192;
 // How much coarser the links are that show where light is, and how coarse at most: enough for a
 // solution to exist.
 constexpr double CoarseLinks = 4.0;
@@ -272,13 +269,7 @@ LinkMethodChoice vtkRadiosity::Run::ChooseLinkMethod() const
 //------------------------------------------------------------------------------
 void vtkRadiosity::Run::DecideLinkMethod()
 {
-  using Method = LightTransport::LinkMethod;
-  if (this->Choice.IsOpen())
-  {
-    const bool areFew = this->Scene.GetNumberOfPatches() <= MostDensePatches;
-    this->Choice.Decide(areFew ? Method::Dense : Method::Sampled,
-      areFew ? "few patches" : "many patches");
-  }
+  this->Choice.DecideByCost(this->Scene.GetNumberOfPatches(), this->Owner->Accuracy);
   this->WarnOnce(this->Choice.ListUnheeded());
 }
 

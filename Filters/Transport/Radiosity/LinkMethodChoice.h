@@ -9,6 +9,7 @@
 #define LinkMethodChoice_h
 
 #include "ViewFactors/ViewFactorStore.h"
+#include "vtkType.h"
 
 #include <string>
 #include <vector>
@@ -40,8 +41,8 @@ public:
 
   /// Dense or sampled, which both take patches in their spatial order.
   bool IsOpen() const { return this->Open; }
-  /// Of an open choice.
-  void Decide(LinkMethod method, const std::string& why);
+  /// Where the choice is open: whichever is predicted to take less time for this many patches.
+  void DecideByCost(vtkIdType patches, double accuracy);
 
   /// While the choice is open, what it begins with.
   LinkMethod Get() const { return this->Method; }
@@ -54,6 +55,8 @@ public:
   static const char* GetName(LinkMethod method);
 
 private:
+  void Decide(LinkMethod method, const std::string& why);
+
   Wishes Asked;
   LinkMethod Method = LinkMethod::Dense;
   std::string Why;

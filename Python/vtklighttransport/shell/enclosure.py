@@ -8,7 +8,7 @@ from vtklighttransport.shell.properties import Choice, InputArray, Number, Numbe
 ENCLOSURE = (
     Choice("--links", "LinkMethod", "LINK_METHOD_",
            "a link for each pair of patches, between clusters, or from rays (sampled); auto is "
-           "what a tolerance asks for, else dense up to 8,192 patches, then sampled"),
+           "what a tolerance asks for, else dense for few patches and sampled for many"),
     Number("--accuracy", "Accuracy", float,
            "relative error of the radiosity by its links, without what is emitted"),
     Number("--link-tolerance", "LinkTolerance", float,

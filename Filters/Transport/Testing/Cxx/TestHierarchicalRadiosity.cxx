@@ -240,6 +240,28 @@ void TestManyPatches()
 }
 
 //------------------------------------------------------------------------------
+// What is predicted to cost less: nothing is linked in a plane, so that this takes no time.
+void TestCosts()
+{
+  const auto check = [](int squares, double accuracy, const std::string& explained)
+  {
+    Surface plane;
+    plane.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, squares, squares);
+    auto data = plane.Get();
+    AddArray(data, "Reflectance", { 0.5 });
+    AddArray(data, "Emission", { 3.0 });
+    const std::string found =
+      Solve(data, Auto, [=](vtkRadiosity* filter) { filter->SetAccuracy(accuracy); })
+        .GetText("LinkMethodExplanation");
+    Check(found.find(explained) == 0, explained + ", not " + found);
+  };
+  check(40, 1e-2, "Dense: all pairs take little time");
+  check(60, 1e-2, "Sampled: all pairs may take about 4 s, rays 1 s");
+  check(60, 1e-4, "Dense: all pairs may take about 16 s, rays 58 s");
+  check(91, 1e-4, "Sampled: all pairs would take much memory and time");
+}
+
+//------------------------------------------------------------------------------
 void TestBrightness()
 {
   auto room = MakeRoom(10);
@@ -542,6 +564,7 @@ int TestHierarchicalRadiosity(int, char*[])
   TestWishes();
   TestGivenFactors();
   TestManyPatches();
+  TestCosts();
   TestBrightness();
   TestTinyLamp();
   TestCache();
