@@ -356,13 +356,14 @@ void PlainRays::CastFromLamps(std::uint32_t rays, std::uint32_t seed, const Valu
     LampRays * rays * static_cast<double>(this->Patches.size()) / static_cast<double>(lamps.size());
   const std::uint32_t lampRays = Width * static_cast<std::uint32_t>(each / Width + 1.0);
   this->MakePoints(lampRays);
-  this->Direct.assign(this->Patches.size(), 0.0f);
+  // Millions of rays from a lamp are too many to be added up in single precision.
+  std::vector<double> direct(this->Patches.size(), 0.0);
   const auto receive = [&](std::uint32_t lamp, std::uint32_t patch, float count)
   {
     const float area = this->Patches[patch].Area;
     const float density =
       static_cast<float>(lampRays) / this->Patches[lamp].Area + static_cast<float>(rays) / area;
-    this->Direct[patch] += emission[lamp] * count / (density * area);
+    direct[patch] += emission[lamp] * count / (density * area);
   };
   for (const std::uint32_t lamp : lamps)
   {
@@ -386,6 +387,7 @@ void PlainRays::CastFromLamps(std::uint32_t rays, std::uint32_t seed, const Valu
       }
     }
   }
+  this->Direct.assign(direct.begin(), direct.end());
 }
 
 //------------------------------------------------------------------------------

@@ -185,7 +185,7 @@ void TestOpaqueActor()
   {
     for (int column = width / 2 + 4; column < width; ++column)
     {
-      const auto k = static_cast<std::size_t>(4 * (line * width + column));
+      const std::size_t k = 4 * (static_cast<std::size_t>(line) * width + column);
       difference = std::max(difference, static_cast<double>(std::abs(together[k] - alone[k])));
       brightest = std::max(brightest, static_cast<double>(alone[k]));
     }

@@ -250,9 +250,10 @@ void TestCosts()
     auto data = plane.Get();
     AddArray(data, "Reflectance", { 0.5 });
     AddArray(data, "Emission", { 3.0 });
-    const std::string found =
-      Solve(data, Auto, [=](vtkRadiosity* filter) { filter->SetAccuracy(accuracy); })
-        .GetText("LinkMethodExplanation");
+    const std::string found = Solve(data, Auto,
+      [=](vtkRadiosity* filter) {
+        filter->SetAccuracy(accuracy);
+      }).GetText("LinkMethodExplanation");
     Check(found.find(explained) == 0, explained + ", not " + found);
   };
   check(40, 1e-2, "Dense: all pairs take little time");
