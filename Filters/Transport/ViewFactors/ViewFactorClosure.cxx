@@ -27,12 +27,14 @@ constexpr int MaximumScalings = 30;
 // Where so many steps in a row gain less, these rows cannot all be closed.
 constexpr double SlowestGain = 0.9;
 constexpr int StuckSteps = 3;
-// Of the logarithm of a scale; what a step may leave of what is missing, squared; what it need not
-// go below, of the goal; and the curvature along what cannot be closed.
+// Of the logarithm of a scale; what a step may leave of what is missing, squared; and what it need
+// not go below, of the goal.
 constexpr double LongestStep = 1.0;
 constexpr double RestOfGap = 0.03;
 constexpr double LargestRest = 1e-2;
-constexpr double SmallestCurvature = 1e-9;
+// Curvatures along what cannot be closed, by pairs and by scaling.
+constexpr double SmallestCurvature = 1e-12;
+constexpr double SmallestScalingCurvature = 1e-9;
 
 using Array = Eigen::ArrayXd;
 constexpr vtkIdType N = vtkExchangeMatrix::TileSize;
@@ -47,6 +49,37 @@ constexpr int MaximumRounds = 20;
 // Of conjugate gradients in one round.
 constexpr int MaximumIterations = 300;
 constexpr double ShortestStep = 1.0 / 64.0;
+
+//------------------------------------------------------------------------------
+// Conjugate gradients with a diagonal in front, from 0, until hasEnded(residual, its square). They
+// end before along what cannot be closed, a part of the scene that is linked like a chessboard:
+// there the curvature is zero, or no more than `smallest` of the diagonal's.
+template <typename Apply, typename HasEnded>
+Array SolveByGradients(const Array& missing, const Array& diagonal, double smallest,
+  const Apply& apply, const HasEnded& hasEnded)
+{
+  const Array inverse = (diagonal > 0.0).select(1.0 / diagonal, 0.0);
+  Array step = Array::Zero(missing.size());
+  Array residual = (diagonal > 0.0).select(missing, 0.0);
+  Array direction = inverse * residual;
+  double squared = (residual * direction).sum();
+  for (int iteration = 0; iteration < MaximumIterations && !hasEnded(residual, squared);
+       ++iteration)
+  {
+    const Array image = apply(direction);
+    const double curvature = (direction * image).sum();
+    if (!(curvature > smallest * (direction * diagonal * direction).sum()))
+    {
+      break;
+    }
+    step += squared / curvature * direction;
+    residual -= squared / curvature * image;
+    const double next = (residual * inverse * residual).sum();
+    direction = inverse * residual + next / squared * direction;
+    squared = next;
+  }
+  return step;
+}
 
 //------------------------------------------------------------------------------
 // A partly visible pair. It is lifted out of the matrix while the change is
@@ -264,27 +297,10 @@ private:
     const Array free = (l.abs() < 0.5).cast<double>();
     const Array diagonal = this->RelativeError * free * this->Sums + this->GetOpenSlope(l) +
       this->SumPairs([&](const Pair& pair) { return pair.GetSlope(l); });
-    const Array inverse = (diagonal > 0.0).select(1.0 / diagonal, 0.0);
-    Array step = Array::Zero(l.size());
-    Array residual = (diagonal > 0.0).select(missing, 0.0);
-    Array direction = inverse * residual;
-    double squared = (residual * direction).sum();
-    for (int iteration = 0; iteration < MaximumIterations && !this->IsClosed(residual); ++iteration)
-    {
-      const Array image = this->ApplyDerivative(l, free, direction);
-      const double curvature = (direction * image).sum();
-      // Zero along what cannot be closed: a part of the scene that is linked like a chessboard.
-      if (!(curvature > 1e-12 * squared))
-      {
-        break;
-      }
-      step += squared / curvature * direction;
-      residual -= squared / curvature * image;
-      const double next = (residual * inverse * residual).sum();
-      direction = inverse * residual + next / squared * direction;
-      squared = next;
-    }
-    return step;
+    return SolveByGradients(
+      missing, diagonal, SmallestCurvature,
+      [&](const Array& x) { return this->ApplyDerivative(l, free, x); },
+      [&](const Array& residual, double) { return this->IsClosed(residual); });
   }
 
   bool IsClosed(const Array& residual) const
@@ -498,32 +514,17 @@ private:
   // The step of Newton's method: rows that are nearly closed need a better one.
   Array FindStep()
   {
-    const Array diagonal = this->Sums + this->Asked.OpenPower * this->Open;
-    const Array inverse = this->IsScaled().select(1.0 / diagonal, 0.0);
-    Array step = Array::Zero(inverse.size());
-    Array residual = this->Missing;
-    Array direction = inverse * residual;
-    double squared = (residual * direction).sum();
+    const Array diagonal =
+      this->IsScaled().select(this->Sums + this->Asked.OpenPower * this->Open, 0.0);
     const double area = this->Areas.sum();
-    const double goal = std::max(squared * std::min(LargestRest, squared / area),
+    const double first = (diagonal > 0.0).select(this->Missing.square() / diagonal, 0.0).sum();
+    const double goal = std::max(first * std::min(LargestRest, first / area),
       std::pow(RestOfGap * this->Asked.Goal, 2) * area);
-    for (int iteration = 0; iteration < MaximumIterations && squared > goal; ++iteration)
-    {
-      const Array image =
-        this->IsScaled().select(diagonal * direction + this->Multiply(direction), 0.0);
-      const double curvature = (direction * image).sum();
-      // Zero along what cannot be closed: a part of the scene that is linked like a chessboard.
-      if (!(curvature > SmallestCurvature * (direction * diagonal * direction).sum()))
-      {
-        break;
-      }
-      step += squared / curvature * direction;
-      residual -= squared / curvature * image;
-      const double next = (residual * inverse * residual).sum();
-      direction = inverse * residual + next / squared * direction;
-      squared = next;
-    }
-    return step;
+    return SolveByGradients(
+      this->Missing, diagonal, SmallestScalingCurvature,
+      [&](const Array& x)
+      { return Array(this->IsScaled().select(diagonal * x + this->Multiply(x), 0.0)); },
+      [=](const Array&, double squared) { return squared <= goal; });
   }
 
   void ScaleWeights(const Array& scales)
