@@ -113,7 +113,7 @@ protected:
 
 private:
   LinkMethodChoice ChooseLinkMethod() const;
-  void DecideLinkMethod();
+  Outcome DecideLinkMethod();
   bool IsHierarchical() const
   {
     return this->Choice.Get() == LightTransport::LinkMethod::Hierarchical;
@@ -267,10 +267,12 @@ LinkMethodChoice vtkRadiosity::Run::ChooseLinkMethod() const
 }
 
 //------------------------------------------------------------------------------
-void vtkRadiosity::Run::DecideLinkMethod()
+Outcome vtkRadiosity::Run::DecideLinkMethod()
 {
-  this->Choice.DecideByCost(this->Scene.GetNumberOfPatches(), this->Owner->Accuracy);
+  Outcome decided =
+    this->AllRanks.Agree(this->Choice.DecideByCost(this->Scene, this->Owner->Accuracy));
   this->WarnOnce(this->Choice.ListUnheeded());
+  return decided;
 }
 
 //------------------------------------------------------------------------------
@@ -317,7 +319,10 @@ Outcome vtkRadiosity::Run::Link()
   {
     return Outcome::Done();
   }
-  this->DecideLinkMethod();
+  if (Outcome decided = this->DecideLinkMethod(); !decided)
+  {
+    return decided;
+  }
   if (this->Choice.Get() == LightTransport::LinkMethod::Sampled && !this->Owner->ViewFactors &&
     this->Owner->LinkTolerance == 0.0)
   {

@@ -197,9 +197,9 @@ public:
    * more is enough. Default LINK_METHOD_AUTO: what SetViewFactors gave; else what is asked
    * for decides, the first of: Dense with a solver that needs it (GaussSeidel), or a
    * ViewFactorTolerance; Hierarchical with RefineByBrightness or the ClusterTree Atlas; Sampled
-   * with a LinkTolerance. Where nothing of that is asked for, Dense where it takes
-   * little time (some 2,200 patches at the default Accuracy), Sampled beyond 8,192 patches, and
-   * between whichever is predicted to take less for this many patches and this Accuracy. Field data
+   * with a LinkTolerance. Where nothing of that is asked for, Dense up to 1,000
+   * patches and Sampled beyond 8,192, and between whichever is predicted to take less time for this
+   * Accuracy (Dense up to some 2 s), by a short look at some pairs of patches. Field data
    * LinkMethodUsed says which, and LinkMethodExplanation why; a warning tells of a tolerance that
    * has no effect on the links.
    */

@@ -8,14 +8,16 @@
 #ifndef LinkMethodChoice_h
 #define LinkMethodChoice_h
 
+#include "Shared/Outcome.h"
 #include "ViewFactors/ViewFactorStore.h"
-#include "vtkType.h"
 
 #include <string>
 #include <vector>
 
 namespace LightTransport
 {
+class PatchScene;
+
 class LinkMethodChoice
 {
 public:
@@ -41,8 +43,8 @@ public:
 
   /// Dense or sampled, which both take patches in their spatial order.
   bool IsOpen() const { return this->Open; }
-  /// Where the choice is open: whichever is predicted to take less time for this many patches.
-  void DecideByCost(vtkIdType patches, double accuracy);
+  /// Where the choice is open: whichever is predicted to take less time for this accuracy.
+  Outcome DecideByCost(const PatchScene& scene, double accuracy);
 
   /// While the choice is open, what it begins with.
   LinkMethod Get() const { return this->Method; }

@@ -240,14 +240,12 @@ void TestManyPatches()
 }
 
 //------------------------------------------------------------------------------
-// What is predicted to cost less: nothing is linked in a plane, so that this takes no time.
+// What is predicted to take less time.
 void TestCosts()
 {
-  const auto check = [](int squares, double accuracy, const std::string& explained)
+  const auto check = [](Surface& surface, double accuracy, const std::string& explained)
   {
-    Surface plane;
-    plane.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, squares, squares);
-    auto data = plane.Get();
+    auto data = surface.Get();
     AddArray(data, "Reflectance", { 0.5 });
     AddArray(data, "Emission", { 3.0 });
     const std::string found = Solve(data, Auto,
@@ -256,10 +254,24 @@ void TestCosts()
       }).GetText("LinkMethodExplanation");
     Check(found.find(explained) == 0, explained + ", not " + found);
   };
-  check(40, 1e-2, "Dense: all pairs take little time");
-  check(60, 1e-2, "Sampled: all pairs may take about 4 s, rays 1 s");
-  check(60, 1e-4, "Dense: all pairs may take about 16 s, rays 58 s");
-  check(91, 1e-4, "Sampled: all pairs would take much memory and time");
+  const auto checkPlane = [&](int squares, double accuracy, const std::string& explained)
+  {
+    Surface plane;
+    plane.AddGrid({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, squares, squares);
+    check(plane, accuracy, explained);
+  };
+  checkPlane(30, 1e-2, "Dense: all pairs of few patches");
+  checkPlane(60, 1e-2, "Dense: all pairs may take about 1 s, rays 1 s");
+  checkPlane(91, 1e-4, "Sampled: all pairs would take much memory and time");
+  // Blocks on a plain, which hide most of it from each other.
+  Surface city;
+  city.AddGrid({ 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, 60, 60);
+  for (int block = 0; block < 16; ++block)
+  {
+    const double x = block % 4 + 0.2, y = block / 4 + 0.2;
+    AddBox(city, { x, y, 1e-3 }, { x + 0.6, y + 0.6, 1.0 }, 0.2, false);
+  }
+  check(city, 1e-2, "Sampled: all pairs may take about ");
 }
 
 //------------------------------------------------------------------------------
