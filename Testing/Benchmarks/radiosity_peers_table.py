@@ -28,7 +28,8 @@ def read(files):
     found = collections.defaultdict(lambda: collections.defaultdict(list))
     for line in fileinput.input(files):
         words = line.split()
-        if len(words) >= 7 and words[2] in LABELS:
+        # What has no error is the reference itself.
+        if len(words) >= 7 and words[2] in LABELS and float(words[5]) > 0.0:
             found[words[0], words[1]][words[2]].append((float(words[4]), float(words[5])))
     for methods in found.values():
         for method, points in methods.items():

@@ -34,7 +34,9 @@ constexpr vtkIdType ManyPatches = 8192;
 double PredictDense(const SceneLook& look, double finer)
 {
   const double each = look.HiddenShare < FreeShare ? SecondsPerFreePair : SecondsPerFacingPair;
-  return SecondsPerPair * look.Pairs + each * look.FacingPairs * std::pow(finer, PairPower);
+  // The first look at a pair costs the same for every accuracy.
+  const double growth = std::pow(std::max(finer, 1.0), PairPower);
+  return SecondsPerPair * look.Pairs + each * look.FacingPairs * growth;
 }
 } // namespace
 
