@@ -199,10 +199,15 @@ Outcome vtkRadiosity::Run::Check()
   if (given && this->Owner->LinkMethod != LINK_METHOD_AUTO &&
     static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod) != linked)
   {
-    return Outcome::Failed(std::string("LinkMethod is not what the given view factors are: set it "
-                                       "to Auto, or LinkMethod of vtkViewFactors to ") +
-      LinkMethodChoice::GetName(static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod)) +
-      ".");
+    const std::string& file = given->Store->GetLoadedFile();
+    return Outcome::Failed(
+      "LinkMethod is not what the given view factors are: set it to Auto, or " +
+      (file.empty() ? std::string("LinkMethod of vtkViewFactors to ") +
+            LinkMethodChoice::GetName(
+              static_cast<LightTransport::LinkMethod>(this->Owner->LinkMethod)) +
+            "."
+                    : "compute others (Load(nullptr)): those of \"" + file + "\" are " +
+            LinkMethodChoice::GetName(linked) + "."));
   }
   if (given && given->TwoSided != this->Owner->TwoSided)
   {

@@ -199,6 +199,20 @@ class TestViewFactors(FolderTestCase):
         self.assertGreater(min(values[0]), 0.0)
         self.check_close(*values, 2e-3)
 
+    def test_loaded_factors_of_another_method(self):
+        self.assertTrue(self.make_factors(make_cube()).Save(self.path("cube.factors")))
+        factors = self.make_factors()
+        factors.SetLinkMethodToSampled()
+        self.assertTrue(factors.Load(self.path("cube.factors")))
+        radiosity = lt.vtkRadiosity()
+        radiosity.SetViewFactors(factors)
+        radiosity.SetLinkMethodToSampled()
+        radiosity.SetInputData(make_cube())
+        radiosity.AddObserver("ErrorEvent", self.on_error)
+        radiosity.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        radiosity.Update()
+        self.take_error("LinkMethod", "to Auto", "Load(nullptr)", "cube.factors\" are Dense")
+
     def test_another_geometry(self):
         self.assertTrue(self.make_factors(make_cube()).Save(self.path("cube.factors")))
         factors = self.make_factors(tolerance=1e-3)
@@ -284,6 +298,11 @@ class TestViewFactors(FolderTestCase):
                     stream.write(content)
             self.assertFalse(factors.Load(self.path("bad.factors")))
             self.take_error("bad.factors", *parts)
+        # Nobody writes to the pipe: whoever opens it waits for ever.
+        os.mkfifo(self.path("pipe"))
+        for name in (self.path("pipe"), self.folder):
+            self.assertFalse(factors.Load(name))
+            self.take_error("no such file", "Check the name")
         # What it had is still there.
         factors.Update()
         self.check_close([factors.GetViewFactor(0, 1)], [OPPOSITE])

@@ -80,7 +80,14 @@ bool Reader::IsOf(const std::string& fileName, const Format& format)
 {
   const std::string name = format.Name;
   std::string start(name.size(), ' ');
-  std::ifstream stream(std::filesystem::u8path(fileName), std::ios::binary);
+  const std::filesystem::path path = std::filesystem::u8path(fileName);
+  // Nobody may ever write to a pipe.
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem))
+  {
+    return false;
+  }
+  std::ifstream stream(path, std::ios::binary);
   return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == name;
 }
 

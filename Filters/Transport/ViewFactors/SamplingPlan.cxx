@@ -126,20 +126,16 @@ double SamplingPlan::SumSampled(const std::vector<double>& variances) const
 
 //------------------------------------------------------------------------------
 // Rays that keep what is aimed at where the error's square, times the power of their number, is so
-// many times what it should be.
-int SamplingPlan::FindRays(double excess) const
+// many times what it should be: maybe more than a patch can cast.
+double SamplingPlan::FindRays(double excess) const
 {
-  const double needed = this->RaysPerPatch * std::pow(std::max(excess, 0.0), 1.0 / VariancePower);
-  int rays = this->RaysPerPatch;
-  while (rays < needed && rays < RayHits::MostRays)
-  {
-    rays *= 2;
-  }
-  return rays;
+  const double more = std::pow(std::max(excess, 1.0), 1.0 / VariancePower);
+  return this->RaysPerPatch * std::exp2(std::ceil(std::log2(more)));
 }
 
 //------------------------------------------------------------------------------
-// The number of exact rows for which they and the rays cost least together; and those rays.
+// The number of exact rows for which they and the rays cost least together; and those rays. Rays
+// that cannot be cast cost as well: rows have to stand in for them where too few are to be had.
 std::size_t SamplingPlan::FindCheapest(const std::vector<double>& variances,
   const std::vector<std::size_t>& order, double excess, int& bestRays) const
 {
@@ -149,14 +145,14 @@ std::size_t SamplingPlan::FindCheapest(const std::vector<double>& variances,
   std::size_t bestRows = 0;
   for (std::size_t rows = 0; rows <= GetMostRows(order.size()); ++rows)
   {
-    const int rays = this->FindRays(excess * left / now);
+    const double rays = this->FindRays(excess * left / now);
     const double cost =
       (rows > 0 ? RaysForRows + RaysPerPair * static_cast<double>(rows) : 0.0) + rays;
     if (cost < least && AreWhole(rows, variances, order))
     {
       least = cost;
       bestRows = rows;
-      bestRays = rays;
+      bestRays = static_cast<int>(std::min<double>(rays, RayHits::MostRays));
     }
     left -= rows < order.size() ? variances[order[rows]] : 0.0;
   }

@@ -45,7 +45,7 @@ struct SamplingPlan
 
 private:
   double SumSampled(const std::vector<double>& variances) const;
-  int FindRays(double excess) const;
+  double FindRays(double excess) const;
   std::size_t FindCheapest(const std::vector<double>& variances,
     const std::vector<std::size_t>& order, double excess, int& bestRays) const;
 };

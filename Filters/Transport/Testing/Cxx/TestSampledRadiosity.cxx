@@ -115,6 +115,32 @@ void TestAccuracy()
 }
 
 //------------------------------------------------------------------------------
+/// What is asked for is out of reach: as near as can be is no farther than where less is asked for.
+void TestBeyondReach()
+{
+  Surface room;
+  AddBox(room, { 0, 0, 0 }, { 3, 2, 2 }, 1.0, true);
+  auto scene = room.Get();
+  AddArray(scene, "Reflectance", { 0.5 });
+  AddArray(scene, "Emission", { 0.0 })->SetValue(3, 1.0);
+  const Vector right = Solved(scene, Dense).Get("Radiosity");
+  std::vector<double> errors;
+  for (const double accuracy : { 1e-2, 1e-5 })
+  {
+    const Solved run(scene, Sampled, [&](vtkRadiosity* filter) { filter->SetAccuracy(accuracy); });
+    Check(run.GetNumber("ExactRows") >= 1.0,
+      "the lamp has an exact row for an accuracy of " + std::to_string(accuracy));
+    errors.push_back(run.GetNumber("AccuracyReached"));
+    Check(Compare(scene, run.Get("Radiosity"), right) < 1e-2, "near what is right");
+    Check(run.Messages.find("was not reached") == std::string::npos || accuracy < 1e-2,
+      run.Messages);
+  }
+  Check(errors[1] < errors[0],
+    "who asks for more gets no less: " + std::to_string(errors[1]) + " after " +
+      std::to_string(errors[0]));
+}
+
+//------------------------------------------------------------------------------
 /// Nine of ten patches are within two of their standard errors.
 void TestErrors()
 {
@@ -384,6 +410,7 @@ void TestOtherLight()
 int TestSampledRadiosity(int, char*[])
 {
   TestAccuracy();
+  TestBeyondReach();
   TestErrors();
   TestFall();
   TestThreads();
