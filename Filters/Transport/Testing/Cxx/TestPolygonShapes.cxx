@@ -7,6 +7,7 @@
 #include "vtkDirectIrradiance.h"
 #include "vtkLight.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPointData.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkUnsignedCharArray.h"
 
