@@ -6,7 +6,7 @@
 #include "Device/DeviceSession.h"
 #include "Tracing/TriangleTree.h"
 
-#include "vtkMath.h"
+#include "vtkBoundingBox.h"
 #include "vtkMatrix4x4.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -19,6 +19,12 @@
 
 namespace LightTransport
 {
+namespace
+{
+// From the origin: the square of a distance is a number in single precision.
+constexpr double Farthest = 1e18;
+} // namespace
+
 //------------------------------------------------------------------------------
 void SceneTree::Clear()
 {
@@ -61,35 +67,67 @@ Outcome SceneTree::Update(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-Outcome SceneTree::Upload()
+// Triangles with a corner that is nowhere, or so far away that shaders cannot square the distance,
+// cast no shadows.
+void SceneTree::VisitTriangles(const std::function<void(const Corners&)>& visit) const
 {
-  const std::array<double, 6>& bounds = this->Casters.GetBounds();
-  const bool isAny = vtkMath::AreBoundsInitialized(bounds.data()) != 0;
-  this->Size = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const auto isUsable = [](const Vector3& corner)
   {
-    this->Origin[axis] = isAny ? 0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]) : 0.0;
-    this->Size = isAny ? std::hypot(this->Size, bounds[2 * axis + 1] - bounds[2 * axis]) : 0.0;
-  }
-  std::vector<TriangleTree::Triangle> triangles;
+    return std::all_of(corner.begin(), corner.end(),
+      [](double coordinate) { return std::abs(coordinate) < Farthest; });
+  };
   for (const ShadowCasters::Caster& caster : this->Casters.Get())
   {
     caster.VisitTriangles(
-      [&](const std::array<Vector3, 3>& corners)
+      [&](Corners corners)
       {
-        triangles.emplace_back();
-        for (std::size_t corner = 0; corner < corners.size(); ++corner)
+        for (Vector3& corner : corners)
         {
-          const Vector3& at = corners[corner];
-          double moved[4] = { at[0], at[1], at[2], 1.0 };
+          double moved[4] = { corner[0], corner[1], corner[2], 1.0 };
           vtkMatrix4x4::MultiplyPoint(caster.Matrix.data(), moved, moved);
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            triangles.back()[corner][axis] = static_cast<float>(moved[axis] - this->Origin[axis]);
-          }
+          std::copy(moved, moved + 3, corner.begin());
+        }
+        if (std::all_of(corners.begin(), corners.end(), isUsable))
+        {
+          visit(corners);
         }
       });
   }
+}
+
+//------------------------------------------------------------------------------
+Outcome SceneTree::Upload()
+{
+  vtkBoundingBox bounds;
+  this->VisitTriangles(
+    [&](const Corners& corners)
+    {
+      for (const Vector3& corner : corners)
+      {
+        bounds.AddPoint(corner[0], corner[1], corner[2]);
+      }
+    });
+  this->Origin = {};
+  this->Size = 0.0;
+  if (bounds.IsValid())
+  {
+    bounds.GetCenter(this->Origin.data());
+    this->Size = bounds.GetDiagonalLength();
+  }
+  std::vector<TriangleTree::Triangle> triangles;
+  this->VisitTriangles(
+    [&](const Corners& corners)
+    {
+      triangles.emplace_back();
+      for (std::size_t corner = 0; corner < corners.size(); ++corner)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          triangles.back()[corner][axis] =
+            static_cast<float>(corners[corner][axis] - this->Origin[axis]);
+        }
+      }
+    });
   const TriangleTree tree(std::move(triangles));
   this->NumberOfBoxes = tree.GetNumberOfBoxes();
   // A texture has at least one texel.

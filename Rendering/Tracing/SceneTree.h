@@ -9,7 +9,9 @@
 #include "Shared/Outcome.h"
 #include "Textures/FloatTextures.h"
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 class vtkOpenGLRenderWindow;
@@ -48,6 +50,8 @@ public:
 
 private:
   bool IsOpen() const { return this->Engine && this->Engine->IsAlive(); }
+  using Corners = std::array<Vector3, 3>;
+  void VisitTriangles(const std::function<void(const Corners&)>& visit) const;
   Outcome Upload();
 
   std::unique_ptr<FloatTextures> Engine;

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -399,6 +400,26 @@ void TestDepthPeeling()
   Check(steps->GetTranslucentPass()->GetNumberOfRenderedProps() == 3, "nothing is peeled");
 }
 
+/// Triangles that are nowhere cast no shadows, and spoil none.
+void TestUnusablePoints()
+{
+  Picture scene;
+  const std::vector<double> before = Draw(scene.Window);
+  for (const double place : { std::numeric_limits<double>::quiet_NaN(),
+         std::numeric_limits<double>::infinity(), 1e300, 1e25 })
+  {
+    const double corners[3][3] = { { 0.0, 0.0, 3.0 }, { 1.0, 0.0, 3.0 }, { 0.0, 1.0, 3.0 } };
+    auto sheet = MakeSheet(corners[0], corners[1], corners[2]);
+    for (vtkIdType point = 0; point < sheet->GetNumberOfPoints(); ++point)
+    {
+      sheet->GetPoints()->SetPoint(point, place, 0.0, 0.0);
+    }
+    scene.Add(sheet);
+    Check(GetLargestDifference(before, Draw(scene.Window)) <= Near,
+      "another picture with points at " + std::to_string(place));
+  }
+}
+
 /// Resources that are let go are made again; without materials there are shadows, too.
 void TestRelease()
 {
@@ -422,6 +443,7 @@ int TestDirectShadows(int, char*[])
   TestImagePass<vtkSSAAPass>("supersampling", 2);
   TestImagePass<vtkOpenGLFXAAPass>("smoothed edges", 2);
   TestDepthPeeling();
+  TestUnusablePoints();
   TestRelease();
   return Result();
 }
