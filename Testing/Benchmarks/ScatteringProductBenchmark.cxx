@@ -2,23 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * CPU seconds that applying rows of links takes with OpenGL, as scattering has them: uniform and
- * adaptive, as they are and coded, for numbers of receivers, links, kernels and lights. Beside each
- * stands a plain shader that reads as many bytes of texels as the links have and adds them up.
+ * adaptive, as they are and coded, for numbers of receivers, links, kernels and lights; and as
+ * radiosity has them whose links are sampled, between patches alone, for numbers of bands. Beside
+ * each stand two plain shaders that read texels and add them up: as many bytes as the links have,
+ * and as many as links and what is sent along them have together.
  *
  * Not a test: times depend on the machine. CPU seconds of all threads say what a software renderer
  * does; of a GPU they say nothing.
  */
-#include "Context/OpenGLFunctions.h"
+#include "ShaderPass.h"
 #include "vtkOffScreenOpenGLRenderWindow.h"
 #include "vtkOpenGLLinkOperator.h"
 
 #include "vtkExchangeHierarchy.h"
 #include "vtkHierarchicalLinkOperator.h"
 #include "vtkNew.h"
-#include "vtkOpenGLFramebufferObject.h"
-#include "vtkOpenGLQuadHelper.h"
-#include "vtkOpenGLShaderCache.h"
-#include "vtkOpenGLState.h"
 #include "vtkSMPTools.h"
 #include "vtkShaderProgram.h"
 #include "vtkSmartPointer.h"
@@ -32,7 +30,6 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,14 +42,22 @@ constexpr int Samples = 5;
 constexpr int Width = 1024;
 constexpr int HighestTexture = 8192;
 constexpr int BytesPerTexel = 16;
+constexpr int LargestSampledSide = 128;
+
+enum class Form
+{
+  Uniform,
+  Adaptive,
+  Sampled
+};
 
 struct Setting
 {
-  bool IsUniform;
+  Form Rows;
   bool IsCoded;
   int Links;
   int Kernels;
-  int Lights;
+  int Lights; ///< or bands
 };
 
 /// A value in [0, 1) for a pair of numbers.
@@ -89,7 +94,7 @@ void CollectRow(const vtkExchangeHierarchy* hierarchy, int patch, const Setting&
 {
   const std::vector<int>& levels = hierarchy->GetLevels();
   const int last = static_cast<int>(levels.size()) - 1;
-  if (setting.IsUniform)
+  if (setting.Rows == Form::Uniform)
   {
     int level = 0;
     while (levels[level + 1] - levels[level] < setting.Links)
@@ -128,12 +133,49 @@ void CollectRow(const vtkExchangeHierarchy* hierarchy, int patch, const Setting&
 }
 
 //------------------------------------------------------------------------------
+/// Patches that see each other are anywhere.
+bool FillSampledRows(vtkExchangeHierarchy* hierarchy, int patches, const Setting& setting)
+{
+  std::vector<std::vector<int>> rows(patches);
+  for (int patch = 0; patch < patches; ++patch)
+  {
+    for (int k = 0; k < setting.Links / 2; ++k)
+    {
+      const int other =
+        static_cast<int>(static_cast<double>(PairValue(patch, 1000000 + k)) * patches);
+      rows[patch].push_back(other);
+      rows[other].push_back(patch);
+    }
+  }
+  const int nodes = hierarchy->GetNumberOfNodes();
+  std::vector<std::int64_t> offsets(nodes + 1, 0);
+  std::vector<int> columns;
+  std::vector<float> values;
+  for (std::vector<int>& row : rows)
+  {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    for (const int other : row)
+    {
+      columns.push_back(nodes + other);
+      values.push_back(1.0f / static_cast<float>(setting.Links));
+    }
+    offsets.push_back(static_cast<std::int64_t>(columns.size()));
+  }
+  return hierarchy->SetRows(offsets, columns, values, true);
+}
+
+//------------------------------------------------------------------------------
 bool FillRows(vtkExchangeHierarchy* hierarchy, int patches, const Setting& setting)
 {
   if (!hierarchy->SetTree(std::vector<double>(patches, 1.0), MakeTree(patches), 0, 1,
         setting.Kernels))
   {
     return false;
+  }
+  if (setting.Rows == Form::Sampled)
+  {
+    return FillSampledRows(hierarchy, patches, setting);
   }
   std::vector<std::int64_t> offsets(hierarchy->GetNumberOfNodes() + 1, 0);
   std::vector<int> columns;
@@ -183,85 +225,52 @@ class PlainShader
 {
 public:
   PlainShader(vtkOpenGLRenderWindow* window, int patches, double bytes)
-    : Window(window),
-      TexelsPerReceiver(std::max(1, static_cast<int>(std::lround(bytes / BytesPerTexel / patches))))
+    : TexelsPerReceiver(
+        std::max(1, static_cast<int>(std::lround(bytes / BytesPerTexel / patches)))),
+      Pass(window,
+        "uniform sampler2D values;\nuniform int count;\n"
+        "void main()\n{\n  ivec2 place = ivec2(gl_FragCoord.xy);\n  vec4 sum = vec4(0.0);\n"
+        "  for (int k = 0; k < count; ++k)\n  {\n"
+        "    sum += texelFetch(values, ivec2(place.x, place.y * count + k), 0);\n  }\n"
+        "  gl_FragData[0] = sum;\n}\n")
   {
     const int lines = patches / Width;
     const int most = std::min(lines, HighestTexture / this->TexelsPerReceiver);
     const std::vector<float> values(std::size_t(4) * Width * this->TexelsPerReceiver * most, 0.25f);
     for (int line = 0; line < lines; line += most)
     {
-      this->Textures.push_back(this->MakeTexture(std::min(most, lines - line), values.data()));
+      const int height = std::min(most, lines - line) * this->TexelsPerReceiver;
+      this->Textures.push_back(ShaderPass::MakeTexture(window, Width, height, 4, values.data()));
     }
-    this->Target = this->MakeTexture(most, nullptr, 1);
-    this->Framebuffer->SetContext(window);
-    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window,
-      "//VTK::System::Dec\nin vec4 ndCoordIn;\nin vec2 texCoordIn;\nvoid main()\n{\n"
-      "  gl_Position = vec4(ndCoordIn.x, 2.0 * texCoordIn.y - 1.0, 0.0, 1.0);\n}\n",
-      "//VTK::System::Dec\n//VTK::Output::Dec\nuniform sampler2D values;\nuniform int count;\n"
-      "void main()\n{\n  ivec2 place = ivec2(gl_FragCoord.xy);\n  vec4 sum = vec4(0.0);\n"
-      "  for (int k = 0; k < count; ++k)\n  {\n"
-      "    sum += texelFetch(values, ivec2(place.x, place.y * count + k), 0);\n  }\n"
-      "  gl_FragData[0] = sum;\n}\n",
-      "");
+    this->Target = ShaderPass::MakeTexture(window, Width, most, 4, nullptr);
   }
-
-  ~PlainShader()
-  {
-    this->Quad.reset();
-    this->Framebuffer->ReleaseGraphicsResources(this->Window);
-  }
-  PlainShader(const PlainShader&) = delete;
-  void operator=(const PlainShader&) = delete;
 
   void Draw()
   {
-    this->Window->GetState()->PushFramebufferBindings();
-    this->Framebuffer->Bind();
-    this->Framebuffer->AddColorAttachment(0, this->Target);
-    this->Framebuffer->ActivateDrawBuffers(1);
-    this->Window->GetState()->vtkglDisable(GL_DEPTH_TEST);
-    this->Window->GetState()->vtkglDisable(GL_BLEND);
+    this->Pass.Begin(this->Target);
     for (vtkTextureObject* texture : this->Textures)
     {
       const auto lines = static_cast<int>(texture->GetHeight()) / this->TexelsPerReceiver;
-      vtkShaderProgram* program = this->Quad->Program;
-      this->Window->GetShaderCache()->ReadyShaderProgram(program);
-      texture->Activate();
-      program->SetUniformi("values", texture->GetTextureUnit());
-      program->SetUniformi("count", this->TexelsPerReceiver);
-      this->Window->GetState()->vtkglViewport(0, 0, Width, lines);
-      this->Window->GetState()->vtkglScissor(0, 0, Width, lines);
-      this->Quad->Render();
-      texture->Deactivate();
+      this->Pass.Draw({ { "values", texture } }, 0, Width, lines,
+        [this](vtkShaderProgram* program)
+        { program->SetUniformi("count", this->TexelsPerReceiver); });
     }
-    this->Window->GetState()->PopFramebufferBindings();
-    glFinish();
+    this->Pass.End();
   }
 
 private:
-  vtkSmartPointer<vtkTextureObject> MakeTexture(int lines, const float* values, int perLine = 0)
-  {
-    auto texture = vtkSmartPointer<vtkTextureObject>::New();
-    texture->SetContext(this->Window);
-    const int height = lines * (perLine > 0 ? perLine : this->TexelsPerReceiver);
-    texture->Allocate2D(Width, height, 4, VTK_FLOAT);
-    if (values)
-    {
-      texture->Activate();
-      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, Width, height, GL_RGBA, GL_FLOAT, values);
-      texture->Deactivate();
-    }
-    return texture;
-  }
-
-  vtkOpenGLRenderWindow* Window;
   const int TexelsPerReceiver;
+  ShaderPass Pass;
   std::vector<vtkSmartPointer<vtkTextureObject>> Textures;
   vtkSmartPointer<vtkTextureObject> Target;
-  vtkNew<vtkOpenGLFramebufferObject> Framebuffer;
-  std::unique_ptr<vtkOpenGLQuadHelper> Quad;
 };
+
+//------------------------------------------------------------------------------
+double TimePlainShader(vtkOpenGLRenderWindow* window, int patches, double bytes)
+{
+  PlainShader plain(window, patches, bytes);
+  return GetCPUSeconds([&]() { plain.Draw(); });
+}
 
 //------------------------------------------------------------------------------
 /// A number read back waits for what has been drawn.
@@ -319,21 +328,27 @@ bool Run(vtkOffScreenOpenGLRenderWindow* window, int side, const Setting& settin
   const auto count = static_cast<double>(hierarchy->GetNumberOfLinks());
   // In rows a link takes a texel of three kernels, half of one; what is common its values.
   const double plainBytes =
-    setting.IsUniform ? 4.0 * setting.Kernels : (setting.Kernels == 1 ? 8.0 : 16.0);
+    setting.Rows == Form::Uniform ? 4.0 * setting.Kernels : (setting.Kernels == 1 ? 8.0 : 16.0);
   const double bytes = setting.IsCoded ? hierarchy->GetNumberOfLinkBytes() : plainBytes * count;
+  // Of each link of a row what its other end sends is read too.
+  const double directions = hierarchy->IsSymmetric() ? 2.0 : 1.0;
+  const double linkBytes = directions * bytes;
+  const double allBytes = linkBytes + directions * count * BytesPerTexel * ((bands + 3) / 4);
   const double seconds = GetCPUSeconds([&]() { Apply(links); });
   const double difference = GetDifference(links, hierarchy, bands, sent);
   links->Release();
   window->MakeCurrent();
-  PlainShader plain(window, patches, bytes);
-  const double plainSeconds = GetCPUSeconds([&]() { plain.Draw(); });
-  std::cout << std::setw(5) << side << std::setw(10) << (setting.IsUniform ? "uniform" : "adaptive")
+  const double plainSeconds = TimePlainShader(window, patches, linkBytes);
+  const double allSeconds = TimePlainShader(window, patches, allBytes);
+  const char* const names[] = { "uniform", "adaptive", "sampled" };
+  std::cout << std::setw(5) << side << std::setw(10) << names[static_cast<int>(setting.Rows)]
             << std::setw(7) << (setting.IsCoded ? "coded" : "") << std::fixed
-            << std::setprecision(1) << std::setw(8) << count / patches << std::setw(8)
-            << setting.Kernels << std::setw(7) << setting.Lights << std::setw(8) << bytes * 1e-6
-            << std::setprecision(3) << std::setw(9) << seconds << std::setw(9) << plainSeconds
-            << std::setprecision(1) << std::setw(7) << seconds / plainSeconds << std::scientific
-            << std::setw(10) << difference << std::endl;
+            << std::setprecision(1) << std::setw(8) << directions * count / patches << std::setw(8)
+            << setting.Kernels << std::setw(7) << setting.Lights << std::setw(8) << linkBytes * 1e-6
+            << std::setw(8) << allBytes * 1e-6 << std::setprecision(4) << std::setw(9) << seconds
+            << std::setw(9) << plainSeconds << std::setw(9) << allSeconds << std::setprecision(1)
+            << std::setw(7) << seconds / plainSeconds << std::setw(7) << seconds / allSeconds
+            << std::scientific << std::setw(10) << difference << std::endl;
   return true;
 }
 } // namespace
@@ -356,20 +371,25 @@ int main(int argc, char* argv[])
   vtkNew<vtkOffScreenOpenGLRenderWindow> window;
   window->SetSize(16, 16);
   window->Initialize();
-  std::cout << "texels      form          links kernels lights      MB    CPU s    plain  times "
-               "difference\n";
+  std::cout << "texels      form          links kernels lights      MB  MB all    CPU s    plain"
+               "      all  times  times difference\n";
   bool done = true;
   const auto run = [&]()
   {
     for (const int side : sides)
     {
-      for (const Setting& setting : { Setting{ true, false, 16, 3, 1 },
-             Setting{ true, false, 64, 3, 1 }, Setting{ true, false, 64, 1, 1 },
-             Setting{ true, false, 64, 3, 4 }, Setting{ true, true, 16, 3, 1 },
-             Setting{ true, true, 64, 3, 1 }, Setting{ false, false, 16, 3, 1 },
-             Setting{ false, false, 64, 3, 1 }, Setting{ false, true, 64, 3, 1 } })
+      for (const Setting& setting :
+        { Setting{ Form::Uniform, false, 16, 3, 1 }, Setting{ Form::Uniform, false, 64, 3, 1 },
+          Setting{ Form::Uniform, false, 64, 1, 1 }, Setting{ Form::Uniform, false, 64, 3, 4 },
+          Setting{ Form::Uniform, true, 16, 3, 1 }, Setting{ Form::Uniform, true, 64, 3, 1 },
+          Setting{ Form::Adaptive, false, 16, 3, 1 }, Setting{ Form::Adaptive, false, 64, 3, 1 },
+          Setting{ Form::Adaptive, true, 64, 3, 1 }, Setting{ Form::Sampled, false, 64, 1, 1 },
+          Setting{ Form::Sampled, false, 64, 1, 3 }, Setting{ Form::Sampled, false, 400, 1, 3 } })
       {
-        done = done && Run(window, side, setting);
+        // Of sampled links a row has hundreds.
+        const int receivers =
+          setting.Rows == Form::Sampled ? std::min(side, LargestSampledSide) : side;
+        done = done && Run(window, receivers, setting);
       }
     }
   };

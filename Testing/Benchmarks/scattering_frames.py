@@ -4,18 +4,20 @@
 """Scattering while drawing: error and time over the sizes of both maps, and frame times by step.
 
     scattering_frames.py sizes [--entering 128,256,512,1024] [--leaving 64,128,256]
-    scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000]
+    scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000] [--plain PROGRAM]
 
 `sizes` compares what leaves, on the triangles, with that of the largest two sizes; of the largest
 size of what leaves with --filter also with vtkSubsurfaceScattering on the texel image of the same
-map (all links the same). `frames` draws sizes x sizes pixels with maps of that size. The bunny of
-marble, 1 unit is 3 mm, a directional light with shadow maps; CPU seconds of the process, medians of
-frames in which only that step's cause has changed. ScatteringProductBenchmark has the same links
-beside a plain shader.
+map (all links the same). `frames` draws sizes x sizes pixels with maps of that size, step by step
+after the light has moved: what enters (with its shadow map), what leaves, the picture. The bunny of
+marble, 1 unit is 3 mm, a directional light; CPU seconds of the process, medians. PROGRAM is
+ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as the links have, and
+as many as links and what is sent along them have.
 """
 
 import argparse
 import pathlib
+import subprocess
 import sys
 import time
 
@@ -67,10 +69,7 @@ class Scene:
                                MIDDLE[2] + 20.0 * np.cos(self.turn))
 
     def draw(self):
-        begin = time.process_time()
-        self.window.Render()
-        self.window.WaitForCompletion()
-        return time.process_time() - begin
+        return self.time(self.window.Render)
 
     def get_frame(self, change):
         """The median of frames, each after a change."""
@@ -79,6 +78,25 @@ class Scene:
             change()
             seconds.append(self.draw())
         return float(np.median(seconds))
+
+    def get_steps(self):
+        """Medians of what enters, what leaves and the picture, each time after the light has
+        moved."""
+        entering = self.scattering.GetTransmittedMap(self.actor)
+        leaving = self.scattering.GetScatteredMap(self.actor)
+        steps = (lambda: entering.Update(self.actor, self.renderer),
+                 lambda: leaving.Update(entering), self.window.Render)
+        seconds = []
+        for _ in range(FRAMES):
+            self.move_light()
+            seconds.append([self.time(step) for step in steps])
+        return np.median(seconds, axis=0)
+
+    def time(self, step):
+        begin = time.process_time()
+        step()
+        self.window.WaitForCompletion()
+        return time.process_time() - begin
 
     def move_light(self):
         self.turn += 0.01
@@ -157,7 +175,23 @@ def show_sizes(arguments):
               f"{first:.2f} CPU s, light moves {frame:.3f} CPU s", flush=True)
 
 
+def time_plain_shaders(program, sizes):
+    """Of ScatteringProductBenchmark: seconds by size, links and how they are kept."""
+    output = subprocess.run([program, *map(str, sizes)], check=True, capture_output=True, text=True)
+    found = {}
+    for line in output.stdout.splitlines()[1:]:
+        words = line.split()
+        coded = "coded" in words
+        size, form, numbers = int(words[0]), words[1], words[2 + coded:]
+        # Rows of one light; columns as the program names them.
+        if numbers[1:3] == ["3", "1"]:
+            links = 16 if float(numbers[0]) < 32 else 64
+            found.setdefault((size, form, coded, links), (float(numbers[6]), float(numbers[7])))
+    return found
+
+
 def show_frames(arguments):
+    plain = time_plain_shaders(arguments.plain, arguments.sizes) if arguments.plain else {}
     for size in arguments.sizes:
         surface = make_surface(BUNNY, arguments.patches, size)
         for method, compress in (("Uniform", False), ("Adaptive", False), ("Adaptive", True)):
@@ -165,14 +199,14 @@ def show_frames(arguments):
                 scene = Scene(surface, size, size, size, method, links, compress)
                 first = scene.draw()
                 camera = scene.get_frame(scene.turn_camera)
-                light = scene.get_frame(scene.move_light)
-                scene.scattering.ShadowsOff()
-                scene.draw()
-                unshaded = scene.get_frame(scene.move_light)
+                entering, leaving, picture = scene.get_steps()
                 name = method + (", coded" if compress else "")
+                of_links, of_all = plain.get((size, method.lower(), compress, links),
+                                             (np.nan, np.nan))
                 print(f"{size}, {surface.GetNumberOfCells()} triangles, {name} {links}: first "
-                      f"{first:.1f}, camera {camera:.3f}, light {light:.3f}, without shadows "
-                      f"{unshaded:.3f} CPU s", flush=True)
+                      f"{first:.1f}, camera moves {camera:.3f}, enters {entering:.3f}, leaves "
+                      f"{leaving:.3f} (plain shader {of_links:.4f}, {of_all:.4f}), picture "
+                      f"{picture:.3f} CPU s", flush=True)
 
 
 def main():
@@ -188,6 +222,7 @@ def main():
     parser.add_argument("--links", type=numbers, default=[16, 64])
     parser.add_argument("--patches", type=int, default=6000)
     parser.add_argument("--filter", action="store_true")
+    parser.add_argument("--plain", metavar="PROGRAM")
     arguments = parser.parse_args()
     if arguments.what == "sizes":
         show_sizes(arguments)
