@@ -4,15 +4,16 @@
 """Scattering while drawing: error and time over the sizes of both maps, and frame times by step.
 
     scattering_frames.py sizes [--entering 128,256,512,1024] [--leaving 64,128,256]
-    scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000] [--plain PROGRAM]
+    scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000]
+                                [--plain PROGRAM]
 
 `sizes` compares what leaves, on the triangles, with that of the largest two sizes; of the largest
 size of what leaves with --filter also with vtkSubsurfaceScattering on the texel image of the same
 map (all links the same). `frames` draws sizes x sizes pixels with maps of that size, step by step
-after the light has moved: what enters (with its shadow map), what leaves, the picture. The bunny of
-marble, 1 unit is 3 mm, a directional light; CPU seconds of the process, medians. PROGRAM is
-ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as the links have, and
-as many as links and what is sent along them have.
+after the light has moved: what enters (with its shadow map), what leaves, the picture. The bunny
+of marble, 1 unit is 3 mm, a directional light; CPU seconds of the process, medians. PROGRAM is
+ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as the links have,
+and as many as links and what is sent along them have.
 """
 
 import argparse
