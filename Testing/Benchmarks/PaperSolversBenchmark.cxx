@@ -342,7 +342,7 @@ public:
     this->Equation.Reference = this->Reference;
     this->Equation.Areas = &matrix->GetAreas();
     this->Equation.RowSums = &this->RowSums;
-    this->Equation.RowSumError = 1e-6;
+    this->Equation.RowSumErrors.assign(problem.Size, 1e-6);
     this->Equation.NumberOfPatches = problem.Size;
     this->Equation.NumberOfBands = 1;
     this->Equation.Emission = problem.Emission;
