@@ -11,6 +11,7 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/Attempt.h"
 #include "Shared/Fresnel.h"
+#include "Tracing/SceneTrees.h"
 #include "vtkLightTransportPassesScatteringFS.h"
 #include "vtkOpenGLAtlasTexture.h"
 #include "vtkOpenGLScatteredMap.h"
@@ -26,6 +27,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkTextureObject.h"
+#include "vtkVersion.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -82,7 +84,7 @@ struct vtkSubsurfaceScatteringPass::Body
 vtkSubsurfaceScatteringPass::vtkSubsurfaceScatteringPass()
   : vtkTransportPass(ArrayNames::ScatteredIrradiance),
     Lighting(vtkSmartPointer<vtkSurfaceLighting>::New()), Blocks(new StandIns),
-    Shadowed(new ExactShadows)
+    Trees(new SceneTrees), Shadowed(new ExactShadows)
 {
   this->SetRefractiveIndex(1.3);
 }
@@ -272,21 +274,43 @@ vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfScatteringRuns()
 //------------------------------------------------------------------------------
 vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfShadowRuns()
 {
-  return this->Shadowed->GetNumberOfRuns();
+  return this->Trees->GetNumberOfRuns();
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::TellOnce(const Outcome& done, std::string& told)
+{
+  if (done.HasFailed() && !done.GetMessage().empty() && done.GetMessage() != told)
+  {
+    vtkErrorMacro(<< done.GetMessage());
+  }
+  if (!done.HasFailed() || !done.GetMessage().empty())
+  {
+    told = done.GetMessage();
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkSubsurfaceScatteringPass::UpdateShadows(vtkRenderer* renderer)
 {
+  this->Tree = nullptr;
+  this->WarnedOfUnshadowed = this->WarnedOfUnshadowed && this->DirectShadows;
   if (this->DirectShadows)
   {
-    const Outcome done = Attempt([&]() { return this->Shadowed->Update(renderer); }, WithoutMemory);
-    if (done.HasFailed() && !done.GetMessage().empty())
+    SceneTrees::Entry& entry = this->Trees->Get(renderer);
+    Outcome done = Attempt([&]() { return entry.Tree.Update(renderer); }, WithoutMemory);
+    if (entry.Tree.IsThere())
     {
-      vtkErrorMacro("Without DirectShadows: " << done.GetMessage());
+      this->Tree = &entry.Tree;
+      done = this->Shadowed->Update(renderer, entry.Tree);
     }
+    else if (!done.GetMessage().empty())
+    {
+      done = Outcome::Failed("Without DirectShadows: " + done.GetMessage());
+    }
+    this->TellOnce(done, entry.Problem);
   }
-  const bool areDrawn = this->DirectShadows && this->Shadowed->AreThere();
+  const bool areDrawn = this->Tree != nullptr;
   if (areDrawn != this->AreShadowsDrawn)
   {
     this->AreShadowsDrawn = areDrawn;
@@ -314,7 +338,8 @@ bool vtkSubsurfaceScatteringPass::PostReplaceShaderValues(std::string& vertexSha
 {
   if (this->AreShadowsDrawn)
   {
-    ExactShadows::FillPlace(fragmentShader);
+    bool& isFilled = this->Shadowable[vtkActor::SafeDownCast(prop)];
+    isFilled = ExactShadows::FillPlace(fragmentShader) || isFilled;
   }
   return this->Superclass::PostReplaceShaderValues(vertexShader, geometryShader, fragmentShader,
     mapper, prop);
@@ -324,9 +349,11 @@ bool vtkSubsurfaceScatteringPass::PostReplaceShaderValues(std::string& vertexSha
 bool vtkSubsurfaceScatteringPass::SetShaderParameters(vtkShaderProgram* program,
   vtkAbstractMapper* mapper, vtkProp* prop, vtkOpenGLVertexArrayObject* vao)
 {
-  if (this->AreShadowsDrawn)
+  if (this->Tree && ExactShadows::IsUsedBy(program))
   {
-    this->Shadowed->SetUniforms(program);
+    this->Tree->Activate(program);
+    this->IsTreeActive = true;
+    this->Shadowed->SetUniforms(program, *this->Tree);
   }
   return this->Superclass::SetShaderParameters(program, mapper, prop, vao);
 }
@@ -358,7 +385,7 @@ bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
       }
     }
   }
-  return isAnyThere || this->AreShadowsDrawn;
+  return isAnyThere || this->DirectShadows;
 }
 
 //------------------------------------------------------------------------------
@@ -472,7 +499,29 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
 void vtkSubsurfaceScatteringPass::LetGoOfMaps()
 {
   this->LetGoOfBody();
-  this->Shadowed->LetGo();
+  if (this->IsTreeActive)
+  {
+    this->Tree->Deactivate();
+    this->IsTreeActive = false;
+  }
+  this->WarnOfUnshadowed();
+}
+
+//------------------------------------------------------------------------------
+// Of an actor's shaders those of its lines need not be lit.
+void vtkSubsurfaceScatteringPass::WarnOfUnshadowed()
+{
+  const bool isAny = std::any_of(this->Shadowable.begin(), this->Shadowable.end(),
+    [this](const auto& entry) { return !entry.second && this->Shadowed->IsShaded(entry.first); });
+  this->Shadowable.clear();
+  if (isAny && !this->WarnedOfUnshadowed)
+  {
+    this->WarnedOfUnshadowed = true;
+    vtkWarningMacro("An actor is drawn without DirectShadows: its shaders have no light by the "
+                    "names that VTK gives it. Take away what replaces the lighting in its shaders; "
+                    "where nothing does, this VTK ("
+      << vtkVersion::GetVTKVersion() << ") names it otherwise.");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -489,7 +538,8 @@ void vtkSubsurfaceScatteringPass::LetGoOfBody()
 void vtkSubsurfaceScatteringPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->LetGoOfMaps();
-  this->Shadowed->Clear();
+  this->Trees->Release(window);
+  this->Tree = nullptr;
   for (const auto& body : this->Bodies)
   {
     body->Transmitted->ReleaseGraphicsResources();

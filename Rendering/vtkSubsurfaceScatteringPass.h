@@ -40,6 +40,7 @@
 #include "vtkSmartPointer.h" // for members
 #include "vtkTransportPass.h"
 
+#include <map>    // for std::map
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 #include <vector> // for std::vector
@@ -47,6 +48,9 @@
 namespace LightTransport
 {
 class ExactShadows;
+class Outcome;
+class SceneTree;
+class SceneTrees;
 class StandIns;
 } // namespace LightTransport
 
@@ -123,7 +127,9 @@ public:
    * also where smooth normals are not. Goes with depth peeling, passes that smooth edges, cameras
    * anywhere, open sheets. Costs a ray through a tree of all triangles for each fragment and light,
    * and the making of the tree (80 bytes a triangle or so) where a surface has another shape or
-   * place. Default off.
+   * place; each renderer has its own. A light that is nowhere (its position is not finite) casts
+   * none, which an error tells once; an actor in whose shaders there is no place for them, since
+   * its own code replaces VTK's lighting, is drawn without, which a warning tells. Default off.
    */
   vtkSetMacro(DirectShadows, bool);
   vtkGetMacro(DirectShadows, bool);
@@ -195,19 +201,26 @@ private:
   void RemoveBodies(vtkActor* actor, int firstBlock);
   void FindDrawn(vtkActor* actor);
   bool Update(Body& body, vtkRenderer* renderer);
+  void TellOnce(const LightTransport::Outcome& done, std::string& told);
   void UpdateShadows(vtkRenderer* renderer);
+  void WarnOfUnshadowed();
   void LetGoOfBody();
 
   vtkSmartPointer<vtkSurfaceLighting> Lighting;
   std::vector<std::unique_ptr<Body>> Bodies;
   const std::unique_ptr<LightTransport::StandIns> Blocks;
+  const std::unique_ptr<LightTransport::SceneTrees> Trees;
   const std::unique_ptr<LightTransport::ExactShadows> Shadowed;
   Body* Bound = nullptr; ///< whose textures are active
   int IrradianceMapSize = 512;
   int IrradianceSamples = 2;
   bool Shadows = true;
   bool DirectShadows = false;
+  LightTransport::SceneTree* Tree = nullptr; ///< of the frame that is drawn, where it is needed
+  bool IsTreeActive = false;
+  std::map<vtkActor*, bool> Shadowable; ///< those whose shaders were made: whether any has shadows
   bool AreShadowsDrawn = false;
+  bool WarnedOfUnshadowed = false;
   int ShadowMapSize = 4096;
   int ScatteredMapSize = 512;
   double RefractiveIndex = 0.0;
