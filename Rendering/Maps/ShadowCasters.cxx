@@ -136,6 +136,7 @@ void ShadowCasters::Add(vtkActor* actor, BitHash& stamp)
   for (vtkPolyData* surface : FindSurfaces(actor->GetMapper()))
   {
     Caster caster;
+    caster.Actor = actor;
     caster.Surface = surface;
     caster.Stamp = GetShapeStamp(surface);
     actor->ComputeMatrix();

@@ -28,6 +28,7 @@ public:
   /// An actor, or a block of one.
   struct Caster
   {
+    vtkWeakPointer<vtkActor> Actor;
     vtkWeakPointer<vtkPolyData> Surface;
     std::uint64_t Stamp = 0; ///< of its shape
     std::array<double, 16> Matrix = {};

@@ -2,19 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Passes/ExactShadows.h"
 
-#include "Maps/SceneUniforms.h"
 #include "Passes/PlainMapper.h"
 #include "Tracing/SceneTree.h"
 #include "vtkLightTransportPassesShadowsFS.h"
 #include "vtkLightTransportTracingTree.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
-#include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
-#include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
 #include <cstddef>
@@ -27,8 +22,6 @@ namespace
 constexpr const char* Place = "//VTK::LightTransport::Shadows";
 /// Where VTK's own code has the place of a fragment.
 constexpr const char* Fragment = "vertexVCVSOutput;";
-/// Of the scene: nothing nearer casts a shadow.
-constexpr double Bias = 1e-5;
 
 std::string GetColor(int light)
 {
@@ -57,9 +50,6 @@ Outcome ExactShadows::Update(vtkRenderer* renderer, const SceneTree& tree)
     }
     this->Lights.push_back(!isSomewhere ? -1.0f : (light.IsPositional ? 1.0f : 0.0f));
   }
-  vtkNew<vtkMatrix4x4> back;
-  vtkMatrix4x4::Invert(renderer->GetActiveCamera()->GetModelViewTransformMatrix(), back);
-  this->ToScene = SceneUniforms::MakeMove(back->GetData(), { 0.0, 0.0, 0.0 }, tree.GetOrigin());
   return nowhere.empty()
     ? Outcome::Done()
     : Outcome::Failed("Without the shadows of light " + nowhere +
@@ -122,11 +112,9 @@ bool ExactShadows::IsUsedBy(vtkShaderProgram* program)
 }
 
 //------------------------------------------------------------------------------
-void ExactShadows::SetUniforms(vtkShaderProgram* program, const SceneTree& tree)
+void ExactShadows::SetUniforms(vtkShaderProgram* program) const
 {
   program->SetUniform4fv("lightTransportLights", static_cast<int>(this->Lights.size() / 4),
     reinterpret_cast<const float(*)[4]>(this->Lights.data()));
-  program->SetUniformMatrix4x4("lightTransportToScene", this->ToScene.data());
-  program->SetUniformf("lightTransportShadowBias", static_cast<float>(Bias * tree.GetSize()));
 }
 } // namespace LightTransport

@@ -11,7 +11,6 @@
 #include "Maps/SceneLights.h"
 #include "Shared/Outcome.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -39,13 +38,12 @@ public:
   /// Whether VTK shades what it draws of an actor, so that there is a place to be filled.
   bool IsShaded(vtkActor* actor) const;
 
-  /// For a program that FillPlace may have written into.
-  void SetUniforms(vtkShaderProgram* program, const SceneTree& tree);
+  /// For a program that FillPlace has written into, in which the tree is active.
+  void SetUniforms(vtkShaderProgram* program) const;
   static bool IsUsedBy(vtkShaderProgram* program);
 
 private:
   std::vector<float> Lights; ///< of each, what is towards it, or its place, and 1; nowhere: -1
-  std::array<float, 16> ToScene = {};
 };
 } // namespace LightTransport
 

@@ -25,7 +25,10 @@ public:
     vtkWeakPointer<vtkRenderer> Renderer;
     vtkWeakPointer<vtkWindow> Window;
     SceneTree Tree;
-    std::string Problem; ///< of its last frame, which has been told
+    ///@{ Of its last frame, which has been told: of the tree and shadows, of what is marched.
+    std::string Problem;
+    std::string MarchProblem;
+    ///@}
   };
 
   /// That of a renderer, which need not be up to date.
