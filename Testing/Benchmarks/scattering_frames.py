@@ -6,7 +6,7 @@
     scattering_frames.py sizes [--entering 128,256,512,1024] [--leaving 64,128,256]
     scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000]
                                 [--plain PROGRAM]
-    scattering_frames.py single [--patches 6000] [--steps 4,8,16,32,256]
+    scattering_frames.py single [--patches 6000] [--steps 4,8,16,32]
 
 `sizes` compares what leaves, on the triangles, with that of the largest two sizes; of the largest
 size of what leaves with --filter also with vtkSubsurfaceScattering on the texel image of the same
@@ -16,7 +16,7 @@ of marble, 1 unit is 3 mm, a directional light; CPU seconds of the process, medi
 ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as the links have,
 and as many as links and what is sent along them have. `single` marches single scattering alone
 (SingleScattering Only), 512 x 512 pixels, of marble and of the same with a hundredth of its
-coefficients: frames where the camera moves, and the error of a picture against that of the most
+coefficients: a frame where the camera moves, and the error of a picture against that of the most
 steps, relative L2 of its bytes.
 """
 
@@ -231,8 +231,9 @@ def show_single(arguments):
             pixels = vtkUnsignedCharArray()
             scene.window.GetPixelData(0, 0, 511, 511, 0, pixels)
             pictures.append(vtk_to_numpy(pixels).astype(float))
-            seconds.append(scene.get_frame(scene.turn_camera))
-            scene.renderer.GetActiveCamera().Azimuth(-FRAMES)
+            scene.turn_camera()
+            seconds.append(scene.draw())
+            scene.renderer.GetActiveCamera().Azimuth(-1.0)
         for steps, picture, second in zip(arguments.steps, pictures, seconds):
             error = np.linalg.norm(picture - pictures[-1]) / np.linalg.norm(pictures[-1])
             print(f"{surface.GetNumberOfCells()} triangles, coefficients x {share}, {steps} steps: "
@@ -251,7 +252,7 @@ def main():
     parser.add_argument("--sizes", type=numbers, default=[512, 1024])
     parser.add_argument("--links", type=numbers, default=[16, 64])
     parser.add_argument("--patches", type=int, default=6000)
-    parser.add_argument("--steps", type=numbers, default=[4, 8, 16, 32, 256])
+    parser.add_argument("--steps", type=numbers, default=[4, 8, 16, 32])
     parser.add_argument("--filter", action="store_true")
     parser.add_argument("--plain", metavar="PROGRAM")
     arguments = parser.parse_args()

@@ -273,7 +273,7 @@ void TestFlat()
       if (height > 0.0)
       {
         CheckEven(draw(plane->GetOutput(), 0.0, 64), deep, 1e-3, "half space, " + what);
-        CheckEven(draw(plane->GetOutput(), 0.0, 8), deep, 0.03, "8 steps, " + what);
+        CheckEven(draw(plane->GetOutput(), 0.0, 8), deep, 0.04, "8 steps, " + what);
       }
       CheckEven(draw(slab, 0.5 * thickness, 64), thin, 1e-3, "slab, " + what);
     }
