@@ -348,7 +348,7 @@ void vtkSubsurfaceScatteringPass::UpdateMarched(Body& body, bool isMapped)
   if (isMarched)
   {
     const Outcome made = MarchedScattering::MakeMedium(body.Scattered->GetMaterial(),
-      body.Drawn->GetMatrix(), body.Medium);
+      body.Actor->GetMatrix(), body.Medium);
     this->TellOnce(made, body.MediumProblem);
     isMarched = static_cast<bool>(made);
   }

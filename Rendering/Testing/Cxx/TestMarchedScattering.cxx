@@ -5,6 +5,7 @@
  * against Chandrasekhar's formulas, with Fresnel's factors; a box against an integral of its own,
  * under each kind of light, with what stands between; what is computed again when.
  */
+#include "CompositeMapper.h"
 #include "LightTransportTesting.h"
 #include "ScatteringScene.h"
 
@@ -567,6 +568,16 @@ void TestParts()
   scene.Renderer->AddActor(other);
   const std::vector<double> dark = scene.Draw();
   Check(*std::max_element(dark.begin(), dark.begin() + 3) == 0.0, "there is light behind a body");
+  // Coefficients are those of the mapper's unit.
+  scene.Renderer->RemoveActor(other);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, both);
+  vtkNew<CompositeMapper> mapper;
+  mapper->SetInputDataObject(blocks);
+  scene.Actor->SetMapper(mapper);
+  scene.Actor->SetScale(2.0);
+  scene.LookFrom(toEye, { 0.0, 0.0, -0.5 });
+  CheckEven(scene.Draw(), expected, 2e-3, "a block, twice as large");
 }
 
 double GetDifference(const std::vector<double>& a, const std::vector<double>& b,
