@@ -112,13 +112,17 @@ void CheckDescent(const PatchScene& scene, const ShaftCuller& culler, vtkIdType 
   int nodeI = 0;
   int nodeJ = 0;
   ShaftCuller::Candidates list, direct, next;
+  ShaftCuller::SideCache sides;
   culler.Find(nodeI, nodeJ, list);
+  culler.KeepParting(nodeI, nodeJ, sides, list);
   while (!scene.GetTree().GetNode(nodeI).IsLeaf() || !scene.GetTree().GetNode(nodeJ).IsLeaf())
   {
     nodeI = getChild(nodeI, i);
     nodeJ = getChild(nodeJ, j);
     culler.Narrow(nodeI, nodeJ, list, next);
+    culler.KeepParting(nodeI, nodeJ, sides, next);
     culler.Find(nodeI, nodeJ, direct);
+    culler.KeepParting(nodeI, nodeJ, sides, direct);
     Walls narrowed = next.Walls;
     std::sort(narrowed.begin(), narrowed.end());
     std::sort(direct.Walls.begin(), direct.Walls.end());
@@ -336,8 +340,8 @@ void TestHiding()
   const auto hides = [&](vtkIdType polygon, const Corners& from, const Corners& to, bool strictly)
   {
     OccluderWalls::End ends[2];
-    ends[0].Set(from);
-    ends[1].Set(to);
+    ends[0].Set(from, true);
+    ends[1].Set(to, true);
     return walls.HidesAll(getWall(polygon), ends[0], ends[1], strictly);
   };
   Check(hides(2, a, b, true), "a screen as large as the plates hides them");
