@@ -103,8 +103,7 @@ private:
         this->IsBehind(edges[first].Patch, edges[first + 1].Patch) &&
         this->IsBehind(edges[first + 1].Patch, edges[first].Patch))
       {
-        this->Parents[this->FindRoot(edges[first].Patch)] =
-          this->FindRoot(edges[first + 1].Patch);
+        this->Parents[this->FindRoot(edges[first].Patch)] = this->FindRoot(edges[first + 1].Patch);
         continue;
       }
       for (std::size_t k = first; k < last; ++k)
@@ -196,7 +195,8 @@ private:
     for (const vtkIdType patch : group)
     {
       missing -= this->Scene.GetAreas()[patch] * this->Scene.GetNormal(patch);
-      plane.Rounding = std::max(plane.Rounding, MostRoundings * this->Scene.GetPlane(patch).Rounding);
+      plane.Rounding =
+        std::max(plane.Rounding, MostRoundings * this->Scene.GetPlane(patch).Rounding);
       for (const PatchEdge& edge : this->Borders[patch])
       {
         sum += this->Scene.GetPoints()[edge.Low] + this->Scene.GetPoints()[edge.High];
@@ -351,7 +351,8 @@ bool ConvexBodies::IsBetween(int body, const std::vector<Vector>& from,
   }
   const auto all = [&](const auto& isTrue)
   {
-    return std::all_of(from.begin(), from.end(), [&](const Vector& a)
+    return std::all_of(from.begin(), from.end(),
+      [&](const Vector& a)
       { return std::all_of(to.begin(), to.end(), [&](const Vector& b) { return isTrue(a, b); }); });
   };
   if (own.Sides.size() > MostSides)

@@ -557,7 +557,10 @@ vtkIdType ShaftCuller::FindHiding(int nodeI, int nodeJ, const Candidates& candid
   from.Set(this->GetBox(nodeI), this->NodesOutside[nodeI]);
   to.Set(this->GetBox(nodeJ), this->NodesOutside[nodeJ]);
   const auto find = [&](const std::vector<vtkIdType>& walls)
-  { return this->Walls.FindHiding(walls, [](vtkIdType wall) { return wall; }, from, to, true); };
+  {
+    return this->Walls.FindHiding(
+      walls, [](vtkIdType wall) { return wall; }, from, to, true);
+  };
   const vtkIdType latest = guess >= 0 ? find({ guess }) : -1;
   return latest >= 0 ? latest : find(candidates.Walls);
 }

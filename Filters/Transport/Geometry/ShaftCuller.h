@@ -10,7 +10,8 @@
  * go linearly from those of the one end to those of the other. Sides are those of boxes as long as
  * nodes are large, then of patches: once for each wall and patch of two nodes, not for each pair
  * (SideFinder). Of the walls of a convex body those are enough that face the first of two patches,
- * where that is outside. From there on what is found is in order: first what is likely to hide much.
+ * where that is outside. From there on what is found is in order: first what is likely to hide
+ * much.
  */
 #ifndef ShaftCuller_h
 #define ShaftCuller_h
@@ -127,9 +128,9 @@ public:
   void Find(int nodeI, int nodeJ, Candidates& found) const;
   void Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const;
   ///@}
-  /// Of what was found for two nodes with few patches, keep what parts any two of them. To be called
-  /// before Narrow and NarrowBetween take the list further: it takes longer than a look for what
-  /// hides all.
+  /// Of what was found for two nodes with few patches, keep what parts any two of them. To be
+  /// called before Narrow and NarrowBetween take the list further: it takes longer than a look for
+  /// what hides all.
   void KeepParting(int nodeI, int nodeJ, SideCache& sides, Candidates& found) const;
   ///@{ The same for two patches; candidates are those of two leaves.
   void FindBetween(vtkIdType i, vtkIdType j, std::vector<Occluder>& found) const;

@@ -161,8 +161,7 @@ void PairVisibility::SelectOccluders(const std::vector<Occluder>& occluders)
 }
 
 //------------------------------------------------------------------------------
-bool PairVisibility::IsHiddenByOne(const std::vector<Occluder>& occluders, vtkIdType i,
-  vtkIdType j)
+bool PairVisibility::IsHiddenByOne(const std::vector<Occluder>& occluders, vtkIdType i, vtkIdType j)
 {
   const auto set = [this](OccluderWalls::End& end, const Polygon& polygon, vtkIdType patch)
   {
