@@ -129,6 +129,7 @@ private:
   Outcome UpdateLinks(double linkTolerance, const SamplingPlan& plan, const Monitor& monitor);
   Outcome LinkByBrightness();
   Outcome LinkByRays();
+  SamplingPlan BeginPlan() const;
   SamplingPlan ImprovePlan(const SamplingPlan& plan) const;
 
   RadiosityEquation DescribeEquation() const;
@@ -377,8 +378,9 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
 Outcome vtkRadiosity::Run::LinkByRays()
 {
   const std::vector<double> direct = this->Materials.DirectIrradiance;
-  SamplingPlan plan =
-    this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(), this->AllRanks);
+  const auto rays = this->GetStore().ShareRays();
+  SamplingPlan plan = this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(),
+    this->BeginPlan(), this->AllRanks);
   double done = 0.0;
   for (;;)
   {
@@ -406,6 +408,26 @@ Outcome vtkRadiosity::Run::LinkByRays()
 }
 
 //------------------------------------------------------------------------------
+// As if all that is reflected came evenly; of what enters through openings nothing is known yet.
+SamplingPlan vtkRadiosity::Run::BeginPlan() const
+{
+  const double accuracy = this->GetLinkTolerance();
+  if (this->Materials.Settings.HasBackground())
+  {
+    return SamplingPlan::Begin(accuracy);
+  }
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const RadiosityEquation equation = this->DescribeEquation();
+  const std::vector<double> ambient = equation.FindAmbientIrradiance(areas);
+  std::vector<double> radiosity = equation.Emission;
+  for (std::size_t k = 0; k < radiosity.size(); ++k)
+  {
+    radiosity[k] += equation.Reflectance[k] * ambient[k % ambient.size()];
+  }
+  return SamplingPlan::Begin(accuracy, { areas, radiosity, this->Materials.Emission });
+}
+
+//------------------------------------------------------------------------------
 // The same where the accuracy has been reached, or cannot be.
 SamplingPlan vtkRadiosity::Run::ImprovePlan(const SamplingPlan& plan) const
 {
@@ -421,7 +443,7 @@ SamplingPlan vtkRadiosity::Run::ImprovePlan(const SamplingPlan& plan) const
                    this->Links->SkyFractions, this->Errors.Whole },
       accuracy);
   const vtkIdType patches = this->Scene.GetNumberOfPatches();
-  const double bytes = RayHits::GetEstimatedBytes(patches, better.RaysPerPatch, this->AllRanks) +
+  const double bytes = RayHits::GetEstimatedBytes(patches, better.Rays, this->AllRanks) +
     SampledErrors::GetEstimatedBytes(patches, this->Materials.NumberOfBands);
   const bool fits = bytes <= MemoryForRays * TransportMemory::GetAvailableBytes();
   const bool doNotFit = this->AllRanks.GetLargest(fits ? 0 : 1) > 0;

@@ -199,7 +199,7 @@ public:
    * ViewFactorTolerance; Hierarchical with RefineByBrightness or the ClusterTree Atlas; Sampled
    * with a LinkTolerance. Where nothing of that is asked for, Dense up to 1,000
    * patches and Sampled beyond 8,192, and between whichever is predicted to take less time for this
-   * Accuracy (Dense up to some 2 s), by a short look at some pairs of patches. Field data
+   * Accuracy (Dense up to half a second), by a short look at some pairs of patches. Field data
    * LinkMethodUsed says which, and LinkMethodExplanation why; a warning tells of a tolerance that
    * has no effect on the links.
    */
@@ -227,10 +227,10 @@ public:
    * another number and not in it, and the solver's Tolerance another. Default 1e-2, range 1e-5
    * to 1.
    *
-   * Sampled links get as many rays, and exact rows of as many of the brightest patches, as keep it
-   * in the least time, by one standard error of their own (AccuracyReached in the field data tells
-   * which; a warning tells where memory or the most rays did not reach it). Other links take it as
-   * their tolerance where that is 0.
+   * Sampled links get as many rays, more of bright patches, and exact rows of as many of the
+   * brightest, as keep it in the least time, by one standard error of their own (AccuracyReached in
+   * the field data tells which; a warning tells where memory or the most rays did not reach it).
+   * Other links take it as their tolerance where that is 0.
    */
   vtkSetClampMacro(Accuracy, double, 1e-5, 1.0);
   vtkGetMacro(Accuracy, double);

@@ -19,6 +19,7 @@
 
 namespace LightTransport
 {
+class PatchRays;
 class PatchScene;
 class Ranks;
 class RayHits;
@@ -57,8 +58,10 @@ public:
     const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
 
   /// The plan to begin with: that of the links that are kept, if they are of this scene and were
-  /// made for this tolerance or a smaller one, so that they need not be made again for other light.
-  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const Ranks& ranks) const;
+  /// made for this tolerance or a smaller one, so that they need not be made again for other light;
+  /// else `first`.
+  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const SamplingPlan& first,
+    const Ranks& ranks) const;
 
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
@@ -69,6 +72,8 @@ public:
 
   /// What the rays of sampled links have met.
   const RayHits& GetHits() const;
+  /// For as long as this is kept, and a scene is there, its trees for rays are built once.
+  std::shared_ptr<PatchRays> ShareRays();
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
