@@ -10,6 +10,7 @@
 #include "Scene/SceneFaces.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "ViewFactors/CheckedRows.h"
 #include "ViewFactors/SamplingPlan.h"
 #include "vtkType.h"
 
@@ -69,6 +70,8 @@ public:
 
   /// What the rays of sampled links have met.
   const RayHits& GetHits() const;
+  /// What other links are compared with.
+  CheckedRows& GetCheckedRows() { return this->Checked; }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
@@ -96,6 +99,7 @@ private:
 
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
+  CheckedRows Checked;
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;
