@@ -140,6 +140,7 @@ private:
   SolverSettings MakeSettings(int mostIterations, double begin, const Monitor& monitor);
   Outcome Solve(const Monitor& monitor);
   Outcome FindErrors(const Monitor& monitor);
+  Outcome TellErrors(const Monitor& monitor);
   Outcome CheckRows(const Monitor& monitor);
   std::unique_ptr<LinkDoubts> MakeDoubts() const;
   Outcome Shoot(const Monitor& monitor);
@@ -492,7 +493,22 @@ Outcome vtkRadiosity::Run::Compute()
     return solved;
   }
   solved = this->Finish() ? solved : Outcome::FailedAsReported();
-  return solved ? this->FindErrors(monitor.GetStage(SolverDone, 1.0)) : solved;
+  return solved ? this->TellErrors(monitor.GetStage(SolverDone, 1.0)) : solved;
+}
+
+//------------------------------------------------------------------------------
+// Where nobody has asked for errors no solution is given up for want of memory for them. Rows are
+// checked in the order of space.
+Outcome vtkRadiosity::Run::TellErrors(const Monitor& monitor)
+{
+  const bool isSampled = this->Links->IsSampled();
+  if (!isSampled && this->Scene.GetOrder() != PatchScene::Order::Spatial)
+  {
+    return Outcome::Done();
+  }
+  const Outcome found = this->FindErrors(monitor);
+  const bool areNeeded = isSampled || this->Owner->ComputeErrors;
+  return found.HasFailed() && !areNeeded ? Outcome::Done() : found;
 }
 
 //------------------------------------------------------------------------------
@@ -568,11 +584,11 @@ std::unique_ptr<LinkDoubts> vtkRadiosity::Run::MakeDoubts() const
 {
   if (this->Links->IsSampled())
   {
-    return std::make_unique<RayErrors>(
-      this->Scene, this->GetStore().GetHits(), *this->Links, this->AllRanks);
+    return std::make_unique<RayErrors>(this->Scene, this->GetStore().GetHits(), *this->Links,
+      this->AllRanks);
   }
-  return std::make_unique<CheckedErrors>(
-    this->Scene, this->GetStore().GetCheckedRows(), *this->Links, this->AllRanks);
+  return std::make_unique<CheckedErrors>(this->Scene, this->GetStore().GetCheckedRows(),
+    *this->Links, this->AllRanks);
 }
 
 //------------------------------------------------------------------------------
@@ -580,8 +596,8 @@ Outcome vtkRadiosity::Run::CheckRows(const Monitor& monitor)
 {
   return this->Links->IsSampled()
     ? Outcome::Done()
-    : this->GetStore().GetCheckedRows().Provide(
-        this->Scene, *this->Links, this->Solution.Radiosity, this->AllRanks, monitor);
+    : this->GetStore().GetCheckedRows().Provide(this->Scene, *this->Links, this->Solution.Radiosity,
+        this->AllRanks, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -801,10 +817,12 @@ void vtkRadiosity::Run::Write()
 //------------------------------------------------------------------------------
 void vtkRadiosity::Run::WriteErrors(const SceneOutput& output) const
 {
-  if (!this->Links)
+  if (this->Errors.Whole < 0.0)
   {
-    this->WarnOnce({ "Shots know no standard errors: take a solver with links, or switch "
-                     "ComputeErrors off." });
+    this->WarnOnce(
+      { "Shots, and links over the quadtree of an atlas, know no standard errors: take "
+        "a solver with links and the ClusterTree Spatial, or switch ComputeErrors "
+        "off." });
     return;
   }
   const int bands = this->Materials.NumberOfBands;

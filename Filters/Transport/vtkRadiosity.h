@@ -244,8 +244,8 @@ public:
    * it comes from eight groups of their rays, and that of a single patch is known to a quarter
    * itself. Other links are compared with more exact rows of some patches, a sample by area and the
    * brightest: where nothing more is known all patches have the mean of the sample, and what is
-   * reflected of it. The patches' size is not in it. Shots have none, and a warning says so.
-   * Default off.
+   * reflected of it. The patches' size is not in it. Shots have none, nor
+   * have links over the quadtree of an atlas, and a warning says so. Default off.
    */
   vtkSetMacro(ComputeErrors, bool);
   vtkGetMacro(ComputeErrors, bool);

@@ -13,7 +13,7 @@ sampled:A (Accuracy). What is right is a matrix at 1e-4 whose rows have been clo
 Prints a row for each setting: scenes; the part of them whose error is within a factor of two of
 "AccuracyReached"; the quantiles of error over told of which a twentieth is below and above, and
 the median; the parts of patches, mean over the scenes, that are within one and two of their
-"RadiosityError"; CPU seconds beside those without errors. Scenes whose error is below --floor are
+"RadiosityError"; CPU seconds. Scenes whose error is below --floor are
 as exact as the reference, and left out.
 """
 
@@ -164,12 +164,14 @@ def main():
             off = get_array(output, "Radiosity") - right
             error = math.sqrt((scene.areas * off ** 2).sum() / scattered)
             told = output.GetFieldData().GetArray("AccuracyReached").GetValue(0)
+            one = np.abs(off) / np.maximum(get_array(output, "RadiosityError"), 1e-30)
+            shares = [(one < 1).mean(), (one < 2).mean()]
             if options.verbose:
-                print(seed, len(off), setting, f"error {error:.2e} told {told:.2e}", flush=True)
+                print(seed, len(off), setting, f"error {error:.2e} told {told:.2e}",
+                      "within {:.2f} {:.2f}".format(*shares), flush=True)
             if error >= options.floor:
                 ratios[setting].append(error / max(told, 1e-30))
-                one = np.abs(off) / np.maximum(get_array(output, "RadiosityError"), 1e-30)
-                within[setting].append([(one < 1).mean(), (one < 2).mean()])
+                within[setting].append(shares)
     print("| setting | scenes | within a factor of 2 | error over told: 5 %, median, 95 % "
           "| within one, two errors | CPU s |")
     print("|---|--:|--:|--:|--:|--:|")

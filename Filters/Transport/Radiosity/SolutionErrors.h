@@ -36,8 +36,8 @@ struct SolutionErrors
   static double GetEstimatedBytes(vtkIdType numberOfPatches, int bands);
 
   /// For a solution of `equation`, whose links `links` has for as many bands as there are vectors;
-  /// `background` is what LinkDoubts wants, `change` what the last product changed the radiosity by,
-  /// of which the irradiance knows nothing. Collective.
+  /// `background` is what LinkDoubts wants, `change` what the last product changed the radiosity
+  /// by, of which the irradiance knows nothing. Collective.
   Outcome Find(const LinkDoubts& doubts, const RadiosityEquation& equation,
     vtkCPULinkOperator* links, const std::vector<double>& radiosity,
     const std::vector<double>& irradiance, const std::vector<double>& change,

@@ -114,8 +114,7 @@ std::vector<double> CheckedErrors::FindKnown(const Light& light, const Changes& 
   std::vector<double> known(areas.size(), 0.0);
   for (std::size_t patch = 0; patch < areas.size(); ++patch)
   {
-    known[patch] =
-      this->IsOpen(patch) ? 0.0 : light.Mean * (1.0 - this->AllLinks.RowSums[patch]);
+    known[patch] = this->IsOpen(patch) ? 0.0 : light.Mean * (1.0 - this->AllLinks.RowSums[patch]);
   }
   for (const auto& [sender, row] : changes)
   {
@@ -170,8 +169,8 @@ Outcome CheckedErrors::FindDifferences(const std::vector<double>& radiosity, int
     double lost = 0.0;
     for (std::size_t patch = 0; patch < areas.size(); ++patch)
     {
-      lost += areas[patch] * (light.Uneven[patch] + light.Mean) *
-        (1.0 - this->AllLinks.RowSums[patch]);
+      lost +=
+        areas[patch] * (light.Uneven[patch] + light.Mean) * (1.0 - this->AllLinks.RowSums[patch]);
     }
     for (const auto& [patch, row] : changes)
     {

@@ -77,8 +77,7 @@ std::vector<vtkIdType> CheckedRows::FindBrightest(const std::vector<double>& are
   }
   std::vector<vtkIdType> order(areas.size());
   std::iota(order.begin(), order.end(), vtkIdType(0));
-  const auto last =
-    order.begin() + static_cast<std::ptrdiff_t>(std::min(Brightest, order.size()));
+  const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(Brightest, order.size()));
   std::partial_sort(order.begin(), last, order.end(),
     [&](vtkIdType a, vtkIdType b)
     { return shares[a] > shares[b] || (shares[a] == shares[b] && a < b); });
@@ -108,8 +107,8 @@ Outcome CheckedRows::Provide(const PatchScene& scene, const Links& links,
   std::vector<vtkIdType> missing;
   std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
     [this](vtkIdType patch) { return this->Rows.count(patch) == 0; });
-  const double rowBytes = static_cast<double>(scene.GetNumberOfPatches()) *
-    vtkExchangeMatrix::TileSize * sizeof(float);
+  const double rowBytes =
+    static_cast<double>(scene.GetNumberOfPatches()) * vtkExchangeMatrix::TileSize * sizeof(float);
   const auto atOnce = static_cast<std::size_t>(std::max(BytesAtOnce / rowBytes, 1.0));
   const auto all = static_cast<double>(missing.size());
   for (std::size_t first = 0; first < missing.size(); first += atOnce)
@@ -118,8 +117,7 @@ Outcome CheckedRows::Provide(const PatchScene& scene, const Links& links,
     const Outcome filled = this->Fill(scene,
       { missing.begin() + static_cast<std::ptrdiff_t>(first),
         missing.begin() + static_cast<std::ptrdiff_t>(last) },
-      ranks,
-      monitor.GetStage(static_cast<double>(first) / all, static_cast<double>(last) / all));
+      ranks, monitor.GetStage(static_cast<double>(first) / all, static_cast<double>(last) / all));
     if (!filled)
     {
       return filled;

@@ -32,8 +32,8 @@ public:
   /// See to it that the rows of the sample are there, and those of what is brightest of a radiosity
   /// (patches x bands), exact enough to judge links. Rows of another scene, or less exact ones, are
   /// given up. Collective.
-  Outcome Provide(const PatchScene& scene, const Links& links,
-    const std::vector<double>& radiosity, const Ranks& ranks, const Monitor& monitor);
+  Outcome Provide(const PatchScene& scene, const Links& links, const std::vector<double>& radiosity,
+    const Ranks& ranks, const Monitor& monitor);
 
   /// The exchange of a patch with each other one, by patch.
   const std::map<vtkIdType, std::vector<float>>& Get() const { return this->Rows; }

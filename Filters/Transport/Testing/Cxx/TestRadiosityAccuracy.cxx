@@ -66,8 +66,8 @@ void TestTruth()
             ": said " + std::to_string(told) + ", is " + std::to_string(error));
         const Vector errors = run.Get("RadiosityError");
         one += static_cast<double>(((found - right).cwiseAbs().array() <= errors.array()).count());
-        two += static_cast<double>(
-          ((found - right).cwiseAbs().array() <= 2.0 * errors.array()).count());
+        two +=
+          static_cast<double>(((found - right).cwiseAbs().array() <= 2.0 * errors.array()).count());
         patches += static_cast<double>(errors.size());
         Check(run.Get("IrradianceError").size() == errors.size() &&
             run.Get("NetFluxError").size() == errors.size(),
@@ -134,8 +134,8 @@ void TestExtremes()
   const Solved dark(black, Hierarchical, Ask({ Hierarchical, 3e-2 }));
   const Vector right = Solved(black, Dense, Ask({ Dense, 1e-4 })).Get("Irradiance");
   const Vector areas = ToVector(GetAreas(black));
-  const double error = std::sqrt(areas.dot((dark.Get("Irradiance") - right).cwiseAbs2()) /
-    areas.dot(right.cwiseAbs2()));
+  const double error = std::sqrt(
+    areas.dot((dark.Get("Irradiance") - right).cwiseAbs2()) / areas.dot(right.cwiseAbs2()));
   const double told = dark.GetNumber("AccuracyReached");
   Check(error < 2.0 * told && error > 0.5 * told,
     "of H: said " + std::to_string(told) + ", is " + std::to_string(error));
