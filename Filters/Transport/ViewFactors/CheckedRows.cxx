@@ -22,11 +22,11 @@ namespace
 // within a factor of two in 97 of 100 random scenes with 16 and 8, in 98 with 32 and 8.
 constexpr int Sample = 16;
 constexpr std::size_t Brightest = 8;
-// How much more exact than a matrix its rows are checked; links between clusters are less exact
-// than a matrix of their tolerance by far. And the range.
-constexpr double FinerThanMatrix = 0.25;
+// How much more exact than the links rows are checked, and the range: a coarser tolerance is often
+// kept by the first look at each pair, which would agree with itself.
+constexpr double Finer = 0.1;
 constexpr double LeastTolerance = 1e-8;
-constexpr double MostTolerance = 0.05;
+constexpr double MostTolerance = 1e-3;
 // Rows whose tiles are stored at the same time.
 constexpr double BytesAtOnce = 64.0 * 1024.0 * 1024.0;
 } // namespace
@@ -89,9 +89,8 @@ std::vector<vtkIdType> CheckedRows::FindBrightest(const std::vector<double>& are
 Outcome CheckedRows::Provide(const PatchScene& scene, const Links& links,
   const std::vector<double>& radiosity, const Ranks& ranks, const Monitor& monitor)
 {
-  const double finer = links.Matrix ? FinerThanMatrix : 1.0;
   const double tolerance =
-    std::min(std::max(finer * links.Tolerance, LeastTolerance), MostTolerance);
+    std::min(std::max(Finer * links.Tolerance, LeastTolerance), MostTolerance);
   if (this->Fingerprint != scene.GetFingerprint() || this->Tolerance > tolerance)
   {
     this->Rows.clear();
