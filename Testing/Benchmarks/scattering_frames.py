@@ -15,10 +15,10 @@ size of what leaves with --filter also with vtkSubsurfaceScattering on the texel
 map (all links the same). `frames` draws sizes x sizes pixels with maps of that size, step by step
 after the light has moved: what enters (with its shadow map), what leaves, the picture. The bunny
 of marble, 1 unit is 3 mm, a directional light; CPU seconds of the process, medians. PROGRAM is
-ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as these links have. `single`
-marches single scattering alone (SingleScattering Only), 512 x 512 pixels, of marble and of the same
-with a hundredth of its coefficients: a frame where the camera moves, and the error of a picture
-against that of the most steps, relative L2 of its bytes.
+ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as these links have.
+`single` marches single scattering alone (SingleScattering Only), 512 x 512 pixels, of marble and
+of the same with a hundredth of its coefficients: a frame where the camera moves, and the error of a
+picture against that of the most steps, relative L2 of its bytes.
 """
 
 import argparse

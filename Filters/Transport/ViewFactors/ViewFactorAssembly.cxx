@@ -214,6 +214,10 @@ struct ViewFactorAssembly::Looker
   void Descend(int nodeI, int nodeJ, std::size_t depth, Work& work)
   {
     Pulse::Beat();
+    if (this->Outer.NodeSenders[nodeI] == 0 && this->Outer.NodeSenders[nodeJ] == 0)
+    {
+      return;
+    }
     const PatchTree::Node& i = work.Tree.GetNode(nodeI);
     const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
     if (work.GetList(depth).IsEmpty())
