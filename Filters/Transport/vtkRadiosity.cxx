@@ -455,7 +455,8 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
     return this->UpdateLinks(this->GetLinkTolerance(), {}, second);
   }
   const HierarchicalViewFactors builder(this->GetLinkTolerance(),
-    Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks));
+    Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks),
+    this->GetStore().GetLooks());
   this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
   ++this->Owner->NumberOfLinkRuns;
   this->Links = &this->BrightLinks;

@@ -21,6 +21,7 @@ namespace LightTransport
 {
 class PatchScene;
 class Ranks;
+class PairLooks;
 class RayHits;
 struct RaySamples;
 
@@ -69,6 +70,8 @@ public:
 
   /// What the rays of sampled links have met.
   const RayHits& GetHits() const;
+  /// What links between clusters have found, for others of the same scene.
+  const std::shared_ptr<PairLooks>& GetLooks() const { return this->Looks; }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
@@ -96,6 +99,7 @@ private:
 
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
+  std::shared_ptr<PairLooks> Looks;    ///< likewise of links between clusters
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;
