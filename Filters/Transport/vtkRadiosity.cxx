@@ -5,6 +5,7 @@
 #include "Links/LinkOperators.h"
 #include "Radiosity/Brightness.h"
 #include "Radiosity/ConvergenceTable.h"
+#include "Radiosity/LinkCheck.h"
 #include "Radiosity/LinkMethodChoice.h"
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
@@ -57,6 +58,8 @@ constexpr double CoarsestLinks = 0.1;
 constexpr double LeastLinkTolerance = 1e-5;
 constexpr double LeastViewFactorTolerance = 1e-12;
 constexpr double MostViewFactorTolerance = 0.1;
+// Errors of links between clusters beyond this many times what was asked for are warned of.
+constexpr double TolerableExcess = 1.2;
 // What rays and their errors may take of the free memory.
 constexpr double MemoryForRays = 0.8;
 
@@ -136,6 +139,7 @@ private:
   SolverSettings MakeSettings(int mostIterations, double begin, const Monitor& monitor);
   Outcome Solve(const Monitor& monitor);
   Outcome FindErrors(const Monitor& monitor);
+  Outcome CheckLinks(const Monitor& monitor);
   Outcome Shoot(const Monitor& monitor);
   Outcome CheckBackground() const;
   Outcome TakeShots();
@@ -160,6 +164,8 @@ private:
   std::vector<double> Irradiance; // patches x bands
   bool IsSolved = false;          // while linking
   SampledErrors Errors;           // of sampled links
+  double LinkError = 0.0;         // of links between clusters, for the light as it is
+  std::vector<double> Lights;     // direct irradiance but for the background, patches x bands
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double NetPower = 0.0; // of a thermal scene
@@ -328,6 +334,7 @@ Outcome vtkRadiosity::Run::Link()
   {
     return decided;
   }
+  this->Lights = this->Materials.DirectIrradiance;
   if (this->Choice.Get() == LightTransport::LinkMethod::Sampled && !this->Owner->ViewFactors &&
     this->Owner->LinkTolerance == 0.0)
   {
@@ -376,7 +383,6 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
 // follows how many are enough, and which patches are worth exact rows.
 Outcome vtkRadiosity::Run::LinkByRays()
 {
-  const std::vector<double> direct = this->Materials.DirectIrradiance;
   SamplingPlan plan =
     this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(), this->AllRanks);
   double done = 0.0;
@@ -388,7 +394,7 @@ Outcome vtkRadiosity::Run::LinkByRays()
       this->UpdateLinks(this->GetLinkTolerance(), plan, stage.GetStage(0.0, CoarseSolved));
     if (outcome && this->Materials.Settings.HasBackground())
     {
-      this->Materials.DirectIrradiance = direct;
+      this->Materials.DirectIrradiance = this->Lights;
       this->Materials.AddBackground(this->Links->SkyFractions);
     }
     outcome = outcome ? this->Solve(stage.GetStage(CoarseSolved, LinksDone)) : outcome;
@@ -486,8 +492,12 @@ Outcome vtkRadiosity::Run::Compute()
     return solved;
   }
   solved = this->Finish() ? solved : Outcome::FailedAsReported();
-  return solved && this->Links->IsSampled() ? this->FindErrors(monitor.GetStage(SolverDone, 1.0))
-                                            : solved;
+  const Monitor last = monitor.GetStage(SolverDone, 1.0);
+  if (solved && this->Links->IsSampled())
+  {
+    return this->FindErrors(last);
+  }
+  return solved && this->IsHierarchical() ? this->CheckLinks(last) : solved;
 }
 
 //------------------------------------------------------------------------------
@@ -548,6 +558,33 @@ Outcome vtkRadiosity::Run::FindErrors(const Monitor& monitor)
   return this->Errors.Find(rays, this->DescribeLinks(this->DescribeEquation()), links,
     this->Solution.Radiosity, this->Irradiance,
     this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing, monitor);
+}
+
+//------------------------------------------------------------------------------
+// What decides on links between clusters is even light, or that of a coarse solution.
+Outcome vtkRadiosity::Run::CheckLinks(const Monitor& monitor)
+{
+  std::vector<double> received = this->Irradiance;
+  std::transform(received.begin(), received.end(), this->Lights.begin(), received.begin(),
+    std::minus<double>());
+  const std::vector<double> nothing;
+  const LinkCheck check(this->Scene,
+    { this->Materials.NumberOfBands, this->Solution.Radiosity, this->Materials.Reflectance,
+      this->Irradiance, received,
+      this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing });
+  Outcome checked = check.Find(this->AllRanks, monitor, this->LinkError);
+  const double tolerance = this->Links->Tolerance;
+  if (checked && this->LinkError > TolerableExcess * tolerance)
+  {
+    std::ostringstream text;
+    text << "A LinkTolerance of " << tolerance
+         << " was not reached in this light: links between clusters leave B off by "
+         << this->LinkError << ". Set LinkMethod to Auto"
+         << (this->Owner->RefineByBrightness ? "" : ", switch RefineByBrightness on")
+         << ", or lower LinkTolerance.";
+    this->WarnOnce({ text.str() });
+  }
+  return checked;
 }
 
 //------------------------------------------------------------------------------
@@ -838,6 +875,10 @@ void vtkRadiosity::Run::WriteSummaries() const
     if (this->Links->IsSampled())
     {
       FieldValues::Add(fields, "AccuracyReached", this->Errors.Whole);
+    }
+    if (this->IsHierarchical())
+    {
+      FieldValues::Add(fields, "LinkError", this->LinkError);
     }
   }
   else
