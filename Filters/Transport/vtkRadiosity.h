@@ -221,8 +221,9 @@ public:
    * RefineByBrightness for one like that of a coarse solution, lamps included. What the light that
    * there is makes of it is LinkError in the field data: the error of B as Accuracy has it, by a
    * check of some 96 patches (rays, and the exact exchange with the brightest). It tells the true
-   * error to a factor of 1.4 (measured), mostly to a tenth. A warning tells where it is more than
-   * 1.2 times the tolerance: for a small lamp it is, by 2 to 7 times.
+   * error to a factor of 1.3 (measured), but misses it by more where a few patches of thousands
+   * have most of it. A warning tells where it is more than 1.2 times the tolerance: for a small
+   * lamp it is, by 2 to 7 times.
    */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 1.0);
   vtkGetMacro(LinkTolerance, double);
