@@ -123,6 +123,10 @@ choose_vtk()
       packages+=(paraview-dev python3-paraview libopenmpi-dev libpython3-dev libdouble-conversion-dev libfreetype-dev)
       # A display for ParaView's window, whose panels are tested.
       packages+=(xvfb xauth)
+      # What draws its buttons: no package of it names that up to 5.11.
+      if dpkg --compare-versions "$(find_version paraview-dev)" lt 5.12; then
+        packages+=(libqt5svg5)
+      fi
       if [ "$preset" = default ]; then
         configure_options+=(-DVTKLIGHTTRANSPORT_BUILD_PARAVIEW_PLUGIN=ON)
       fi

@@ -185,6 +185,14 @@ class TestCommandLine(CommandTestCase):
             "radiosity", source, self.path("out.vtp"), "--band-limits", "red,blue")
         self.check_failure(result, 2, "'red,blue' is no list of numbers")
 
+    def test_unknown_options(self):
+        for words, message in (
+                (("--temprature", "300"), "--temprature (did you mean --temperature?) 300"),
+                (("--emisivity=0.9",), "--emisivity=0.9 (did you mean --emissivity?)"),
+                (("--shiny", "1"), "unrecognized arguments: --shiny 1")):
+            result = self.run_command("radiosity", "in.vtp", self.path("out.vtp"), *words)
+            self.check_failure(result, 2, message)
+
     @unittest.skipUnless(hasattr(lt, "vtkPatchMesher"), "no mesher in this build")
     def test_mesh(self):
         result = self.run_command(

@@ -293,8 +293,10 @@ class TestViewFactorMatrix(FolderTestCase):
         self.assertTrue(all(warning.filename == __file__ for warning in caught))
 
     def test_nothing_is_loaded_unasked(self):
-        script = ("import sys, vtklighttransport; "
-                  "print({'numpy', 'scipy', 'pandas', 'pyvista'} & set(sys.modules))")
+        """Beyond what VTK's own modules load: those of 9.6 take numpy where it is there."""
+        script = ("import sys, vtkmodules.vtkRenderingCore; before = set(sys.modules); "
+                  "import vtklighttransport; "
+                  "print({'numpy', 'scipy', 'pandas', 'pyvista'} & set(sys.modules) - before)")
         result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
                                 check=False)
         self.assertEqual((result.stdout, result.stderr), ("set()\n", ""))

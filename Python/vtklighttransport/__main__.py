@@ -16,7 +16,7 @@ import sys
 
 import vtklighttransport as lt
 from vtklighttransport.commands import load_commands
-from vtklighttransport.shell.arguments import join_negative_values
+from vtklighttransport.shell.arguments import join_negative_values, refuse_unknown
 from vtklighttransport.shell.stages import Failure, Messages
 
 
@@ -40,7 +40,9 @@ def make_parser():
 
 
 def main(arguments):
-    options = make_parser().parse_args(join_negative_values(arguments))
+    options, unknown = make_parser().parse_known_args(join_negative_values(arguments))
+    if unknown:
+        refuse_unknown(options.parser, unknown)
     messages = Messages(options.flags)
     try:
         options.module.check(options)

@@ -106,6 +106,8 @@ offered=(libvtk9-dev=9.6.2-1)
 expect 'no ParaView' 'the plain 9.6.2-1' pretend 'Debian sid' debian
 offered=(libvtk9-dev=9.1.0 paraview-dev=5.10.0)
 expect 'an old ParaView' 'Ubuntu 22.04 has paraview-dev 5.10.0, and 5.11 or later is needed' pretend 'Ubuntu 22.04' 'ubuntu debian'
+offered=(paraview-dev=5.11.2+dfsg-6)
+expect 'what draws the buttons of ParaView 5.11' libqt5svg5 pretend 'Ubuntu 24.04' 'ubuntu debian'
 offered=()
 expect 'nothing' 'Is the component "universe" on?' pretend 'Ubuntu 24.04' 'ubuntu debian'
 

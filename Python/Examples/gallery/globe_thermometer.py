@@ -12,7 +12,7 @@ import vtklighttransport as lt
 from shapes import draw, expect, make_plates
 from vtklighttransport.arrays import get_areas, get_cell_array
 from vtklighttransport.meshes import list_regions, set_regions
-from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 ROOM = (5.0, 4.0, 2.7)  # m
@@ -35,16 +35,11 @@ def make_room():
     globe.SetRadius(DIAMETER / 2.0)
     globe.SetThetaResolution(20)
     globe.SetPhiResolution(12)
-    # Some versions of VTK turn the triangles around a pole.
-    outside = vtkPolyDataNormals()
-    outside.SetInputConnection(globe.GetOutputPort())
-    outside.AutoOrientNormalsOn()
-    outside.SplittingOff()
     numbers = get_cell_array(room, "Region").tolist()
     names = [*list_regions(room).values(), "globe"]
     both = vtkAppendPolyData()
     both.AddInputData(room)
-    both.AddInputConnection(outside.GetOutputPort())
+    both.AddInputConnection(globe.GetOutputPort())
     both.Update()
     scene = both.GetOutput()
     set_regions(scene, numbers + [3] * (scene.GetNumberOfCells() - len(numbers)), names)

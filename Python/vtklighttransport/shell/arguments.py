@@ -5,6 +5,7 @@
 import argparse
 import re
 
+from vtklighttransport.filters import suggest
 from vtklighttransport.materials import EVERYWHERE
 
 
@@ -58,6 +59,14 @@ def join_negative_values(arguments):
         else:
             joined.append(argument)
     return joined
+
+
+def refuse_unknown(parser, unknown):
+    """Wrong usage that names each, and the option that was meant."""
+    flags = re.findall(r"--[a-z-]+", parser.format_usage())
+    nearest = {word: suggest(word.partition("=")[0], flags) for word in unknown}
+    parser.error("unrecognized arguments: " + " ".join(
+        f"{word} (did you mean {near}?)" if near else word for word, near in nearest.items()))
 
 
 def check_range(options, flag, value, low, high):
