@@ -59,6 +59,8 @@ constexpr double CoarsestLinks = 0.1;
 constexpr double LeastLinkTolerance = 1e-5;
 constexpr double LeastViewFactorTolerance = 1e-12;
 constexpr double MostViewFactorTolerance = 0.1;
+// Errors of links between clusters beyond this many times what was asked for are warned of.
+constexpr double TolerableExcess = 1.2;
 // What rays and their errors may take of the free memory.
 constexpr double MemoryForRays = 0.8;
 
@@ -144,6 +146,7 @@ private:
   Outcome TellErrors(const Monitor& monitor);
   Outcome CheckRows(const Monitor& monitor);
   std::unique_ptr<LinkDoubts> MakeDoubts() const;
+  void WarnOfLinkError();
   Outcome Shoot(const Monitor& monitor);
   Outcome CheckBackground() const;
   Outcome TakeShots();
@@ -485,7 +488,8 @@ Outcome vtkRadiosity::Run::LinkByBrightness()
     return this->UpdateLinks(this->GetLinkTolerance(), {}, second);
   }
   const HierarchicalViewFactors builder(this->GetLinkTolerance(),
-    Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks));
+    Brightness::Find(this->Solution.Radiosity, this->Scene.GetAreas(), CoarseLinks),
+    this->GetStore().GetLooks());
   this->BrightLinks.Fingerprint = this->Scene.GetFingerprint();
   ++this->Owner->NumberOfLinkRuns;
   this->Links = &this->BrightLinks;
@@ -529,6 +533,10 @@ Outcome vtkRadiosity::Run::TellErrors(const Monitor& monitor)
     return Outcome::Done();
   }
   const Outcome found = this->FindErrors(monitor);
+  if (found && this->IsHierarchical())
+  {
+    this->WarnOfLinkError();
+  }
   const bool areNeeded = isSampled || this->Owner->ComputeErrors;
   return found.HasFailed() && !areNeeded ? Outcome::Done() : found;
 }
@@ -620,6 +628,23 @@ Outcome vtkRadiosity::Run::CheckRows(const Monitor& monitor)
     ? Outcome::Done()
     : this->GetStore().GetCheckedRows().Provide(this->Scene, *this->Links, this->Solution.Radiosity,
         this->AllRanks, monitor);
+}
+
+//------------------------------------------------------------------------------
+// What decides on links between clusters is even light, or that of a coarse solution.
+void vtkRadiosity::Run::WarnOfLinkError()
+{
+  const double tolerance = this->Links->Tolerance;
+  if (this->Errors.Whole > TolerableExcess * tolerance)
+  {
+    std::ostringstream text;
+    text << "A LinkTolerance of " << tolerance
+         << " was not reached in this light: links between clusters leave B off by "
+         << this->Errors.Whole << ". Set LinkMethod to Auto"
+         << (this->Owner->RefineByBrightness ? "" : ", switch RefineByBrightness on")
+         << ", or lower LinkTolerance.";
+    this->WarnOnce({ text.str() });
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -914,6 +939,10 @@ void vtkRadiosity::Run::WriteSummaries() const
     if (this->Errors.Whole >= 0.0)
     {
       FieldValues::Add(fields, "AccuracyReached", this->Errors.Whole);
+    }
+    if (this->IsHierarchical() && this->Errors.Whole >= 0.0)
+    {
+      FieldValues::Add(fields, "LinkError", this->Errors.Whole);
     }
   }
   else

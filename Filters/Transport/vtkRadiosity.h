@@ -212,9 +212,19 @@ public:
   ///@}
 
   ///@{
-  /// Error of the irradiance that hierarchical links are allowed, or what decides on the rays of
-  /// sampled ones (which then have no exact rows), see vtkViewFactors::SetLinkTolerance. Range 1e-5
-  /// to 1; default 0: as Accuracy asks.
+  /**
+   * Error of the irradiance that hierarchical links are allowed, or what decides on the rays of
+   * sampled ones (which then have no exact rows), see vtkViewFactors::SetLinkTolerance. Range 1e-5
+   * to 1; default 0: as Accuracy asks.
+   *
+   * Hierarchical links keep it for a radiosity that is the same everywhere, or with
+   * RefineByBrightness for one like that of a coarse solution, lamps included. What the light that
+   * there is makes of it is LinkError in the field data: the error of B as Accuracy has it, by a
+   * check of some 96 patches (rays, and the exact exchange with the brightest). It tells the true
+   * error to a factor of 1.3 (measured), but misses it by more where a few patches of thousands
+   * have most of it. A warning tells where it is more than 1.2 times the tolerance: for a small
+   * lamp it is, by 2 to 7 times.
+   */
   vtkSetClampMacro(LinkTolerance, double, 0.0, 1.0);
   vtkGetMacro(LinkTolerance, double);
   ///@}
@@ -283,7 +293,7 @@ public:
    * of four times LinkTolerance, 0.1 at most, or with a background LinkTolerance, which are kept)
    * instead of one that is the same everywhere. Fewer links for the same error where little of the
    * scene sends most of the light, but they serve this one distribution of light and are never
-   * kept. Default off.
+   * kept; what has been found of pairs of clusters is. Default off.
    */
   vtkSetMacro(RefineByBrightness, bool);
   vtkGetMacro(RefineByBrightness, bool);

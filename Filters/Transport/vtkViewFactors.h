@@ -152,13 +152,20 @@ public:
    * until each row sums to 1 with its sky and back faces (Sinkhorn and Knopp 1967; the links stay
    * symmetric). Light that is reflected often would add up the errors of rows, and closing takes
    * away most of what links leave out: LinkTolerance then bounds the error of the radiosity by even
-   * light and by the sky, and in a room lit by a lamp. "ViewFactorSum" and the two fractions are
-   * what is applied; "ViewFactorError" is a root mean square for all rows.
+   * light and by the sky. Where little light falls on patches beside what they emit (a small lamp,
+   * scattered sunlight) it is relative to what is emitted, too: see vtkRadiosity::SetLinkTolerance.
+   * "ViewFactorSum" and the two fractions are what is applied; "ViewFactorError" is a root mean
+   * square for all rows.
+   *
+   * What has been found of pairs of clusters is kept, unless it takes more than a tenth of the free
+   * memory: another LinkTolerance for the same scene then looks only at pairs that have not been
+   * looked at, and gives the links that it would give afresh.
    *
    * Field data are ClusterTreeUsed ("Spatial" or "Atlas"), PairsExamined, PairsBackFacing and
-   * PairsUnobstructed (pairs of clusters), LinkRaysCast, NumberOfLinks, NumberOfPatchLinks (of
-   * which between two patches), LinkError (the estimate), ClosureChange (largest change of a row
-   * sum), ClosureGap, RaysCast, RowGap, MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
+   * PairsUnobstructed (pairs of clusters), LinkRaysCast (for these links beside those of kept
+   * pairs), NumberOfLinks, NumberOfPatchLinks (of which between two patches), LinkError (the
+   * estimate), ClosureChange (largest change of a row sum), ClosureGap, RaysCast, RowGap,
+   * MatrixBytes, DenseMatrixBytes and ViewFactorSeconds.
    */
   void SetHierarchical(bool isHierarchical)
   {

@@ -134,7 +134,7 @@ def run_ours(scene, light, method, setting):
     field = output.GetFieldData()
     size = next((field.GetArray(name).GetValue(0) for name in ("MatrixBytes", "LinkBytes")
                  if field.GetArray(name)), math.nan)
-    reached = field.GetArray("AccuracyReached")
+    reached = field.GetArray("AccuracyReached") or field.GetArray("LinkError")
     return Row(seconds, size / 1e6, vtk_to_numpy(output.GetCellData().GetArray("Radiosity")),
                f"{reached.GetValue(0):.1e}" if reached else "")
 

@@ -22,6 +22,8 @@ namespace
 constexpr double RefineDone = 0.97;
 // The part of the free memory that links may fill.
 constexpr double MemoryForLinks = 0.8;
+// And what is kept for other links, at most.
+constexpr double MemoryToKeep = 0.1;
 
 //------------------------------------------------------------------------------
 Outcome Store(const PatchScene& scene, const LinkRefinement& refinement, const Ranks& ranks,
@@ -55,8 +57,9 @@ void Summarize(const PatchScene& scene, const LinkRefinement& refinement, Links&
 } // namespace
 
 //------------------------------------------------------------------------------
-HierarchicalViewFactors::HierarchicalViewFactors(double tolerance, std::vector<double> brightness)
-  : Tolerance(tolerance), Brightness(std::move(brightness))
+HierarchicalViewFactors::HierarchicalViewFactors(double tolerance, std::vector<double> brightness,
+  std::shared_ptr<PairLooks> looks)
+  : Tolerance(tolerance), Brightness(std::move(brightness)), Looks(std::move(looks))
 {
 }
 
@@ -79,7 +82,7 @@ Outcome HierarchicalViewFactors::Build(const PatchScene& scene, const Ranks& ran
   {
     return ready;
   }
-  LinkRefinement refinement(scene, caster);
+  LinkRefinement refinement(scene, caster, *this->Looks);
   if (!this->Brightness.empty())
   {
     refinement.SetBrightness(this->Brightness);
@@ -90,6 +93,10 @@ Outcome HierarchicalViewFactors::Build(const PatchScene& scene, const Ranks& ran
   const double available = MemoryForLinks * TransportMemory::GetAvailableBytes();
   Outcome outcome =
     refinement.Refine(this->Tolerance, available, ranks, monitor.GetStage(0.0, RefineDone));
+  if (!outcome || this->Looks->GetNumberOfBytes() > MemoryToKeep * available)
+  {
+    this->Looks->Clear();
+  }
   outcome = outcome ? Store(scene, refinement, ranks, links) : outcome;
   if (!outcome)
   {

@@ -3,15 +3,12 @@
 #include "ViewFactors/LinkEstimator.h"
 
 #include "Geometry/SceneRayCaster.h"
-#include "Geometry/ShaftCuller.h"
-#include "ViewFactors/PairVisibility.h"
-#include "ViewFactors/UnoccludedPairs.h"
 
 #include "vtkMath.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace LightTransport
@@ -28,20 +25,24 @@ constexpr double UnseenShare = 0.05;
 // near: a share of the receiver (squared deviation) gets as much as is possible.
 constexpr double NearRatio = 2.0;
 constexpr double NearShare = 0.003;
+// Where the kernel has no bound, in single precision.
+constexpr double MostKernel = std::numeric_limits<float>::max();
 
 //------------------------------------------------------------------------------
 // How much the means of the kernel vary over a receiver; `area` is that of the sender.
-double GetVariance(const double* means, double area, double highest)
+double GetVariance(const float* means, double area, double highest)
 {
   const double mean = std::accumulate(means, means + Points, 0.0) / Points;
   double sum = 0.0;
   for (int k = 0; k < Points; ++k)
   {
-    sum += (means[k] - mean) * (means[k] - mean) / (Points - 1);
+    const double deviation = static_cast<double>(means[k]) - mean;
+    sum += deviation * deviation / (Points - 1);
   }
   // No more than everything arrives.
   const double most = std::min(highest, 1.0 / area);
-  const bool mayMiss = most > NearRatio * *std::max_element(means, means + Points);
+  const bool mayMiss =
+    most > NearRatio * static_cast<double>(*std::max_element(means, means + Points));
   return mayMiss ? sum + NearShare * (most - mean) * (most - mean) : sum;
 }
 } // namespace
@@ -49,7 +50,7 @@ double GetVariance(const double* means, double area, double highest)
 //------------------------------------------------------------------------------
 LinkEstimator::LinkEstimator(const PatchScene& scene, const LinkSlots& slots,
   const SceneRayCaster& caster, const UnoccludedPairs& open, const ShaftCuller& culler)
-  : Scene(scene), Slots(slots), Caster(caster), Open(open), Culler(culler), Sampler(scene, slots)
+  : Scene(scene), Slots(slots), Caster(caster), Pairs(scene, open, culler), Sampler(scene, slots)
 {
 }
 
@@ -78,12 +79,6 @@ void LinkEstimator::SetBrightness(const std::vector<double>& brightness)
 }
 
 //------------------------------------------------------------------------------
-LinkEstimator::Estimate LinkEstimator::Look(const Pair& pair, double highest, double& rays) const
-{
-  return this->Weigh(pair, highest, this->TakeMeans(pair, rays));
-}
-
-//------------------------------------------------------------------------------
 double LinkEstimator::GetKernel(const ClusterSampler::Sample& a,
   const ClusterSampler::Sample& b) const
 {
@@ -95,99 +90,91 @@ double LinkEstimator::GetKernel(const ClusterSampler::Sample& a,
 }
 
 //------------------------------------------------------------------------------
-LinkEstimator::Means LinkEstimator::TakeMeans(const Pair& pair, double& rays) const
+LinkEstimator::View LinkEstimator::Look(const Pair& pair, double highest, double& rays) const
 {
   ClusterSampler::Randomness random(pair.I, pair.J);
   const ClusterSampler::Samples a = this->Sampler.Take(pair.I, random);
   const ClusterSampler::Samples b = this->Sampler.Take(pair.J, random);
-  Means means;
+  double open = 0.0;
+  double rows[Points] = {};
+  double columns[Points] = {};
   for (int i = 0; i < Points; ++i)
   {
     for (int j = 0; j < Points; ++j)
     {
-      double kernel = this->GetKernel(a[i], b[j]);
-      means.Open += kernel;
+      double kernel = this->GetKernel(a[i], b[j]) / Points;
+      open += kernel / Points;
       if (kernel > 0.0 && !pair.IsFree)
       {
         ++rays;
         kernel =
           this->Caster.IsOccluded(a[i].Point, b[j].Point, a[i].Patch, b[j].Patch) ? 0.0 : kernel;
       }
-      means.Seen += kernel;
-      means.Rows[i] += kernel / Points;
-      means.Columns[j] += kernel / Points;
+      rows[i] += kernel;
+      columns[j] += kernel;
     }
   }
-  means.Open /= Points * Points;
-  means.Seen /= Points * Points;
-  return means;
+  View view;
+  const auto round = [](double value) { return static_cast<float>(value); };
+  std::transform(rows, rows + Points, view.Rows, round);
+  std::transform(columns, columns + Points, view.Columns, round);
+  view.Open = round(open);
+  view.Highest = round(std::min(highest, MostKernel));
+  return view;
 }
 
 //------------------------------------------------------------------------------
 // From the kernel to the irradiance that counts.
-LinkEstimator::Estimate LinkEstimator::Weigh(const Pair& pair, double highest,
-  const Means& means) const
+LinkEstimator::Estimate LinkEstimator::Weigh(const Pair& pair, const View& view) const
 {
   const double areaI = this->Slots.GetArea(pair.I);
   const double areaJ = this->Slots.GetArea(pair.J);
   const double sentI = areaI * this->Brightness[pair.I];
   const double sentJ = areaJ * this->Brightness[pair.J];
-  const double varianceI = GetVariance(means.Rows, areaJ, highest);
-  const double varianceJ = GetVariance(means.Columns, areaI, highest);
-  const double unseen = pair.IsFree ? 0.0 : means.Open * UnseenShare;
+  const double varianceI = GetVariance(view.Rows, areaJ, view.Highest);
+  const double varianceJ = GetVariance(view.Columns, areaI, view.Highest);
+  const double unseen = pair.IsFree ? 0.0 : view.Open * UnseenShare;
   // The mean is off by about half of how much rows and columns vary, in both directions.
   const double mean = (varianceI + varianceJ) / (2 * Points) + unseen * unseen;
   Estimate estimate;
-  estimate.Value = means.Seen;
+  estimate.Value = std::accumulate(view.Rows, view.Rows + Points, 0.0) / Points;
   estimate.ErrorI = (varianceI + mean) * areaI * sentJ * sentJ;
   estimate.ErrorJ = (varianceJ + mean) * areaJ * sentI * sentI;
   estimate.Mean = mean * (areaI * sentJ * sentJ + areaJ * sentI * sentI);
   for (int k = 0; k < Points; ++k)
   {
-    estimate.DeviationsI[k] = (means.Rows[k] - means.Seen) * sentJ;
-    estimate.DeviationsJ[k] = (means.Columns[k] - means.Seen) * sentI;
+    estimate.DeviationsI[k] = (view.Rows[k] - estimate.Value) * sentJ;
+    estimate.DeviationsJ[k] = (view.Columns[k] - estimate.Value) * sentI;
   }
   return estimate;
 }
 
 //------------------------------------------------------------------------------
-LinkEstimator::Estimate LinkEstimator::Integrate(const Pair& pair, double threshold,
-  PairVisibility& visibility) const
+PatchPairs::View LinkEstimator::LookAtPatches(const Pair& pair, PairVisibility& visibility) const
 {
-  const vtkIdType i = this->Slots.GetPatch(pair.I);
-  const vtkIdType j = this->Slots.GetPatch(pair.J);
-  const double areaI = this->Scene.GetAreas()[i];
-  const double areaJ = this->Scene.GetAreas()[j];
-  const double open = this->Open.Compute(i, j).Value;
-  Estimate estimate;
-  estimate.Value = open / (areaI * areaJ);
-  if (pair.IsFree || estimate.Value <= 0.0 || !this->Culler.HasOccluders())
-  {
-    return estimate;
-  }
-  std::vector<ShaftCuller::Occluder> between;
-  this->Culler.FindBetween(i, j, between);
-  if (between.empty())
-  {
-    return estimate;
-  }
-  if (!visibility.SetPair(this->Scene, i, j, this->Culler.GetWalls(), between,
-        PairVisibility::GetKey(i, j), open))
-  {
-    return estimate;
-  }
-  PairVisibility::Share share = visibility.Look();
-  const double sentI = open / areaJ * this->Brightness[pair.I];
-  const double sentJ = open / areaI * this->Brightness[pair.J];
+  return this->Pairs.Look(this->Slots.GetPatch(pair.I), this->Slots.GetPatch(pair.J), pair.IsFree,
+    visibility);
+}
+
+//------------------------------------------------------------------------------
+// Powers of 2, so that thresholds that are hardly finer do not ask anew.
+LinkEstimator::Estimate LinkEstimator::WeighPatches(const Pair& pair, double threshold,
+  PairVisibility& visibility, PatchPairs::View& view) const
+{
+  const double areaI = this->Slots.GetArea(pair.I);
+  const double areaJ = this->Slots.GetArea(pair.J);
+  const double sentI = view.Kernel * areaI * this->Brightness[pair.I];
+  const double sentJ = view.Kernel * areaJ * this->Brightness[pair.J];
   const double weight = areaI * sentJ * sentJ + areaJ * sentI * sentI;
-  const double allowed = weight > 0.0 ? std::sqrt(threshold / weight) : 1.0;
-  if (share.Error > allowed)
-  {
-    share = visibility.Integrate(allowed, share.Value);
-  }
-  estimate.Value *= share.Value;
-  estimate.ErrorI = share.Error * share.Error * areaI * sentJ * sentJ;
-  estimate.ErrorJ = share.Error * share.Error * areaJ * sentI * sentI;
+  const double allowed =
+    weight > 0.0 ? std::exp2(std::round(0.5 * std::log2(threshold / weight))) : 1.0;
+  const PatchPairs::View::Share share = this->Pairs.See(this->Slots.GetPatch(pair.I),
+    this->Slots.GetPatch(pair.J), allowed, visibility, view);
+  const double squared = static_cast<double>(share.Error) * share.Error;
+  Estimate estimate;
+  estimate.Value = static_cast<double>(view.Kernel) * share.Value;
+  estimate.ErrorI = squared * areaI * sentJ * sentJ;
+  estimate.ErrorJ = squared * areaJ * sentI * sentI;
   return estimate;
 }
 } // namespace LightTransport

@@ -6,7 +6,7 @@
  * pairs of them, with a ray for each where anything may stand between the clusters. How the means
  * of rows and of columns differ is how the irradiance varies over the receiver, in both directions;
  * with geometry and visibility in one number a shadow's edge is refined as far as its light is
- * worth. Two patches get the exchange of UnoccludedPairs and the visible part of PairVisibility.
+ * worth. Two patches get their exchange (PatchPairs).
  *
  * Errors are squares of the error of the irradiance, integrated over the receiver, for a radiosity
  * of 1 everywhere, or for a given one.
@@ -17,6 +17,7 @@
 #include "Links/LinkSlots.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactors/ClusterSampler.h"
+#include "ViewFactors/PatchPairs.h"
 
 #include <vector>
 
@@ -48,6 +49,16 @@ public:
     double DeviationsJ[Points] = {};
   };
 
+  /// What is found of two slots, whatever their link is for: means of the kernel over pairs of
+  /// points.
+  struct View
+  {
+    float Rows[Estimate::Points];
+    float Columns[Estimate::Points];
+    float Open;    ///< as if nothing were between
+    float Highest; ///< a bound of the kernel
+  };
+
   /// `caster` holds the same scene. All must outlive this.
   LinkEstimator(const PatchScene& scene, const LinkSlots& slots, const SceneRayCaster& caster,
     const UnoccludedPairs& open, const ShaftCuller& culler);
@@ -57,33 +68,27 @@ public:
   /// Its square relative to the largest one, integrated over the scene.
   double GetSquaredBrightness() const { return this->SquaredBrightness; }
 
-  /// Two slots that are not both patches. The kernel is at most `highest`; adds to `rays`.
-  Estimate Look(const Pair& pair, double highest, double& rays) const;
+  ///@{ Two slots that are not both patches. The kernel is at most `highest`; adds to `rays`.
+  View Look(const Pair& pair, double highest, double& rays) const;
+  Estimate Weigh(const Pair& pair, const View& view) const;
+  ///@}
 
-  /// Two patches; how much of the exchange is visible as well as an error below `threshold` needs.
-  Estimate Integrate(const Pair& pair, double threshold, PairVisibility& visibility) const;
+  ///@{ Two patches; how much of the exchange is visible as well as an error below `threshold`
+  /// needs.
+  PatchPairs::View LookAtPatches(const Pair& pair, PairVisibility& visibility) const;
+  Estimate WeighPatches(const Pair& pair, double threshold, PairVisibility& visibility,
+    PatchPairs::View& view) const;
+  ///@}
 
 private:
   static constexpr int Points = ClusterSampler::Points;
 
-  /// Means of the kernel over pairs of points.
-  struct Means
-  {
-    double Open = 0.0; ///< as if nothing were between
-    double Seen = 0.0;
-    double Rows[Points] = {};
-    double Columns[Points] = {};
-  };
-
   double GetKernel(const ClusterSampler::Sample& a, const ClusterSampler::Sample& b) const;
-  Means TakeMeans(const Pair& pair, double& rays) const;
-  Estimate Weigh(const Pair& pair, double highest, const Means& means) const;
 
   const PatchScene& Scene;
   const LinkSlots& Slots;
   const SceneRayCaster& Caster;
-  const UnoccludedPairs& Open;
-  const ShaftCuller& Culler;
+  const PatchPairs Pairs;
   ClusterSampler Sampler;
   std::vector<double> Brightness; ///< of each slot, at most 1
   double SquaredBrightness = 0.0;

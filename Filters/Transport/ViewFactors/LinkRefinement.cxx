@@ -57,6 +57,7 @@ void LinkRefinement::Counters::Add(const Counters& other)
 struct LinkRefinement::Refiner
 {
   const LinkRefinement& Outer;
+  PairLooks& Looks;
   SlotErrors& Errors;
   double Threshold;
   vtkIdType First; ///< unit of the first result
@@ -71,69 +72,107 @@ struct LinkRefinement::Refiner
       const vtkIdType unit = this->First + index * this->Step;
       if (unit < static_cast<vtkIdType>(this->Outer.Units.size()))
       {
-        this->Visit(this->Outer.Units[unit], this->Results[index], visibility);
+        PairLooks::Unit& looks = this->Looks.GetUnit(unit);
+        looks.resize(std::max<std::size_t>(looks.size(), 1));
+        this->Visit(this->Outer.Units[unit], 0, { looks, this->Results[index], visibility });
       }
     }
   }
+
+  /// A unit, as far as it has come.
+  struct Work
+  {
+    PairLooks::Unit& Looks;
+    Result& Found;
+    PairVisibility& Visibility;
+  };
 
   bool ArePatches(const Pair& pair) const
   {
     return this->Outer.Slots.IsPatch(pair.I) && this->Outer.Slots.IsPatch(pair.J);
   }
 
-  void Visit(Pair pair, Result& result, PairVisibility& visibility) const
+  void Visit(Pair pair, std::size_t place, const Work& work) const
   {
     Pulse::Beat();
     if (pair.I == pair.J)
     {
-      this->VisitWithin(pair, result, visibility);
+      this->VisitWithin(pair, place, work);
       return;
     }
-    ++result.Count.PairsExamined;
+    Counters& count = work.Found.Count;
+    ++count.PairsExamined;
+    PairLooks::Look& look = work.Looks[place];
+    look = look.Kind == PairLooks::Look::UNKNOWN ? this->LookAt(pair, count.Rays, work.Visibility)
+                                                 : look;
+    if (look.Kind == PairLooks::Look::DARK)
+    {
+      ++count.PairsBackFacing;
+      return;
+    }
+    pair.IsFree = look.IsFree;
+    const bool arePatches = look.Kind == PairLooks::Look::PATCHES;
+    const LinkEstimator& estimator = this->Outer.Estimator;
+    const Estimate estimate = arePatches
+      ? estimator.WeighPatches(pair, this->Threshold, work.Visibility, look.Patches)
+      : estimator.Weigh(pair, look.Clusters);
+    const double error =
+      estimate.ErrorI / this->Outer.Shares[pair.I] + estimate.ErrorJ / this->Outer.Shares[pair.J];
+    if (arePatches || error <= this->Threshold)
+    {
+      this->Keep(pair, estimate, work.Found);
+      return;
+    }
+    this->Divide(pair, estimate, place, work);
+  }
+
+  // Once for all thresholds.
+  PairLooks::Look LookAt(const Pair& pair, double& rays, PairVisibility& visibility) const
+  {
+    PairLooks::Look look;
     const int nodeI = this->Outer.Slots.GetNode(pair.I);
     const int nodeJ = this->Outer.Slots.GetNode(pair.J);
     const double highest = nodeI == nodeJ ? std::numeric_limits<double>::infinity()
                                           : this->Outer.Open.GetKernelBound(nodeI, nodeJ);
     if (highest <= 0.0)
     {
-      ++result.Count.PairsBackFacing;
-      return;
+      look.Kind = PairLooks::Look::DARK;
+      return look;
     }
-    const bool arePatches = this->ArePatches(pair);
-    pair.IsFree =
-      pair.IsFree || (nodeI != nodeJ && !arePatches && !this->Outer.Culler.MayBlock(nodeI, nodeJ));
-    const Estimate estimate = arePatches
-      ? this->Outer.Estimator.Integrate(pair, this->Threshold, visibility)
-      : this->Outer.Estimator.Look(pair, highest, result.Count.Rays);
-    const double error =
-      estimate.ErrorI / this->Outer.Shares[pair.I] + estimate.ErrorJ / this->Outer.Shares[pair.J];
-    if (arePatches || error <= this->Threshold)
+    const LinkEstimator& estimator = this->Outer.Estimator;
+    if (this->ArePatches(pair))
     {
-      this->Keep(pair, estimate, result);
-      return;
+      look.Kind = PairLooks::Look::PATCHES;
+      look.IsFree = pair.IsFree;
+      look.Patches = estimator.LookAtPatches(pair, visibility);
+      return look;
     }
-    this->Divide(pair, estimate, result, visibility);
+    look.Kind = PairLooks::Look::CLUSTERS;
+    look.IsFree = pair.IsFree || (nodeI != nodeJ && !this->Outer.Culler.MayBlock(nodeI, nodeJ));
+    look.Clusters = estimator.Look({ pair.I, pair.J, look.IsFree }, highest, rays);
+    return look;
   }
 
   // Pairs within one node.
-  void VisitWithin(const Pair& pair, Result& result, PairVisibility& visibility) const
+  void VisitWithin(const Pair& pair, std::size_t place, const Work& work) const
   {
     if (this->Outer.Slots.IsPatch(pair.I) || !this->Outer.Open.MayFace(pair.I, pair.I))
     {
       return;
     }
     const LinkSlots::Node children = this->Outer.Slots.GetChildren(pair.I);
+    const int number = children.Last - children.First;
+    std::size_t next = PairLooks::Divide(work.Looks, place, 0, number * (number + 1) / 2);
     for (int i = children.First; i < children.Last; ++i)
     {
       for (int j = i; j < children.Last; ++j)
       {
-        this->Visit({ i, j, pair.IsFree }, result, visibility);
+        this->Visit({ i, j, pair.IsFree }, next++, work);
       }
     }
   }
 
-  void Divide(const Pair& pair, const Estimate& estimate, Result& result,
-    PairVisibility& visibility) const
+  void Divide(const Pair& pair, const Estimate& estimate, std::size_t place, const Work& work) const
   {
     const LinkSlots& slots = this->Outer.Slots;
     const double areaI = slots.GetArea(pair.I);
@@ -144,10 +183,12 @@ struct LinkRefinement::Refiner
     divideI = areaI > UnlikeAreas * areaJ || (divideI && areaJ <= UnlikeAreas * areaI);
     divideI = (divideI && !slots.IsPatch(pair.I)) || slots.IsPatch(pair.J);
     const LinkSlots::Node children = slots.GetChildren(divideI ? pair.I : pair.J);
+    std::size_t next =
+      PairLooks::Divide(work.Looks, place, divideI ? 0 : 1, children.Last - children.First);
     for (int child = children.First; child < children.Last; ++child)
     {
       this->Visit(divideI ? Pair{ child, pair.J, pair.IsFree } : Pair{ pair.I, child, pair.IsFree },
-        result, visibility);
+        next++, work);
     }
   }
 
@@ -171,9 +212,10 @@ struct LinkRefinement::Refiner
 };
 
 //------------------------------------------------------------------------------
-LinkRefinement::LinkRefinement(const PatchScene& scene, const SceneRayCaster& caster)
+LinkRefinement::LinkRefinement(const PatchScene& scene, const SceneRayCaster& caster,
+  PairLooks& looks)
   : Scene(scene), Slots(scene), Open(scene, OpenTolerance), Culler(scene),
-    Estimator(scene, this->Slots, caster, this->Open, this->Culler)
+    Estimator(scene, this->Slots, caster, this->Open, this->Culler), Looks(looks)
 {
   this->SetBrightness(std::vector<double>(scene.GetNumberOfPatches(), 1.0));
   this->MakeUnits();
@@ -216,6 +258,9 @@ void LinkRefinement::MakeUnits()
 Outcome LinkRefinement::Refine(double tolerance, double availableBytes, const Ranks& ranks,
   const Monitor& monitor)
 {
+  this->Looks.Prepare(this->Scene, ranks, this->Units.size());
+  this->BytesBefore = this->Looks.GetNumberOfBytes();
+  double rays = 0.0;
   ThresholdSearch search(tolerance, this->Estimator.GetSquaredBrightness());
   double links = 0.0;
   int stalls = 0;
@@ -230,6 +275,7 @@ Outcome LinkRefinement::Refine(double tolerance, double availableBytes, const Ra
       return outcome;
     }
     this->Assess();
+    rays += this->Total.Rays;
     // Pairs of patches are not divided any further.
     stalls = this->Total.Links <= LeastGrowth * links ? stalls + 1 : 0;
     if (stalls == MostStalls || search.IsReached(this->ErrorEstimate))
@@ -238,6 +284,7 @@ Outcome LinkRefinement::Refine(double tolerance, double availableBytes, const Ra
     }
     links = this->Total.Links;
   }
+  this->Total.Rays = rays;
   return Outcome::Done();
 }
 
@@ -254,8 +301,8 @@ Outcome LinkRefinement::RunPass(double threshold, double availableBytes, const R
   for (vtkIdType first = 0; first < units; first += batch)
   {
     std::vector<Result> results(UnitsPerBatch);
-    Refiner refiner{ *this, this->Errors, threshold, first + ranks.GetMine(), numberOfRanks,
-      results };
+    Refiner refiner{ *this, this->Looks, this->Errors, threshold, first + ranks.GetMine(),
+      numberOfRanks, results };
     Threads::For(0, UnitsPerBatch, 1, refiner);
     for (const Result& result : results)
     {
@@ -279,8 +326,9 @@ Outcome LinkRefinement::RunPass(double threshold, double availableBytes, const R
 Outcome LinkRefinement::CheckMemory(double availableBytes) const
 {
   const auto links = static_cast<double>(this->Links.size());
-  const double bytes =
-    2.0 * links * sizeof(this->Links[0]) + vtkExchangeHierarchy::GetEstimatedBytes(links);
+  const double bytes = 2.0 * links * sizeof(this->Links[0]) +
+    vtkExchangeHierarchy::GetEstimatedBytes(links) + this->Looks.GetNumberOfBytes() -
+    this->BytesBefore;
   return bytes <= availableBytes
     ? Outcome::Done()
     : Outcome::Failed("The links between clusters of " +

@@ -13,7 +13,8 @@
  * cluster leave out often has one sign (all of a floor is nearer to the lower rows of a wall), so
  * the deviations of its quarters are summed over its links first: that is what the sum is then
  * squared of, and clusters where it is more than its parts get finer links in the next pass. Passes
- * end when the error keeps the tolerance (root mean square, relative).
+ * end when the error keeps the tolerance (root mean square, relative). What one has found of a pair
+ * the next ones, and other refinements of the scene, do not look at again (PairLooks).
  *
  * Sources: P. Hanrahan, D. Salzman, L. Aupperle, A rapid hierarchical radiosity algorithm (1991);
  * F. X. Sillion, A unified hierarchical algorithm for global illumination with scattering volumes
@@ -27,6 +28,7 @@
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
 #include "ViewFactors/LinkEstimator.h"
+#include "ViewFactors/PairLooks.h"
 #include "ViewFactors/SlotErrors.h"
 #include "ViewFactors/UnoccludedPairs.h"
 #include "vtkExchangeHierarchy.h"
@@ -42,7 +44,7 @@ class SceneRayCaster;
 class LinkRefinement
 {
 public:
-  /// What became of the pairs that the last pass looked at.
+  /// What became of the pairs that the last pass came to.
   struct Counters
   {
     double Links = 0.0;
@@ -50,16 +52,17 @@ public:
     double PairsExamined = 0.0;
     double PairsBackFacing = 0.0;
     double PairsUnobstructed = 0.0; ///< nothing reaches into the shaft between them
-    double Rays = 0.0;
-    double SquaredError = 0.0; ///< of means and of pairs of patches
+    double Rays = 0.0;              ///< that this refinement has cast, in all its passes
+    double SquaredError = 0.0;      ///< of means and of pairs of patches
     void Add(const Counters& other);
   };
 
   /// Of the exchange of two patches with nothing in between: sum of the errors of a row.
   static constexpr double OpenTolerance = 1e-4;
 
-  /// `caster` holds the same scene. Both must outlive this.
-  LinkRefinement(const PatchScene& scene, const SceneRayCaster& caster);
+  /// `caster` holds the same scene; what `looks` have of it is not looked at again, and they keep
+  /// what is. All must outlive this.
+  LinkRefinement(const PatchScene& scene, const SceneRayCaster& caster, PairLooks& looks);
 
   /// A radiosity for each patch (>= 0) that counts instead of 1 everywhere.
   void SetBrightness(const std::vector<double>& brightness);
@@ -73,8 +76,8 @@ public:
 
   /**
    * Refine until the error estimate keeps `tolerance`, or there is nothing left to divide. This
-   * rank's share of the links is then in GetLinks. Fails, on all ranks alike, where links would
-   * take more than `availableBytes`. Collective.
+   * rank's share of the links is then in GetLinks. Fails, on all ranks alike, where links and what
+   * is kept of their pairs would take more than `availableBytes`. Collective.
    */
   Outcome Refine(double tolerance, double availableBytes, const Ranks& ranks,
     const Monitor& monitor);
@@ -110,6 +113,8 @@ private:
   const UnoccludedPairs Open;
   const ShaftCuller Culler;
   LinkEstimator Estimator;
+  PairLooks& Looks;
+  double BytesBefore = 0.0; ///< of what was kept already
   bool HasOpenings = true;
   std::vector<Pair> Units;
   std::vector<vtkExchangeHierarchy::Link> Links;

@@ -7,6 +7,7 @@
 #include "Support/Ranks.h"
 #include "ViewFactors/DenseViewFactors.h"
 #include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/PairLooks.h"
 #include "ViewFactors/RayHitsFile.h"
 #include "ViewFactors/RaySamples.h"
 #include "ViewFactors/SampledViewFactors.h"
@@ -18,7 +19,10 @@
 namespace LightTransport
 {
 //------------------------------------------------------------------------------
-ViewFactorStore::ViewFactorStore() : Samples(std::make_shared<RaySamples>()) {}
+ViewFactorStore::ViewFactorStore()
+  : Samples(std::make_shared<RaySamples>()), Looks(std::make_shared<PairLooks>())
+{
+}
 
 //------------------------------------------------------------------------------
 Outcome ViewFactorStore::Update(const PatchScene& scene, const ViewFactorSettings& settings,
@@ -47,8 +51,8 @@ Outcome ViewFactorStore::Make(const PatchScene& scene, const ViewFactorSettings&
   // Clusters hold who sends and who does not, and rays meet both.
   if (settings.Method == LinkMethod::Hierarchical)
   {
-    return this->Cache.Update(scene, HierarchicalViewFactors(settings.LinkTolerance), ranks,
-      monitor);
+    return this->Cache.Update(scene,
+      HierarchicalViewFactors(settings.LinkTolerance, {}, this->Looks), ranks, monitor);
   }
   if (settings.Method == LinkMethod::Sampled)
   {
@@ -241,6 +245,7 @@ void ViewFactorStore::Forget()
   this->Cache.Put(Links());
   *this->Samples = RaySamples();
   this->Checked = CheckedRows();
+  this->Looks->Clear();
   this->Faces = SceneFaces();
   this->LoadedFile.clear();
   this->LoadedRays = 0;

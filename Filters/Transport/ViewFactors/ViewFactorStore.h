@@ -23,6 +23,7 @@ namespace LightTransport
 class PatchRays;
 class PatchScene;
 class Ranks;
+class PairLooks;
 class RayHits;
 struct RaySamples;
 
@@ -77,6 +78,8 @@ public:
   std::shared_ptr<PatchRays> ShareRays();
   /// What other links are compared with.
   CheckedRows& GetCheckedRows() { return this->Checked; }
+  /// What links between clusters have found, for others of the same scene.
+  const std::shared_ptr<PairLooks>& GetLooks() const { return this->Looks; }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
@@ -105,6 +108,7 @@ private:
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
   CheckedRows Checked;
+  std::shared_ptr<PairLooks> Looks;    ///< likewise of links between clusters
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;

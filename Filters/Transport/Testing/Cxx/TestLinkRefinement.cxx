@@ -7,6 +7,8 @@
 #include "RanksInThreads.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactorTesting.h"
+#include "ViewFactors/HierarchicalViewFactors.h"
+#include "ViewFactors/PairLooks.h"
 #include "ViewFactors/ViewFactorStore.h"
 #include "vtkCPULinkOperator.h"
 #include "vtkExchangeHierarchy.h"
@@ -250,6 +252,67 @@ bool AreSame(vtkExchangeHierarchy* a, vtkExchangeHierarchy* b)
 }
 
 //------------------------------------------------------------------------------
+/// That of the same tolerance, made by another way.
+void CheckSame(const Links& found, const Links& expected, const std::string& what)
+{
+  Check(AreSame(found.Hierarchy, expected.Hierarchy) && found.RowSums == expected.RowSums,
+    "the same links " + what);
+  for (const char* name : { "LinkError", "NumberOfLinks", "PairsExamined", "PairsUnobstructed" })
+  {
+    Check(found.GetSummary(name) == expected.GetSummary(name), std::string(name) + " " + what);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Other tolerances of one scene refine what there is; they must not be able to tell.
+void TestKeptPairs(const PatchScene& scene)
+{
+  ViewFactorStore store;
+  double raysBefore = 0.0;
+  for (const double tolerance : { 1e-1, 1e-2, 3e-2 })
+  {
+    const std::string what = "from kept pairs, tolerance " + std::to_string(tolerance);
+    CheckDone(store.Update(scene, MakeSettings(tolerance), {}, Ranks(), Monitor()), what);
+    const Links fresh = Irradiator(scene, tolerance).Factors;
+    CheckSame(store.GetLinks(), fresh, what);
+    const double rays = store.GetLinks().GetSummary("LinkRaysCast");
+    const double freshRays = fresh.GetSummary("LinkRaysCast");
+    std::cout << what << ": " << rays << " rays, afresh " << freshRays << std::endl;
+    Check(freshRays > 0.0 && rays == std::max(freshRays - raysBefore, 0.0),
+      "no pair is looked at twice: " + what);
+    raysBefore = std::max(raysBefore, freshRays);
+  }
+}
+
+//------------------------------------------------------------------------------
+void TestKeptPairsByBrightness(const PatchScene& scene, const PatchScene& other)
+{
+  const Vector lamp = MakeLamp(scene).array() + 0.1;
+  const std::vector<double> brightness(lamp.data(), lamp.data() + lamp.size());
+  const auto build = [&](const PatchScene& where, const std::vector<double>& light,
+                       const std::shared_ptr<PairLooks>& looks)
+  {
+    Links links;
+    CheckDone(HierarchicalViewFactors(1e-2, light, looks).Build(where, Ranks(), Monitor(), links),
+      "links from kept pairs");
+    return links;
+  };
+  const auto looks = std::make_shared<PairLooks>();
+  const Links even = build(scene, {}, looks);
+  const double bytes = looks->GetNumberOfBytes();
+  Check(bytes >= 48.0 * even.GetSummary("PairsExamined"), "bytes of kept pairs");
+  const Links kept = build(scene, brightness, looks);
+  const Links fresh = build(scene, brightness, std::make_shared<PairLooks>());
+  CheckSame(kept, fresh, "by brightness, from pairs of even light");
+  Check(kept.GetSummary("LinkRaysCast") < 0.8 * fresh.GetSummary("LinkRaysCast"),
+    "brightness looks at few pairs again: " + std::to_string(kept.GetSummary("LinkRaysCast")) +
+      " rays of " + std::to_string(fresh.GetSummary("LinkRaysCast")));
+  CheckSame(build(other, {}, looks), build(other, {}, std::make_shared<PairLooks>()),
+    "of another scene");
+  CheckSame(build(scene, {}, looks), even, "of the first scene again");
+}
+
+//------------------------------------------------------------------------------
 using Table = std::vector<std::tuple<int, int, float>>;
 
 /// Appends rows, columns and values.
@@ -294,7 +357,9 @@ void TestRanks(vtkPolyData* data, const PatchScene& scene)
       const Ranks ranks(controller);
       const Outcome good = mine.Build(rank == 1 ? data : nothing.Get(), ranks);
       ViewFactorStore store;
-      const Outcome updated = store.Update(mine, MakeSettings(3e-2, true), {}, ranks, Monitor());
+      Outcome updated = store.Update(mine, MakeSettings(1e-1, true), {}, ranks, Monitor());
+      updated =
+        updated ? store.Update(mine, MakeSettings(3e-2, true), {}, ranks, Monitor()) : updated;
       const Links& factors = store.GetLinks();
       const std::lock_guard<std::mutex> lock(mutex);
       CheckDone(good, "scene on several ranks");
@@ -439,6 +504,10 @@ int TestLinkRefinement(int, char*[])
   PatchScene scene;
   CheckDone(scene.Build(room, Ranks()), "scene");
   TestThreads(scene);
+  TestKeptPairs(scene);
+  PatchScene spheres;
+  CheckDone(spheres.Build(MakeSpheres(), Ranks()), "scene");
+  TestKeptPairsByBrightness(scene, spheres);
   TestReciprocity(room);
   TestPlaces(room);
   TestClosure(scene);
