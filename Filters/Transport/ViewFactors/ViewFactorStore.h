@@ -10,6 +10,7 @@
 #include "Scene/SceneFaces.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "ViewFactors/CheckedRows.h"
 #include "ViewFactors/SamplingPlan.h"
 #include "vtkType.h"
 
@@ -19,6 +20,7 @@
 
 namespace LightTransport
 {
+class PatchRays;
 class PatchScene;
 class Ranks;
 class PairLooks;
@@ -58,8 +60,10 @@ public:
     const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
 
   /// The plan to begin with: that of the links that are kept, if they are of this scene and were
-  /// made for this tolerance or a smaller one, so that they need not be made again for other light.
-  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const Ranks& ranks) const;
+  /// made for this tolerance or a smaller one, so that they need not be made again for other light;
+  /// else `first`.
+  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const SamplingPlan& first,
+    const Ranks& ranks) const;
 
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
@@ -72,6 +76,10 @@ public:
   const RayHits& GetHits() const;
   /// What links between clusters have found, for others of the same scene.
   const std::shared_ptr<PairLooks>& GetLooks() const { return this->Looks; }
+  /// For as long as this is kept, and a scene is there, its trees for rays are built once.
+  std::shared_ptr<PatchRays> ShareRays();
+  /// What other links are compared with.
+  CheckedRows& GetCheckedRows() { return this->Checked; }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
@@ -100,6 +108,7 @@ private:
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
   std::shared_ptr<PairLooks> Looks;    ///< likewise of links between clusters
+  CheckedRows Checked;
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;
