@@ -215,7 +215,8 @@ std::vector<double> RayErrors::FindMeans(const std::vector<double>& radiosity,
 //------------------------------------------------------------------------------
 // What is the same everywhere closed rows carry without error, but for what they take for open.
 Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
-  const std::vector<double>& background, std::vector<double>& differences) const
+  const std::vector<double>& background, std::vector<double>& differences,
+  std::vector<double>&) const
 {
   const std::vector<double>& areas = this->Scene.GetAreas();
   const std::size_t patches = areas.size();

@@ -240,6 +240,7 @@ void ViewFactorStore::Forget()
 {
   this->Cache.Put(Links());
   *this->Samples = RaySamples();
+  this->Checked = CheckedRows();
   this->Faces = SceneFaces();
   this->LoadedFile.clear();
   this->LoadedRays = 0;

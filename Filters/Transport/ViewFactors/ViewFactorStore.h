@@ -10,6 +10,7 @@
 #include "Scene/SceneFaces.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "ViewFactors/CheckedRows.h"
 #include "ViewFactors/SamplingPlan.h"
 #include "vtkType.h"
 
@@ -74,6 +75,8 @@ public:
   const RayHits& GetHits() const;
   /// For as long as this is kept, and a scene is there, its trees for rays are built once.
   std::shared_ptr<PatchRays> ShareRays();
+  /// What other links are compared with.
+  CheckedRows& GetCheckedRows() { return this->Checked; }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
@@ -101,6 +104,7 @@ private:
 
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
+  CheckedRows Checked;
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;
