@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
+
+// vtkCompositePolyDataMapper2 is deprecated in VTK 9.3, and there until then: whoever has one sees its
+// blocks as they are.
+#define VTK_DEPRECATION_LEVEL 0
 #include "Passes/BlockSurfaces.h"
 
 #include "Passes/PlainMapper.h"
@@ -84,7 +88,7 @@ void Collect(vtkDataObject* data, Attributes* attributes, BlockSurface block,
     }
   }
   block.Surface = vtkPolyData::SafeDownCast(data);
-  if (block.Surface && block.Surface->GetNumberOfPolys() > 0)
+  if (block.Surface && block.Surface->GetNumberOfPolys() + block.Surface->GetNumberOfStrips() > 0)
   {
     blocks.push_back(block);
   }

@@ -6,6 +6,7 @@
     scattering_frames.py sizes [--entering 128,256,512,1024] [--leaving 64,128,256] [--filter]
     scattering_frames.py frames [--sizes 512,1024] [--links 16,64] [--patches 6000]
                                 [--plain PROGRAM]
+    scattering_frames.py single [--patches 6000] [--steps 4,8,16,32]
 
 `sizes` compares both maps, on the triangles, with vtkDirectIrradiance and vtkSubsurfaceScattering
 on these triangles, each divided into 16: no atlas, no texels, no GPU; with and without shadows.
@@ -15,6 +16,9 @@ map (all links the same). `frames` draws sizes x sizes pixels with maps of that 
 after the light has moved: what enters (with its shadow map), what leaves, the picture. The bunny
 of marble, 1 unit is 3 mm, a directional light; CPU seconds of the process, medians. PROGRAM is
 ScatteringProductBenchmark: what a plain shader takes that reads as many bytes as these links have.
+`single` marches single scattering alone (SingleScattering Only), 512 x 512 pixels, of marble and
+of the same with a hundredth of its coefficients: a frame where the camera moves, and the error of a
+picture against that of the most steps, relative L2 of its bytes.
 """
 
 import argparse
@@ -26,6 +30,7 @@ import time
 import numpy as np
 import vtklighttransport as lt
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
@@ -251,25 +256,49 @@ def show_frames(arguments):
                       f"times), picture {picture:.3f} CPU s", flush=True)
 
 
+def show_single(arguments):
+    surface = make_surface(BUNNY, arguments.patches, 512)
+    for share in (1.0, 0.01):
+        scene = Scene(surface, 512, 512, 128, "Uniform", 16)
+        scene.material.SetMillimetersPerUnit(3.0 * share)
+        scene.scattering.SetSingleScatteringToOnly()
+        scene.scattering.SetExposure(20.0)
+        scene.scattering.SetOutputEncodingToLinear()
+        scene.actor.GetProperty().SetSpecular(0.0)
+        pictures, seconds = [], []
+        for steps in arguments.steps:
+            scene.scattering.SetSingleScatteringSteps(steps)
+            scene.draw()
+            pixels = vtkUnsignedCharArray()
+            scene.window.GetPixelData(0, 0, 511, 511, 0, pixels)
+            pictures.append(vtk_to_numpy(pixels).astype(float))
+            scene.turn_camera()
+            seconds.append(scene.draw())
+            scene.renderer.GetActiveCamera().Azimuth(-1.0)
+        for steps, picture, second in zip(arguments.steps, pictures, seconds):
+            error = np.linalg.norm(picture - pictures[-1]) / np.linalg.norm(pictures[-1])
+            print(f"{surface.GetNumberOfCells()} triangles, coefficients x {share}, {steps} steps: "
+                  f"{second:.2f} CPU s a frame, error {100 * error:.2f} %", flush=True)
+
+
 def main():
     def numbers(text):
         return [int(number) for number in text.split(",")]
 
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("sizes", "frames"))
+    parser.add_argument("what", choices=("sizes", "frames", "single"))
     parser.add_argument("--entering", type=numbers, default=[128, 256, 512, 1024])
     parser.add_argument("--leaving", type=numbers, default=[64, 128, 256])
     parser.add_argument("--sizes", type=numbers, default=[512, 1024])
     parser.add_argument("--links", type=numbers, default=[16, 64])
     parser.add_argument("--patches", type=int, default=6000)
+    parser.add_argument("--steps", type=numbers, default=[4, 8, 16, 32])
     parser.add_argument("--filter", action="store_true")
     parser.add_argument("--plain", metavar="PROGRAM")
     arguments = parser.parse_args()
-    if arguments.what == "sizes":
-        show_sizes(arguments)
-    else:
-        show_frames(arguments)
+    shows = {"sizes": show_sizes, "frames": show_frames, "single": show_single}
+    shows[arguments.what](arguments)
 
 
 if __name__ == "__main__":
