@@ -37,15 +37,16 @@ Sides Compare(const PatchPlane& plane, const PatchGeometry& geometry, vtkIdType 
 
 //------------------------------------------------------------------------------
 // Of some heights: within the rounding they are none, beyond the limit they are certain; the doubt
-// is how far from between them they are, below 0 in between.
+// is how far from between them they are, below 0 in between. The number of lanes is handed down:
+// loops of constant length would be unrolled, and become no vector instructions.
 struct Table
 {
   double Rounding[N], Limit[N], Highest[N], Lowest[N], Doubt[N];
 };
 
-LT_INLINE void Clear(Table& table)
+LT_INLINE void Clear(Table& table, int lanes)
 {
-  for (int k = 0; k < N; ++k)
+  for (int k = 0; k < lanes; ++k)
   {
     table.Highest[k] = -Far;
     table.Lowest[k] = Far;
@@ -54,9 +55,9 @@ LT_INLINE void Clear(Table& table)
 }
 
 // Values are chosen, not references to them: else the loop would become no vector instructions.
-LT_INLINE void Add(const double* heights, Table& table)
+LT_INLINE void Add(const double* heights, Table& table, int lanes)
 {
-  for (int k = 0; k < N; ++k)
+  for (int k = 0; k < lanes; ++k)
   {
     const double height = heights[k];
     const double size = std::abs(height);
@@ -78,10 +79,10 @@ struct Masks
   std::uint16_t Above, OnOrBelow, Below, Doubtful;
 };
 
-LT_INLINE Masks MakeMasks(const Table& table)
+LT_INLINE Masks MakeMasks(const Table& table, int lanes)
 {
   unsigned int above = 0, onOrBelow = 0, below = 0, doubtful = 0;
-  for (int k = 0; k < N; ++k)
+  for (int k = 0; k < lanes; ++k)
   {
     above |= static_cast<unsigned int>(table.Highest[k] > table.Rounding[k]) << k;
     onOrBelow |= static_cast<unsigned int>(table.Lowest[k] <= table.Rounding[k]) << k;
@@ -95,11 +96,12 @@ LT_INLINE Masks MakeMasks(const Table& table)
 //------------------------------------------------------------------------------
 // The corners of a wall over all planes.
 LT_CLONES Masks CompareWithPlanes(const PatchGeometry::Vector* corners, int count,
-  const double* const normal[3], const double* offset, const double* rounding, const double* limit)
+  const double* const normal[3], const double* offset, const double* rounding, const double* limit,
+  int lanes)
 {
   Table table;
-  Clear(table);
-  for (int k = 0; k < N; ++k)
+  Clear(table, lanes);
+  for (int k = 0; k < lanes; ++k)
   {
     table.Rounding[k] = rounding[k];
     table.Limit[k] = limit[k];
@@ -108,25 +110,25 @@ LT_CLONES Masks CompareWithPlanes(const PatchGeometry::Vector* corners, int coun
   {
     const double x = corners[corner][0], y = corners[corner][1], z = corners[corner][2];
     double heights[N];
-    for (int k = 0; k < N; ++k)
+    for (int k = 0; k < lanes; ++k)
     {
       heights[k] = normal[0][k] * x + normal[1][k] * y + normal[2][k] * z - offset[k];
     }
-    Add(heights, table);
+    Add(heights, table, lanes);
   }
-  return MakeMasks(table);
+  return MakeMasks(table, lanes);
 }
 
 //------------------------------------------------------------------------------
 // All patches over the plane of a wall.
 LT_CLONES Masks CompareWithCorners(const PatchPlane& plane,
-  const std::vector<std::array<std::array<double, N>, 3>>& corners)
+  const std::vector<std::array<std::array<double, N>, 3>>& corners, int lanes)
 {
   const double x = plane.Normal[0], y = plane.Normal[1], z = plane.Normal[2];
   const double offset = plane.Normal.dot(plane.Origin);
   Table table;
-  Clear(table);
-  for (int k = 0; k < N; ++k)
+  Clear(table, lanes);
+  for (int k = 0; k < lanes; ++k)
   {
     table.Rounding[k] = plane.Rounding;
     table.Limit[k] = plane.Rounding + plane.Slope;
@@ -134,13 +136,13 @@ LT_CLONES Masks CompareWithCorners(const PatchPlane& plane,
   for (const auto& corner : corners)
   {
     double heights[N];
-    for (int k = 0; k < N; ++k)
+    for (int k = 0; k < lanes; ++k)
     {
       heights[k] = x * corner[0][k] + y * corner[1][k] + z * corner[2][k] - offset;
     }
-    Add(heights, table);
+    Add(heights, table, lanes);
   }
-  return MakeMasks(table);
+  return MakeMasks(table, lanes);
 }
 } // namespace
 
@@ -206,8 +208,9 @@ SideMasks SideFinder::Find(vtkIdType wall) const
   const double* const normal[3] = { this->Normal[0].data(), this->Normal[1].data(),
     this->Normal[2].data() };
   const Masks ofWall = CompareWithPlanes(places, count, normal, this->Offset.data(),
-    this->Rounding.data(), this->Limit.data());
-  const Masks ofPatches = CompareWithCorners(this->Walls.GetPlane(wall), this->Corners);
+    this->Rounding.data(), this->Limit.data(), this->Count);
+  const Masks ofPatches =
+    CompareWithCorners(this->Walls.GetPlane(wall), this->Corners, this->Count);
   SideMasks sides;
   sides.Front = ofWall.Above;
   sides.Cut = ofWall.Above & ofWall.OnOrBelow;

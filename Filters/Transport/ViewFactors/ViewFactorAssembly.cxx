@@ -106,7 +106,7 @@ struct ViewFactorAssembly::Looker
         tile.Values + (firstI - tile.Row * N) * N + (firstJ - tile.Column * N),
         this->Results[index - this->First], {}, {}, {}, -1 };
       this->Fill(unit.I, unit.J, work);
-      if (this->Outer.Culler.HasOccluders())
+      if (this->Outer.Culler.HasOccluders() && MayExchange(unit.I, unit.J, work))
       {
         this->Outer.Culler.Find(unit.I, unit.J, work.GetList(0));
         this->Descend(unit.I, unit.J, 0, work);
@@ -241,6 +241,10 @@ struct ViewFactorAssembly::Looker
     VisitChildren(nodeI, nodeJ, work.Tree,
       [&](int childI, int childJ)
       {
+        if (!MayExchange(childI, childJ, work))
+        {
+          return;
+        }
         work.GetList(depth + 1);
         this->Outer.Culler.Narrow(childI, childJ, work.GetList(depth), work.GetList(depth + 1));
         this->Descend(childI, childJ, depth + 1, work);
@@ -272,6 +276,23 @@ struct ViewFactorAssembly::Looker
       this->Hide(nodeI, nodeJ, work);
     }
     return true;
+  }
+
+  // Whether any pair faces each other. On a curved body few nodes do: what is between the others
+  // needs no search.
+  static bool MayExchange(int nodeI, int nodeJ, const Work& work)
+  {
+    const PatchTree::Node& i = work.Tree.GetNode(nodeI);
+    const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
+    for (vtkIdType row = i.First; row < i.Last; ++row)
+    {
+      const float* const values = &work.GetValue(row, j.First);
+      if (std::any_of(values, values + j.GetSize(), [](float value) { return value > 0.0f; }))
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
   double CountFacing(int nodeI, int nodeJ, const Work& work) const
