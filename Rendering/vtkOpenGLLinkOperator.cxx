@@ -153,6 +153,14 @@ int vtkOpenGLLinkOperator::GetNumberOfLinkTextures()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkOpenGLLinkOperator::GetNumberOfLinkBytes()
+{
+  return this->Device->Product
+    ? static_cast<vtkTypeInt64>(this->Device->Product->GetNumberOfLinkBytes())
+    : 0;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkOpenGLLinkOperator::GetNumberOfBytesRead()
 {
   return this->Device->Vectors ? this->Device->Vectors->GetNumberOfBytesRead() : 0;

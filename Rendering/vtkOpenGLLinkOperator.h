@@ -94,10 +94,11 @@ public:
   ///@}
 
   ///@{
-  /// Bytes read back from the context since the last Initialize(), and textures that hold the
-  /// links.
+  /// Bytes read back from the context since the last Initialize(), textures that hold the links,
+  /// and their bytes, each of which a product reads once.
   vtkTypeInt64 GetNumberOfBytesRead();
   int GetNumberOfLinkTextures();
+  vtkTypeInt64 GetNumberOfLinkBytes();
   ///@}
 
 protected:

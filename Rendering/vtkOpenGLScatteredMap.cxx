@@ -132,6 +132,12 @@ vtkTypeInt64 vtkOpenGLScatteredMap::GetNumberOfBytesRead()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkOpenGLScatteredMap::GetNumberOfLinkBytes()
+{
+  return this->Device->Links->GetNumberOfLinkBytes();
+}
+
+//------------------------------------------------------------------------------
 void vtkOpenGLScatteredMap::ReleaseGraphicsResources()
 {
   AtlasTexture& texture = *this->Texture->Texture;

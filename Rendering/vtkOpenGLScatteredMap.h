@@ -79,8 +79,10 @@ public:
   vtkGetMacro(NumberOfScatteringRuns, vtkIdType);
   ///@}
 
-  /// Bytes of values read back from the links on the GPU: 0.
+  ///@{ Bytes of values read back from the links on the GPU: 0; and of the links there.
   vtkTypeInt64 GetNumberOfBytesRead();
+  vtkTypeInt64 GetNumberOfLinkBytes();
+  ///@}
 
   /// Gives all memory on the device back; Update makes it again. Links are kept.
   void ReleaseGraphicsResources();

@@ -6,11 +6,13 @@
 #include "Maps/AtlasDrawing.h"
 #include "Passes/BlockSurfaces.h"
 #include "Passes/ExactShadows.h"
+#include "Passes/MarchedScattering.h"
 #include "Passes/RadianceShader.h"
 #include "Passes/StandIns.h"
 #include "Shared/ArrayNames.h"
 #include "Shared/Attempt.h"
 #include "Shared/Fresnel.h"
+#include "Tracing/SceneTrees.h"
 #include "vtkLightTransportPassesScatteringFS.h"
 #include "vtkOpenGLAtlasTexture.h"
 #include "vtkOpenGLScatteredMap.h"
@@ -20,12 +22,14 @@
 #include "vtkActor.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 #include "vtkSubsurfaceScattering.h"
 #include "vtkTextureObject.h"
+#include "vtkVersion.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -67,6 +71,10 @@ struct vtkSubsurfaceScatteringPass::Body
   double RefractiveIndex = 1.0;
   double MeanTransmittance = 1.0;
   bool IsMapped = false;
+  bool IsMarched = false;
+  MarchedScattering::Medium Medium;
+  std::string MediumProblem; ///< which has been told
+  int Caster = -1;           ///< of the tree
 
   void LetGo()
   {
@@ -82,7 +90,7 @@ struct vtkSubsurfaceScatteringPass::Body
 vtkSubsurfaceScatteringPass::vtkSubsurfaceScatteringPass()
   : vtkTransportPass(ArrayNames::ScatteredIrradiance),
     Lighting(vtkSmartPointer<vtkSurfaceLighting>::New()), Blocks(new StandIns),
-    Shadowed(new ExactShadows)
+    Trees(new SceneTrees), Shadowed(new ExactShadows), Marched(new MarchedScattering)
 {
   this->SetRefractiveIndex(1.3);
 }
@@ -145,6 +153,8 @@ void vtkSubsurfaceScatteringPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Shadows: " << this->Shadows << "\n";
   os << indent << "ShadowMapSize: " << this->ShadowMapSize << "\n";
   os << indent << "DirectShadows: " << this->DirectShadows << "\n";
+  os << indent << "SingleScattering: " << this->SingleScattering << "\n";
+  os << indent << "SingleScatteringSteps: " << this->SingleScatteringSteps << "\n";
   os << indent << "ScatteredMapSize: " << this->ScatteredMapSize << "\n";
   os << indent << "NumberOfMaterials: " << this->GetNumberOfMaterials() << "\n";
 }
@@ -272,24 +282,79 @@ vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfScatteringRuns()
 //------------------------------------------------------------------------------
 vtkIdType vtkSubsurfaceScatteringPass::GetNumberOfShadowRuns()
 {
-  return this->Shadowed->GetNumberOfRuns();
+  return this->Trees->GetNumberOfRuns();
 }
 
 //------------------------------------------------------------------------------
-void vtkSubsurfaceScatteringPass::UpdateShadows(vtkRenderer* renderer)
+void vtkSubsurfaceScatteringPass::TellOnce(const Outcome& done, std::string& told)
 {
-  if (this->DirectShadows)
+  if (done.HasFailed() && !done.GetMessage().empty() && done.GetMessage() != told)
   {
-    const Outcome done = Attempt([&]() { return this->Shadowed->Update(renderer); }, WithoutMemory);
-    if (done.HasFailed() && !done.GetMessage().empty())
+    vtkErrorMacro(<< done.GetMessage());
+  }
+  if (!done.HasFailed() || !done.GetMessage().empty())
+  {
+    told = done.GetMessage();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSubsurfaceScatteringPass::UpdateTree(vtkRenderer* renderer)
+{
+  const bool isMarched =
+    this->SingleScattering != SINGLE_SCATTERING_OFF && this->Lighting->GetRendererLights();
+  this->Tree = nullptr;
+  this->WarnedOfUnshadowed = this->WarnedOfUnshadowed && this->DirectShadows;
+  int lights = 0;
+  if (this->DirectShadows || isMarched)
+  {
+    SceneTrees::Entry& entry = this->Trees->Get(renderer);
+    Outcome done = Attempt([&]() { return entry.Tree.Update(renderer); }, WithoutMemory);
+    this->Tree = entry.Tree.IsThere() ? &entry.Tree : nullptr;
+    if (!this->Tree && !done.GetMessage().empty())
     {
-      vtkErrorMacro("Without DirectShadows: " << done.GetMessage());
+      done = Outcome::Failed(std::string("Without ") +
+        (this->DirectShadows ? "DirectShadows: " : "SingleScattering: ") + done.GetMessage());
+    }
+    if (this->Tree && this->DirectShadows)
+    {
+      done = this->Shadowed->Update(renderer, entry.Tree);
+    }
+    this->TellOnce(done, entry.Problem);
+    if (this->Tree && isMarched)
+    {
+      this->TellOnce(this->Marched->Update(renderer, entry.Tree), entry.MarchProblem);
+      lights = this->Marched->GetNumberOfLights();
     }
   }
-  const bool areDrawn = this->DirectShadows && this->Shadowed->AreThere();
-  if (areDrawn != this->AreShadowsDrawn)
+  const bool areDrawn = this->Tree && this->DirectShadows;
+  if (areDrawn != this->AreShadowsDrawn || lights != this->MarchedLights)
   {
     this->AreShadowsDrawn = areDrawn;
+    this->MarchedLights = lights;
+    this->MapsModified();
+  }
+}
+
+//------------------------------------------------------------------------------
+// What is added to a map needs that.
+void vtkSubsurfaceScatteringPass::UpdateMarched(Body& body, bool isMapped)
+{
+  auto* mapper = body.Drawn ? vtkPolyDataMapper::SafeDownCast(body.Drawn->GetMapper()) : nullptr;
+  body.Caster =
+    this->MarchedLights > 0 && mapper ? this->Tree->FindBody(body.Actor, mapper->GetInput()) : -1;
+  bool isMarched =
+    body.Caster >= 0 && (isMapped || this->SingleScattering == SINGLE_SCATTERING_ONLY);
+  if (isMarched)
+  {
+    const Outcome made = MarchedScattering::MakeMedium(body.Scattered->GetMaterial(),
+      body.Actor->GetMatrix(), body.Medium);
+    this->TellOnce(made, body.MediumProblem);
+    isMarched = static_cast<bool>(made);
+  }
+  if (isMarched != body.IsMarched)
+  {
+    body.IsMarched = isMarched;
     this->MapsModified();
   }
 }
@@ -314,18 +379,27 @@ bool vtkSubsurfaceScatteringPass::PostReplaceShaderValues(std::string& vertexSha
 {
   if (this->AreShadowsDrawn)
   {
-    ExactShadows::FillPlace(fragmentShader);
+    bool& isFilled = this->Shadowable[vtkActor::SafeDownCast(prop)];
+    isFilled = ExactShadows::FillPlace(fragmentShader) || isFilled;
   }
-  return this->Superclass::PostReplaceShaderValues(vertexShader, geometryShader, fragmentShader,
-    mapper, prop);
+  this->Superclass::PostReplaceShaderValues(vertexShader, geometryShader, fragmentShader, mapper,
+    prop);
+  Body* body = this->FindBody(prop);
+  if (body && body->IsMarched)
+  {
+    this->Marched->Write(fragmentShader);
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkSubsurfaceScatteringPass::SetShaderParameters(vtkShaderProgram* program,
   vtkAbstractMapper* mapper, vtkProp* prop, vtkOpenGLVertexArrayObject* vao)
 {
-  if (this->AreShadowsDrawn)
+  if (this->Tree && ExactShadows::IsUsedBy(program))
   {
+    this->Tree->Activate(program);
+    this->IsTreeActive = true;
     this->Shadowed->SetUniforms(program);
   }
   return this->Superclass::SetShaderParameters(program, mapper, prop, vao);
@@ -336,7 +410,7 @@ bool vtkSubsurfaceScatteringPass::SetShaderParameters(vtkShaderProgram* program,
 bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
 {
   this->RemoveBodies(nullptr, 0);
-  this->UpdateShadows(state->GetRenderer());
+  this->UpdateTree(state->GetRenderer());
   bool isAnyThere = false;
   for (int index = 0; index < state->GetPropArrayCount(); ++index)
   {
@@ -349,16 +423,21 @@ bool vtkSubsurfaceScatteringPass::UpdateMaps(const vtkRenderState* state)
     this->FindDrawn(actor);
     for (const std::unique_ptr<Body>& body : this->Bodies)
     {
-      const bool isMapped =
-        body->Actor == actor && body->Drawn && this->Update(*body, state->GetRenderer());
-      if (body->Actor == actor && isMapped != body->IsMapped)
+      if (body->Actor != actor)
+      {
+        continue;
+      }
+      const bool isMapped = body->Drawn && this->SingleScattering != SINGLE_SCATTERING_ONLY &&
+        this->Update(*body, state->GetRenderer());
+      if (isMapped != body->IsMapped)
       {
         body->IsMapped = isMapped;
         this->MapsModified();
       }
+      this->UpdateMarched(*body, isMapped);
     }
   }
-  return isAnyThere || this->AreShadowsDrawn;
+  return isAnyThere || this->DirectShadows;
 }
 
 //------------------------------------------------------------------------------
@@ -440,7 +519,11 @@ bool vtkSubsurfaceScatteringPass::Update(Body& body, vtkRenderer* renderer)
 RadianceShader::Source vtkSubsurfaceScatteringPass::GetSource(vtkProp* prop)
 {
   Body* body = this->FindBody(prop);
-  return body && body->IsMapped ? RadianceShader::Source::Map : RadianceShader::Source::Array;
+  if (body && body->IsMapped)
+  {
+    return RadianceShader::Source::Map;
+  }
+  return body && body->IsMarched ? RadianceShader::Source::Empty : RadianceShader::Source::Array;
 }
 
 //------------------------------------------------------------------------------
@@ -449,7 +532,14 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
   RadianceShader::Uniforms& uniforms)
 {
   Body* body = this->FindBody(prop);
-  AtlasDrawing* drawing = body->Transmitted->GetDrawing();
+  if (body->IsMarched && this->Tree)
+  {
+    uniforms.RefractiveIndex = body->Medium.RefractiveIndex;
+    this->Tree->Activate(program);
+    this->IsTreeActive = true;
+    this->Marched->SetUniforms(program, body->Medium, body->Caster, this->SingleScatteringSteps);
+  }
+  AtlasDrawing* drawing = body->IsMapped ? body->Transmitted->GetDrawing() : nullptr;
   if (!drawing)
   {
     return;
@@ -472,7 +562,29 @@ void vtkSubsurfaceScatteringPass::SetMap(vtkShaderProgram* program, vtkProp* pro
 void vtkSubsurfaceScatteringPass::LetGoOfMaps()
 {
   this->LetGoOfBody();
-  this->Shadowed->LetGo();
+  if (this->IsTreeActive)
+  {
+    this->Tree->Deactivate();
+    this->IsTreeActive = false;
+  }
+  this->WarnOfUnshadowed();
+}
+
+//------------------------------------------------------------------------------
+// Of an actor's shaders those of its lines need not be lit.
+void vtkSubsurfaceScatteringPass::WarnOfUnshadowed()
+{
+  const bool isAny = std::any_of(this->Shadowable.begin(), this->Shadowable.end(),
+    [this](const auto& entry) { return !entry.second && this->Shadowed->IsShaded(entry.first); });
+  this->Shadowable.clear();
+  if (isAny && !this->WarnedOfUnshadowed)
+  {
+    this->WarnedOfUnshadowed = true;
+    vtkWarningMacro("An actor is drawn without DirectShadows: its shaders have no light by the "
+                    "names that VTK gives it. Take away what replaces the lighting in its shaders; "
+                    "where nothing does, this VTK ("
+      << vtkVersion::GetVTKVersion() << ") names it otherwise.");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -489,7 +601,8 @@ void vtkSubsurfaceScatteringPass::LetGoOfBody()
 void vtkSubsurfaceScatteringPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->LetGoOfMaps();
-  this->Shadowed->Clear();
+  this->Trees->Release(window);
+  this->Tree = nullptr;
   for (const auto& body : this->Bodies)
   {
     body->Transmitted->ReleaseGraphicsResources();

@@ -40,6 +40,7 @@
 #include "vtkSmartPointer.h" // for members
 #include "vtkTransportPass.h"
 
+#include <map>    // for std::map
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 #include <vector> // for std::vector
@@ -47,6 +48,10 @@
 namespace LightTransport
 {
 class ExactShadows;
+class MarchedScattering;
+class Outcome;
+class SceneTree;
+class SceneTrees;
 class StandIns;
 } // namespace LightTransport
 
@@ -123,11 +128,52 @@ public:
    * also where smooth normals are not. Goes with depth peeling, passes that smooth edges, cameras
    * anywhere, open sheets. Costs a ray through a tree of all triangles for each fragment and light,
    * and the making of the tree (80 bytes a triangle or so) where a surface has another shape or
-   * place. Default off.
+   * place; each renderer has its own. A light that is nowhere (its position is not finite) casts
+   * none, which an error tells once; an actor in whose shaders there is no place for them, since
+   * its own code replaces VTK's lighting, is drawn without, which a warning tells. Default off.
    */
   vtkSetMacro(DirectShadows, bool);
   vtkGetMacro(DirectShadows, bool);
   vtkBooleanMacro(DirectShadows, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Light that is scattered exactly once in actors with a material, from the renderer's lights (not
+   * environments and arrays), marched pixel by pixel for the shape as it is: along the refracted
+   * way of what the eye sees up to where it leaves the body (the surface must be closed; a sheet
+   * that is open is a half space), and from each place on it straight to each light, through the
+   * body, also through other parts of it, which dim it, and other actors, which block it. Fresnel's
+   * equations at each surface, extinction with the coefficients that are not reduced, Henyey and
+   * Greenstein's phase function with the material's Anisotropy, three bands. Exact for an index of
+   * 1, and for distant lights on flat surfaces; elsewhere light is not focused, as in Jensen and
+   * others, 2001; reflections inside are not followed (vtkSingleScattering does both, as an array).
+   *
+   * - Off (the default): the map of what leaves has it as in a flat body.
+   * - Only: in place of that map, which is not made; surfaces need no atlas. All that there is in a
+   *   body that is thin or clear.
+   * - Added: to that map. Every model has light that is scattered once in its profile already, so
+   * it is counted twice then: Jensen's model with Model Dipole, and more light than energy allows
+   *   with any where little is absorbed.
+   *
+   * Steps are those of each pixel's way, all of the same loss in the clearest band: default 8,
+   * range 1 to 256. Costs two rays for each step and light, and the tree of DirectShadows. A mean
+   * free path must be longer than 1e-4 of the scene; where it is short, facets are seen. Lights or
+   * a material that are no good leave it away, with an error that is told once.
+   */
+  enum SingleScatteringType
+  {
+    SINGLE_SCATTERING_OFF = 0,
+    SINGLE_SCATTERING_ONLY = 1,
+    SINGLE_SCATTERING_ADDED = 2
+  };
+  vtkSetClampMacro(SingleScattering, int, SINGLE_SCATTERING_OFF, SINGLE_SCATTERING_ADDED);
+  vtkGetMacro(SingleScattering, int);
+  void SetSingleScatteringToOff() { this->SetSingleScattering(SINGLE_SCATTERING_OFF); }
+  void SetSingleScatteringToOnly() { this->SetSingleScattering(SINGLE_SCATTERING_ONLY); }
+  void SetSingleScatteringToAdded() { this->SetSingleScattering(SINGLE_SCATTERING_ADDED); }
+  vtkSetClampMacro(SingleScatteringSteps, int, 1, 256);
+  vtkGetMacro(SingleScatteringSteps, int);
   ///@}
 
   ///@{
@@ -144,7 +190,7 @@ public:
   vtkIdType GetNumberOfScatteringRuns();
   ///@}
 
-  /// How often the tree of DirectShadows has been made.
+  /// How often the tree of DirectShadows and SingleScattering has been made.
   vtkIdType GetNumberOfShadowRuns();
 
   ///@{
@@ -195,19 +241,31 @@ private:
   void RemoveBodies(vtkActor* actor, int firstBlock);
   void FindDrawn(vtkActor* actor);
   bool Update(Body& body, vtkRenderer* renderer);
-  void UpdateShadows(vtkRenderer* renderer);
+  void TellOnce(const LightTransport::Outcome& done, std::string& told);
+  void UpdateTree(vtkRenderer* renderer);
+  void UpdateMarched(Body& body, bool isMapped);
+  void WarnOfUnshadowed();
   void LetGoOfBody();
 
   vtkSmartPointer<vtkSurfaceLighting> Lighting;
   std::vector<std::unique_ptr<Body>> Bodies;
   const std::unique_ptr<LightTransport::StandIns> Blocks;
+  const std::unique_ptr<LightTransport::SceneTrees> Trees;
   const std::unique_ptr<LightTransport::ExactShadows> Shadowed;
+  const std::unique_ptr<LightTransport::MarchedScattering> Marched;
   Body* Bound = nullptr; ///< whose textures are active
   int IrradianceMapSize = 512;
   int IrradianceSamples = 2;
   bool Shadows = true;
   bool DirectShadows = false;
+  LightTransport::SceneTree* Tree = nullptr; ///< of the frame that is drawn, where it is needed
+  bool IsTreeActive = false;
+  std::map<vtkActor*, bool> Shadowable; ///< those whose shaders were made: whether any has shadows
+  int SingleScattering = SINGLE_SCATTERING_OFF;
+  int SingleScatteringSteps = 8;
+  int MarchedLights = 0; ///< of the frame that is drawn
   bool AreShadowsDrawn = false;
+  bool WarnedOfUnshadowed = false;
   int ShadowMapSize = 4096;
   int ScatteredMapSize = 512;
   double RefractiveIndex = 0.0;

@@ -142,7 +142,8 @@ RadianceShader::Source vtkTransportPass::GetSource(vtkProp*)
 RadianceShader::Source vtkTransportPass::FindSource(vtkAbstractMapper* mapper, vtkProp* prop)
 {
   const RadianceShader::Source source = this->GetSource(prop);
-  const bool needsArray = source != RadianceShader::Source::Map;
+  const bool needsArray =
+    source == RadianceShader::Source::Array || source == RadianceShader::Source::Groups;
   return needsArray && this->Arrays->GetNumberOfComponents(mapper) == 0
     ? RadianceShader::Source::None
     : source;

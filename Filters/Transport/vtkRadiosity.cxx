@@ -9,8 +9,8 @@
 #include "Radiosity/RadiosityEquation.h"
 #include "Radiosity/RadiosityMaterials.h"
 #include "Radiosity/RadiositySolver.h"
-#include "Radiosity/SampledErrors.h"
 #include "Radiosity/ShotPatches.h"
+#include "Radiosity/SolutionErrors.h"
 #include "Radiosity/SolverSettings.h"
 #include "Radiosity/SolverTable.h"
 #include "Radiosity/ThermalDoubts.h"
@@ -22,6 +22,8 @@
 #include "Shared/ArrayNames.h"
 #include "Shared/FieldValues.h"
 #include "Shared/TransportMemory.h"
+#include "ViewFactors/CheckedErrors.h"
+#include "ViewFactors/CheckedRows.h"
 #include "ViewFactors/EnclosureVerdict.h"
 #include "ViewFactors/HierarchicalViewFactors.h"
 #include "ViewFactors/RayErrors.h"
@@ -65,6 +67,8 @@ constexpr double CoarseDone = 0.3;
 constexpr double CoarseSolved = 0.35;
 constexpr double LinksDone = 0.8;
 constexpr double SolverDone = 0.98;
+// And of the search for errors.
+constexpr double RowsChecked = 0.8;
 
 //------------------------------------------------------------------------------
 double GetElement(const std::vector<double>& values, int index)
@@ -129,6 +133,7 @@ private:
   Outcome UpdateLinks(double linkTolerance, const SamplingPlan& plan, const Monitor& monitor);
   Outcome LinkByBrightness();
   Outcome LinkByRays();
+  SamplingPlan BeginPlan() const;
   SamplingPlan ImprovePlan(const SamplingPlan& plan) const;
 
   RadiosityEquation DescribeEquation() const;
@@ -136,6 +141,9 @@ private:
   SolverSettings MakeSettings(int mostIterations, double begin, const Monitor& monitor);
   Outcome Solve(const Monitor& monitor);
   Outcome FindErrors(const Monitor& monitor);
+  Outcome TellErrors(const Monitor& monitor);
+  Outcome CheckRows(const Monitor& monitor);
+  std::unique_ptr<LinkDoubts> MakeDoubts() const;
   Outcome Shoot(const Monitor& monitor);
   Outcome CheckBackground() const;
   Outcome TakeShots();
@@ -158,8 +166,9 @@ private:
   vtkSmartPointer<vtkCPULinkOperator> Reference;
   RadiositySolution Solution;
   std::vector<double> Irradiance; // patches x bands
+  std::vector<double> LastChange; // of the radiosity, after the product that gave it
   bool IsSolved = false;          // while linking
-  SampledErrors Errors;           // of sampled links
+  SolutionErrors Errors;
   std::string DeviceUsed;
   std::string DeviceExplanation;
   double NetPower = 0.0; // of a thermal scene
@@ -377,8 +386,9 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
 Outcome vtkRadiosity::Run::LinkByRays()
 {
   const std::vector<double> direct = this->Materials.DirectIrradiance;
-  SamplingPlan plan =
-    this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(), this->AllRanks);
+  const auto rays = this->GetStore().ShareRays();
+  SamplingPlan plan = this->GetStore().FindPlan(this->Scene, this->GetLinkTolerance(),
+    this->BeginPlan(), this->AllRanks);
   double done = 0.0;
   for (;;)
   {
@@ -406,6 +416,26 @@ Outcome vtkRadiosity::Run::LinkByRays()
 }
 
 //------------------------------------------------------------------------------
+// As if all that is reflected came evenly; of what enters through openings nothing is known yet.
+SamplingPlan vtkRadiosity::Run::BeginPlan() const
+{
+  const double accuracy = this->GetLinkTolerance();
+  if (this->Materials.Settings.HasBackground())
+  {
+    return SamplingPlan::Begin(accuracy);
+  }
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  const RadiosityEquation equation = this->DescribeEquation();
+  const std::vector<double> ambient = equation.FindAmbientIrradiance(areas);
+  std::vector<double> radiosity = equation.Emission;
+  for (std::size_t k = 0; k < radiosity.size(); ++k)
+  {
+    radiosity[k] += equation.Reflectance[k] * ambient[k % ambient.size()];
+  }
+  return SamplingPlan::Begin(accuracy, { areas, radiosity, this->Materials.Emission });
+}
+
+//------------------------------------------------------------------------------
 // The same where the accuracy has been reached, or cannot be.
 SamplingPlan vtkRadiosity::Run::ImprovePlan(const SamplingPlan& plan) const
 {
@@ -421,8 +451,8 @@ SamplingPlan vtkRadiosity::Run::ImprovePlan(const SamplingPlan& plan) const
                    this->Links->SkyFractions, this->Errors.Whole },
       accuracy);
   const vtkIdType patches = this->Scene.GetNumberOfPatches();
-  const double bytes = RayHits::GetEstimatedBytes(patches, better.RaysPerPatch, this->AllRanks) +
-    SampledErrors::GetEstimatedBytes(patches, this->Materials.NumberOfBands);
+  const double bytes = RayHits::GetEstimatedBytes(patches, better.Rays, this->AllRanks) +
+    SolutionErrors::GetEstimatedBytes(patches, this->Materials.NumberOfBands);
   const bool fits = bytes <= MemoryForRays * TransportMemory::GetAvailableBytes();
   const bool doNotFit = this->AllRanks.GetLargest(fits ? 0 : 1) > 0;
   if (doNotFit || better == plan)
@@ -485,8 +515,22 @@ Outcome vtkRadiosity::Run::Compute()
     return solved;
   }
   solved = this->Finish() ? solved : Outcome::FailedAsReported();
-  return solved && this->Links->IsSampled() ? this->FindErrors(monitor.GetStage(SolverDone, 1.0))
-                                            : solved;
+  return solved ? this->TellErrors(monitor.GetStage(SolverDone, 1.0)) : solved;
+}
+
+//------------------------------------------------------------------------------
+// Where nobody has asked for errors no solution is given up for want of memory for them. Rows are
+// checked in the order of space.
+Outcome vtkRadiosity::Run::TellErrors(const Monitor& monitor)
+{
+  const bool isSampled = this->Links->IsSampled();
+  if (!isSampled && this->Scene.GetOrder() != PatchScene::Order::Spatial)
+  {
+    return Outcome::Done();
+  }
+  const Outcome found = this->FindErrors(monitor);
+  const bool areNeeded = isSampled || this->Owner->ComputeErrors;
+  return found.HasFailed() && !areNeeded ? Outcome::Done() : found;
 }
 
 //------------------------------------------------------------------------------
@@ -524,29 +568,58 @@ Outcome vtkRadiosity::Run::Solve(const Monitor& monitor)
 //------------------------------------------------------------------------------
 Outcome vtkRadiosity::Run::FindErrors(const Monitor& monitor)
 {
-  const double bytes = SampledErrors::GetEstimatedBytes(this->Scene.GetNumberOfPatches(),
+  const double bytes = SolutionErrors::GetEstimatedBytes(this->Scene.GetNumberOfPatches(),
     this->Materials.NumberOfBands);
   const double available = TransportMemory::GetAvailableBytes();
   const Outcome fits = this->AllRanks.Agree(bytes <= available
       ? Outcome::Done()
-      : Outcome::Failed("The errors of links from rays need " + TransportMemory::Format(bytes) +
+      : Outcome::Failed("The errors of a solution need " + TransportMemory::Format(bytes) +
           " of memory and " + TransportMemory::Format(available) +
-          " are free: set LinkMethod to Hierarchical, or use fewer patches or bands."));
+          " are free: use fewer patches or bands."));
   if (!fits)
   {
     return fits;
   }
   auto links = LinkOperators::MakeOnCPU(this->Links->GetExchange(),
-    this->Materials.NumberOfBands * RayErrors::Groups, this->AllRanks);
+    this->Materials.NumberOfBands * SolutionErrors::GetNumberOfVectors(), this->AllRanks);
   if (!links)
   {
     return Outcome::FailedAsReported();
   }
+  if (Outcome checked = this->CheckRows(monitor.GetStage(0.0, RowsChecked)); !checked)
+  {
+    return checked;
+  }
+  RadiosityEquation equation = this->DescribeLinks(this->DescribeEquation());
+  equation.Reference = this->Reference;
   const std::vector<double> nothing;
-  const RayErrors rays(this->Scene, this->GetStore().GetHits(), *this->Links, this->AllRanks);
-  return this->Errors.Find(rays, this->DescribeLinks(this->DescribeEquation()), links,
-    this->Solution.Radiosity, this->Irradiance,
-    this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing, monitor);
+  const std::unique_ptr<LinkDoubts> doubts = this->MakeDoubts();
+  return this->Errors.Find(*doubts, equation, links, this->Solution.Radiosity, this->Irradiance,
+    this->LastChange,
+    this->Materials.Settings.HasBackground() ? this->Materials.Background : nothing,
+    monitor.GetStage(RowsChecked, 1.0));
+}
+
+//------------------------------------------------------------------------------
+// Rays know their own errors; other links are compared with more exact rows.
+std::unique_ptr<LinkDoubts> vtkRadiosity::Run::MakeDoubts() const
+{
+  if (this->Links->IsSampled())
+  {
+    return std::make_unique<RayErrors>(this->Scene, this->GetStore().GetHits(), *this->Links,
+      this->AllRanks);
+  }
+  return std::make_unique<CheckedErrors>(this->Scene, this->GetStore().GetCheckedRows(),
+    *this->Links, this->AllRanks);
+}
+
+//------------------------------------------------------------------------------
+Outcome vtkRadiosity::Run::CheckRows(const Monitor& monitor)
+{
+  return this->Links->IsSampled()
+    ? Outcome::Done()
+    : this->GetStore().GetCheckedRows().Provide(this->Scene, *this->Links, this->Solution.Radiosity,
+        this->AllRanks, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -710,6 +783,7 @@ bool vtkRadiosity::Run::Finish()
 {
   std::vector<double>& radiosity = this->Solution.Radiosity;
   this->Irradiance.resize(radiosity.size());
+  this->LastChange.resize(radiosity.size());
   if (!this->Reference->SetVector(0, radiosity.data()) || !this->Reference->Multiply(1, 0) ||
     !this->Reference->GetVector(1, this->Irradiance.data()))
   {
@@ -721,7 +795,9 @@ bool vtkRadiosity::Run::Finish()
     double& irradiance = this->Irradiance[k];
     irradiance =
       irradiance / areas[k / this->Materials.NumberOfBands] + this->Materials.DirectIrradiance[k];
+    const double before = radiosity[k];
     radiosity[k] = this->Materials.Emission[k] + this->Materials.Reflectance[k] * irradiance;
+    this->LastChange[k] = radiosity[k] - before;
   }
   return true;
 }
@@ -763,11 +839,12 @@ void vtkRadiosity::Run::Write()
 //------------------------------------------------------------------------------
 void vtkRadiosity::Run::WriteErrors(const SceneOutput& output) const
 {
-  if (!this->Links || !this->Links->IsSampled())
+  if (this->Errors.Whole < 0.0)
   {
     this->WarnOnce(
-      { "Only sampled links know standard errors: set LinkMethod to Sampled, or switch "
-        "ComputeErrors off." });
+      { "Shots, and links over the quadtree of an atlas, know no standard errors: take "
+        "a solver with links and the ClusterTree Spatial, or switch ComputeErrors "
+        "off." });
     return;
   }
   const int bands = this->Materials.NumberOfBands;
@@ -834,7 +911,7 @@ void vtkRadiosity::Run::WriteSummaries() const
       std::string(LinkMethodChoice::GetName(this->Choice.Get())));
     FieldValues::Add(fields, "LinkMethodExplanation", this->Choice.Explain());
     this->Links->AddSummaries(fields);
-    if (this->Links->IsSampled())
+    if (this->Errors.Whole >= 0.0)
     {
       FieldValues::Add(fields, "AccuracyReached", this->Errors.Whole);
     }

@@ -199,7 +199,7 @@ public:
    * ViewFactorTolerance; Hierarchical with RefineByBrightness or the ClusterTree Atlas; Sampled
    * with a LinkTolerance. Where nothing of that is asked for, Dense up to 1,000
    * patches and Sampled beyond 8,192, and between whichever is predicted to take less time for this
-   * Accuracy (Dense up to some 2 s), by a short look at some pairs of patches. Field data
+   * Accuracy (Dense up to half a second), by a short look at some pairs of patches. Field data
    * LinkMethodUsed says which, and LinkMethodExplanation why; a warning tells of a tolerance that
    * has no effect on the links.
    */
@@ -227,10 +227,10 @@ public:
    * another number and not in it, and the solver's Tolerance another. Default 1e-2, range 1e-5
    * to 1.
    *
-   * Sampled links get as many rays, and exact rows of as many of the brightest patches, as keep it
-   * in the least time, by one standard error of their own (AccuracyReached in the field data tells
-   * which; a warning tells where memory or the most rays did not reach it). Other links take it as
-   * their tolerance where that is 0.
+   * Sampled links get as many rays, more of bright patches, and exact rows of as many of the
+   * brightest, as keep it in the least time, by one standard error of their own (a warning tells
+   * where memory or the most rays did not reach it). Other links take it as their tolerance where
+   * that is 0. AccuracyReached in the field data tells what came out, whatever the links are.
    */
   vtkSetClampMacro(Accuracy, double, 1e-5, 1.0);
   vtkGetMacro(Accuracy, double);
@@ -240,9 +240,12 @@ public:
   /**
    * Add the cell and point arrays "RadiosityError", "IrradianceError" and "NetFluxError" (a
    * component per band), and with temperatures "SurfaceTemperatureError" (kelvin; 0 where the
-   * temperature is given): one standard error each of what sampled links give, from eight groups
-   * of their rays. That of a single patch is known to a quarter itself. Other links have none, and
-   * a warning says so. Default off.
+   * temperature is given): one standard error each, by the links and the solver. Of sampled links
+   * it comes from eight groups of their rays, and that of a single patch is known to a quarter
+   * itself. Other links are compared with more exact rows of some patches, a sample by area and the
+   * brightest: where nothing more is known all patches have the mean of the sample, and what is
+   * reflected of it. The patches' size is not in it. Shots have none, nor
+   * have links over the quadtree of an atlas, and a warning says so. Default off.
    */
   vtkSetMacro(ComputeErrors, bool);
   vtkGetMacro(ComputeErrors, bool);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Maps/SceneLights.h"
 
+#include "Shared/BitHash.h"
+
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkMath.h"
@@ -9,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace LightTransport
 {
@@ -157,18 +158,36 @@ void AimAtBounds(const Vector3& from, const double bounds[6], Vector3& ahead, do
 //------------------------------------------------------------------------------
 bool SceneLight::operator==(const SceneLight& other) const
 {
-  const auto tie = [](const SceneLight& light)
+  const auto getStamp = [](const SceneLight& light)
   {
-    return std::tie(light.IsPositional, light.Position, light.Axis, light.Color, light.Attenuation,
-      light.ConeCosine, light.Exponent);
+    BitHash hash;
+    hash.AddNumber(light.IsPositional ? 1.0 : 0.0);
+    for (const Vector3& vector : { light.Position, light.Axis, light.Color, light.Attenuation })
+    {
+      for (const double number : vector)
+      {
+        hash.AddNumber(number);
+      }
+    }
+    hash.AddNumber(light.ConeCosine);
+    hash.AddNumber(light.Exponent);
+    return hash.Get();
   };
-  return tie(*this) == tie(other);
+  return getStamp(*this) == getStamp(other);
 }
 
 //------------------------------------------------------------------------------
-Outcome SceneLights::Read(vtkRenderer* renderer, std::vector<SceneLight>& lights)
+bool SceneLight::IsSomewhere() const
 {
-  lights.clear();
+  const Vector3& place = this->IsPositional ? this->Position : this->Axis;
+  const double size = vtkMath::Norm(place.data());
+  return std::isfinite(size) && (this->IsPositional || size > 0.0);
+}
+
+//------------------------------------------------------------------------------
+std::vector<SceneLight> SceneLights::Find(vtkRenderer* renderer)
+{
+  std::vector<SceneLight> lights;
   vtkLightCollection* all = renderer->GetLights();
   const auto isAnyOn = [all]()
   {
@@ -193,15 +212,20 @@ Outcome SceneLights::Read(vtkRenderer* renderer, std::vector<SceneLight>& lights
     if (light->GetSwitch())
     {
       lights.push_back(Copy(light));
-      if (!IsGood(lights.back()))
-      {
-        return Outcome::Failed("A light has a position, intensity, color or attenuation that is "
-                               "negative or not finite, no attenuation value above 0, or its focal "
-                               "point at its position: correct it.");
-      }
     }
   }
-  return Outcome::Done();
+  return lights;
+}
+
+//------------------------------------------------------------------------------
+Outcome SceneLights::Read(vtkRenderer* renderer, std::vector<SceneLight>& lights)
+{
+  lights = Find(renderer);
+  return std::all_of(lights.begin(), lights.end(), IsGood)
+    ? Outcome::Done()
+    : Outcome::Failed("A light has a position, intensity, color or attenuation that is negative or "
+                      "not finite, no attenuation value above 0, or its focal point at its "
+                      "position: correct it.");
 }
 
 //------------------------------------------------------------------------------

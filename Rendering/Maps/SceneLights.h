@@ -26,7 +26,10 @@ struct SceneLight
   double ConeCosine = 0.0; ///< 0 where there is no cone
   double Exponent = 0.0;
 
+  /// The same bits: a number that is none is itself.
   bool operator==(const SceneLight& other) const;
+  /// Whether it is known where its light comes from, whatever that is.
+  bool IsSomewhere() const;
 };
 
 /// A camera in a light.
@@ -44,8 +47,11 @@ struct LightView
 
 namespace SceneLights
 {
-/// All that are on. Where the renderer would make one, it does. Headlights and camera lights are
-/// where the camera has them now. Fails for numbers that are none.
+/// All that are on, with the numbers that they have, in VTK's shaders, too. Where the renderer
+/// would make one, it does. Headlights and camera lights are where the camera has them now.
+std::vector<SceneLight> Find(vtkRenderer* renderer);
+
+/// The same, of which none may be left out; fails for numbers that are none.
 Outcome Read(vtkRenderer* renderer, std::vector<SceneLight>& lights);
 
 /// One view of what is lit, or six around a light that has it all about. `receivers` and `scene`:

@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Maps/ShadowCasters.h"
 
+#include "Passes/BlockSurfaces.h"
 #include "Passes/PlainMapper.h"
 #include "Shared/BitHash.h"
 
 #include "vtkActor.h"
 #include "vtkActorCollection.h"
 #include "vtkCellArray.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkMapper.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkProp.h"
+#include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkSmartPointer.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
@@ -37,98 +37,108 @@ bool CastsShadows(vtkActor* actor)
 }
 
 //------------------------------------------------------------------------------
-template <typename Visit>
-void VisitSurfaces(vtkDataObject* data, const Visit& visit)
+// Of the shape alone: arrays come and go.
+std::uint64_t GetShapeStamp(vtkPolyData* surface)
 {
-  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
-  if (!composite)
-  {
-    if (auto* surface = vtkPolyData::SafeDownCast(data))
-    {
-      visit(surface);
-    }
-    return;
-  }
-  vtkSmartPointer<vtkCompositeDataIterator> blocks;
-  blocks.TakeReference(composite->NewIterator());
-  for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
-  {
-    if (auto* surface = vtkPolyData::SafeDownCast(blocks->GetCurrentDataObject()))
-    {
-      visit(surface);
-    }
-  }
+  BitHash hash;
+  hash.AddObjects({ surface->GetPoints(), surface->GetPolys(), surface->GetStrips() });
+  return hash.Get();
 }
 
 //------------------------------------------------------------------------------
-// Of the shape alone: arrays come and go.
-std::uint64_t GetShapeStamp(vtkDataObject* data)
+/// Those of an actor that can be seen.
+std::vector<vtkPolyData*> FindSurfaces(vtkMapper* mapper)
 {
-  BitHash hash;
-  VisitSurfaces(data,
-    [&](vtkPolyData* surface) {
-      hash.AddObjects({ surface->GetPoints(), surface->GetPolys(), surface->GetStrips() });
-    });
-  return hash.Get();
+  std::vector<vtkPolyData*> surfaces;
+  std::vector<BlockSurface> blocks;
+  if (vtkPolyDataMapper* plain = FindPlainMapper(mapper))
+  {
+    plain->Update();
+    surfaces.push_back(plain->GetInput());
+  }
+  else if (FindBlockSurfaces(mapper, blocks))
+  {
+    for (const BlockSurface& block : blocks)
+    {
+      if (block.IsVisible && !(block.HasOpacity && block.Opacity <= 0.0))
+      {
+        surfaces.push_back(block.Surface);
+      }
+    }
+  }
+  surfaces.erase(std::remove(surfaces.begin(), surfaces.end(), nullptr), surfaces.end());
+  return surfaces;
 }
 } // namespace
 
 //------------------------------------------------------------------------------
 bool ShadowCasters::Caster::HasShapeOf(const Caster& other) const
 {
-  return this->Data == other.Data && this->Stamp == other.Stamp;
+  return this->Surface == other.Surface && this->Stamp == other.Stamp;
 }
 
 //------------------------------------------------------------------------------
 void ShadowCasters::Caster::VisitTriangles(
   const std::function<void(const std::array<Vector3, 3>&)>& visit) const
 {
-  VisitSurfaces(this->Data,
-    [&visit](vtkPolyData* surface)
+  vtkNew<vtkTriangleFilter> divider;
+  divider->PassVertsOff();
+  divider->PassLinesOff();
+  divider->SetInputData(this->Surface);
+  divider->Update();
+  vtkPolyData* triangles = divider->GetOutput();
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  for (vtkIdType cell = 0; cell < triangles->GetNumberOfPolys(); ++cell)
+  {
+    triangles->GetPolys()->GetCellAtId(cell, count, ids);
+    std::array<Vector3, 3> corners;
+    for (std::size_t corner = 0; corner < corners.size(); ++corner)
     {
-      vtkNew<vtkTriangleFilter> divider;
-      divider->PassVertsOff();
-      divider->PassLinesOff();
-      divider->SetInputData(surface);
-      divider->Update();
-      vtkPolyData* triangles = divider->GetOutput();
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      for (vtkIdType cell = 0; cell < triangles->GetNumberOfPolys(); ++cell)
-      {
-        triangles->GetPolys()->GetCellAtId(cell, count, ids);
-        std::array<Vector3, 3> corners;
-        for (std::size_t corner = 0; corner < corners.size(); ++corner)
-        {
-          triangles->GetPoint(ids[corner], corners[corner].data());
-        }
-        visit(corners);
-      }
-    });
+      triangles->GetPoint(ids[corner], corners[corner].data());
+    }
+    visit(corners);
+  }
 }
 
 //------------------------------------------------------------------------------
+// An assembly that is invisible has parts that say that they are not.
 void ShadowCasters::Find(vtkRenderer* renderer)
 {
   this->Casters.clear();
-  BitHash stamp;
-  vtkActorCollection* actors = renderer->GetActors();
+  vtkNew<vtkActorCollection> actors;
+  vtkPropCollection* props = renderer->GetViewProps();
   vtkCollectionSimpleIterator place;
+  props->InitTraversal(place);
+  while (vtkProp* prop = props->GetNextProp(place))
+  {
+    if (prop->GetVisibility())
+    {
+      prop->GetActors(actors);
+    }
+  }
+  BitHash stamp;
   actors->InitTraversal(place);
   while (vtkActor* actor = actors->GetNextActor(place))
   {
-    if (!CastsShadows(actor))
+    if (CastsShadows(actor))
     {
-      continue;
+      this->Add(actor, stamp);
     }
-    actor->GetMapper()->Update();
+  }
+  this->Stamp = stamp.Get();
+  this->AddBounds();
+}
+
+//------------------------------------------------------------------------------
+void ShadowCasters::Add(vtkActor* actor, BitHash& stamp)
+{
+  for (vtkPolyData* surface : FindSurfaces(actor->GetMapper()))
+  {
     Caster caster;
-    caster.Data = actor->GetMapper()->GetInputDataObject(0, 0);
-    if (!caster.Data)
-    {
-      continue;
-    }
-    caster.Stamp = GetShapeStamp(caster.Data);
+    caster.Actor = actor;
+    caster.Surface = surface;
+    caster.Stamp = GetShapeStamp(surface);
     actor->ComputeMatrix();
     std::copy_n(actor->GetMatrix()->GetData(), 16, caster.Matrix.begin());
     actor->GetBounds(caster.Bounds.data());
@@ -139,8 +149,6 @@ void ShadowCasters::Find(vtkRenderer* renderer)
     }
     this->Casters.push_back(std::move(caster));
   }
-  this->Stamp = stamp.Get();
-  this->AddBounds();
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// The surfaces of a scene that cast shadows: of all visible actors, wherever the camera looks.
+/// The surfaces of a scene that cast shadows: of all visible actors, and visible blocks of
+/// composite data, wherever the camera looks.
 #ifndef ShadowCasters_h
 #define ShadowCasters_h
 
@@ -13,24 +14,28 @@
 #include <functional>
 #include <vector>
 
-class vtkDataObject;
+class vtkActor;
+class vtkPolyData;
 class vtkRenderer;
 
 namespace LightTransport
 {
+class BitHash;
+
 class ShadowCasters
 {
 public:
-  /// What of an actor casts shadows.
+  /// An actor, or a block of one.
   struct Caster
   {
-    vtkWeakPointer<vtkDataObject> Data;
+    vtkWeakPointer<vtkActor> Actor;
+    vtkWeakPointer<vtkPolyData> Surface;
     std::uint64_t Stamp = 0; ///< of its shape
     std::array<double, 16> Matrix = {};
-    std::array<double, 6> Bounds = {};
+    std::array<double, 6> Bounds = {}; ///< of the actor
 
     bool HasShapeOf(const Caster& other) const;
-    /// In the caster's own coordinates, all blocks of composite data after each other.
+    /// In the caster's own coordinates.
     void VisitTriangles(const std::function<void(const std::array<Vector3, 3>&)>& visit) const;
   };
 
@@ -46,6 +51,7 @@ public:
   const std::array<double, 6>& GetBounds() const { return this->Bounds; }
 
 private:
+  void Add(vtkActor* actor, BitHash& stamp);
   void AddBounds();
 
   std::vector<Caster> Casters;

@@ -88,7 +88,7 @@ void Collect(vtkDataObject* data, Attributes* attributes, BlockSurface block,
     }
   }
   block.Surface = vtkPolyData::SafeDownCast(data);
-  if (block.Surface && block.Surface->GetNumberOfPolys() > 0)
+  if (block.Surface && block.Surface->GetNumberOfPolys() + block.Surface->GetNumberOfStrips() > 0)
   {
     blocks.push_back(block);
   }

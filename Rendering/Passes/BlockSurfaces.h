@@ -25,8 +25,8 @@ struct BlockSurface
 };
 
 /// False where the mapper is one of a single surface or of glyphs, or nothing is connected to it.
-/// Otherwise all blocks that have polygons, in order; what an inner block is set to holds for those
-/// below.
+/// Otherwise all blocks that have polygons or strips, in order; what an inner block is set to holds
+/// for those below.
 bool FindBlockSurfaces(vtkMapper* mapper, std::vector<BlockSurface>& blocks);
 } // namespace LightTransport
 

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Passes/ExactShadows.h"
 
-#include "Maps/SceneLights.h"
-#include "Maps/SceneUniforms.h"
+#include "Passes/PlainMapper.h"
+#include "Tracing/SceneTree.h"
 #include "vtkLightTransportPassesShadowsFS.h"
 #include "vtkLightTransportTracingTree.h"
 
-#include "vtkCamera.h"
-#include "vtkMatrix4x4.h"
-#include "vtkNew.h"
-#include "vtkRenderer.h"
+#include "vtkActor.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkShaderProgram.h"
 
 #include <cstddef>
@@ -23,8 +22,6 @@ namespace
 constexpr const char* Place = "//VTK::LightTransport::Shadows";
 /// Where VTK's own code has the place of a fragment.
 constexpr const char* Fragment = "vertexVCVSOutput;";
-/// Of the scene: nothing nearer casts a shadow.
-constexpr double Bias = 1e-5;
 
 std::string GetColor(int light)
 {
@@ -33,27 +30,31 @@ std::string GetColor(int light)
 } // namespace
 
 //------------------------------------------------------------------------------
-Outcome ExactShadows::Update(vtkRenderer* renderer)
+// All lights that are on have their place in the list, since VTK's shaders number them.
+Outcome ExactShadows::Update(vtkRenderer* renderer, const SceneTree& tree)
 {
-  std::vector<SceneLight> lights;
-  Outcome done = SceneLights::Read(renderer, lights);
-  done = done ? this->Tree.Update(renderer) : done;
   this->Lights.clear();
-  for (const SceneLight& light : lights)
+  std::string nowhere;
+  for (const SceneLight& light : SceneLights::Find(renderer))
   {
+    const bool isSomewhere = light.IsSomewhere();
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      this->Lights.push_back(
-        static_cast<float>(light.IsPositional ? light.Position[axis] - this->Tree.GetOrigin()[axis]
-                                              : -light.Axis[axis]));
+      const double coordinate =
+        light.IsPositional ? light.Position[axis] - tree.GetOrigin()[axis] : -light.Axis[axis];
+      this->Lights.push_back(isSomewhere ? static_cast<float>(coordinate) : 0.0f);
     }
-    this->Lights.push_back(light.IsPositional ? 1.0f : 0.0f);
+    if (!isSomewhere)
+    {
+      nowhere += (nowhere.empty() ? "" : ", ") + std::to_string(this->Lights.size() / 4);
+    }
+    this->Lights.push_back(!isSomewhere ? -1.0f : (light.IsPositional ? 1.0f : 0.0f));
   }
-  vtkNew<vtkMatrix4x4> back;
-  vtkMatrix4x4::Invert(renderer->GetActiveCamera()->GetModelViewTransformMatrix(), back);
-  this->ToScene =
-    SceneUniforms::MakeMove(back->GetData(), { 0.0, 0.0, 0.0 }, this->Tree.GetOrigin());
-  return done;
+  return nowhere.empty()
+    ? Outcome::Done()
+    : Outcome::Failed("Without the shadows of light " + nowhere +
+        " of those that are on: it has a position that is not finite, or its focal point at its "
+        "position. Correct it.");
 }
 
 //------------------------------------------------------------------------------
@@ -65,19 +66,20 @@ void ExactShadows::MarkPlace(std::string& fragmentShader)
 
 //------------------------------------------------------------------------------
 // VTK's code multiplies all that a light gives by its color, a uniform of the light's number.
-void ExactShadows::FillPlace(std::string& fragmentShader)
+bool ExactShadows::FillPlace(std::string& fragmentShader)
 {
   int lights = 0;
   while (fragmentShader.find("uniform vec3 " + GetColor(lights) + ";") != std::string::npos)
   {
     ++lights;
   }
-  const bool isLit = lights > 0 && fragmentShader.find(Fragment) != std::string::npos;
+  const bool isLit = lights > 0 && fragmentShader.find(Fragment) != std::string::npos &&
+    fragmentShader.find(Place) != std::string::npos;
   vtkShaderProgram::Substitute(fragmentShader, Place,
     isLit ? "  LightTransportFindLitLights(vertexVC.xyz);" : "");
   if (!isLit)
   {
-    return;
+    return false;
   }
   std::ostringstream code;
   code << "#define LIGHT_TRANSPORT_LIGHTS " << lights << "\n"
@@ -91,37 +93,28 @@ void ExactShadows::FillPlace(std::string& fragmentShader)
   }
   code << "void main()";
   vtkShaderProgram::Substitute(fragmentShader, "void main()", code.str(), false);
+  return true;
 }
 
 //------------------------------------------------------------------------------
-void ExactShadows::SetUniforms(vtkShaderProgram* program)
+bool ExactShadows::IsShaded(vtkActor* actor) const
 {
-  if (!this->AreThere() || !program->IsUniformUsed("lightTransportLights"))
-  {
-    return;
-  }
-  this->Tree.Activate(program);
-  this->IsActive = true;
+  vtkPolyDataMapper* mapper = actor ? FindPlainMapper(actor->GetMapper()) : nullptr;
+  vtkPolyData* surface = mapper ? mapper->GetInput() : nullptr;
+  return !this->Lights.empty() && surface && surface->GetNumberOfPolys() > 0 &&
+    actor->GetProperty()->GetLighting() && actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
+}
+
+//------------------------------------------------------------------------------
+bool ExactShadows::IsUsedBy(vtkShaderProgram* program)
+{
+  return program->IsUniformUsed("lightTransportLights");
+}
+
+//------------------------------------------------------------------------------
+void ExactShadows::SetUniforms(vtkShaderProgram* program) const
+{
   program->SetUniform4fv("lightTransportLights", static_cast<int>(this->Lights.size() / 4),
     reinterpret_cast<const float(*)[4]>(this->Lights.data()));
-  program->SetUniformMatrix4x4("lightTransportToScene", this->ToScene.data());
-  program->SetUniformf("lightTransportShadowBias", static_cast<float>(Bias * this->Tree.GetSize()));
-}
-
-//------------------------------------------------------------------------------
-void ExactShadows::LetGo()
-{
-  if (this->IsActive)
-  {
-    this->Tree.Deactivate();
-    this->IsActive = false;
-  }
-}
-
-//------------------------------------------------------------------------------
-void ExactShadows::Clear()
-{
-  this->LetGo();
-  this->Tree.Clear();
 }
 } // namespace LightTransport

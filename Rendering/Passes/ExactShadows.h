@@ -8,44 +8,42 @@
 #ifndef ExactShadows_h
 #define ExactShadows_h
 
+#include "Maps/SceneLights.h"
 #include "Shared/Outcome.h"
-#include "Tracing/SceneTree.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
+class vtkActor;
 class vtkRenderer;
 class vtkShaderProgram;
 
 namespace LightTransport
 {
+class SceneTree;
+
 class ExactShadows
 {
 public:
-  /// For the next frame.
-  Outcome Update(vtkRenderer* renderer);
-  bool AreThere() const { return this->Tree.IsThere(); }
-  /// How often the scene was put on the device.
-  vtkIdType GetNumberOfRuns() const { return this->Tree.GetNumberOfRuns(); }
+  /// For the next frame of a renderer, whose tree is up to date. Fails for lights that are nowhere,
+  /// which cast no shadows; the others do.
+  Outcome Update(vtkRenderer* renderer, const SceneTree& tree);
 
-  ///@{ Before and after a mapper writes its own code.
+  ///@{ Before and after a mapper writes its own code. False where nothing was there to be filled:
+  /// the code has no light by the names that VTK has for it.
   static void MarkPlace(std::string& fragmentShader);
-  static void FillPlace(std::string& fragmentShader);
+  static bool FillPlace(std::string& fragmentShader);
   ///@}
 
-  /// For a program that FillPlace may have written into.
-  void SetUniforms(vtkShaderProgram* program);
+  /// Whether VTK shades what it draws of an actor, so that there is a place to be filled.
+  bool IsShaded(vtkActor* actor) const;
 
-  /// When the frame is drawn.
-  void LetGo();
-  void Clear();
+  /// For a program that FillPlace has written into, in which the tree is active.
+  void SetUniforms(vtkShaderProgram* program) const;
+  static bool IsUsedBy(vtkShaderProgram* program);
 
 private:
-  SceneTree Tree;
-  std::vector<float> Lights; ///< of each, what is towards it, or its place, and 1
-  std::array<float, 16> ToScene = {};
-  bool IsActive = false;
+  std::vector<float> Lights; ///< of each, what is towards it, or its place, and 1; nowhere: -1
 };
 } // namespace LightTransport
 

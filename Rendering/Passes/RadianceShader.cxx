@@ -45,7 +45,8 @@ void RadianceShader::FillPlaces(std::string& vertexShader, std::string& fragment
 {
   const std::string choice = std::string("#define LIGHT_TRANSPORT_IS_MAPPED ") +
     (source == Source::Map ? "1" : "0") + "\n#define LIGHT_TRANSPORT_IS_GROUPED " +
-    (source == Source::Groups ? "1" : "0") + "\n";
+    (source == Source::Groups ? "1" : "0") + "\n#define LIGHT_TRANSPORT_IS_EMPTY " +
+    (source == Source::Empty ? "1" : "0") + "\n";
   std::string declarations = choice + vtkLightTransportPassesDecVS;
   if (vertexShader.find("uniform mat4 MCVCMatrix;") == std::string::npos)
   {

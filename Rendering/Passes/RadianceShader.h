@@ -28,6 +28,7 @@ enum class Source
   Array,  ///< of points
   Map,    ///< of the surface's atlas
   Groups, ///< a texture, of which the array has the number of the texel
+  Empty,  ///< none; for what the last step has of its own
   None
 };
 

@@ -112,19 +112,19 @@ Outcome CommonGatherGL::Draw(const Group& target, int firstLine, const Group& se
   {
     return heard;
   }
-  vtkShaderProgram* program = nullptr;
-  const Outcome used =
-    this->Engine.Use(program, "GatherCommon", vtkLightTransportProductsHierarchyGatherCommonFS,
-      this->Vectors.GetDefines(this->Vectors.Groups) + "#define KERNELS " +
-        std::to_string(this->Kernels) + "\n#define MOST_LINKS " + std::to_string(LinksOfRound) +
-        "\n");
+  Outcome used = Outcome::Done();
   for (std::size_t index = 0; used && index < this->Parts.size(); ++index)
   {
     const Part& part = this->Parts[index];
+    vtkShaderProgram* program = nullptr;
+    used = this->Use(program, part.TexelsOfKernel);
+    if (!used)
+    {
+      break;
+    }
     this->Engine.SetTextures(program, "values", this->Values[index]);
     this->SetConstants(program, part.Round);
     program->SetUniformi("firstLine", firstLine + part.Line);
-    program->SetUniformi("numberOfTexels", part.TexelsOfKernel);
     const int region[4] = { 0, firstLine + part.Line, this->Vectors.Width, part.Lines };
     this->Engine.Draw(target, region);
     // As in HierarchicalProductGL::GatherLinks.
@@ -132,6 +132,17 @@ Outcome CommonGatherGL::Draw(const Group& target, int firstLine, const Group& se
   }
   this->LetGoOfConstants();
   return used;
+}
+
+//------------------------------------------------------------------------------
+Outcome CommonGatherGL::Use(vtkShaderProgram*& program, int texelsOfKernel)
+{
+  const std::string texels = std::to_string(texelsOfKernel);
+  return this->Engine.Use(program, "GatherCommon" + texels,
+    vtkLightTransportProductsHierarchyGatherCommonFS,
+    this->Vectors.GetDefines(this->Vectors.Groups) + "#define KERNELS " +
+      std::to_string(this->Kernels) + "\n#define MOST_LINKS " + std::to_string(LinksOfRound) +
+      "\n#define TEXELS " + texels + "\n");
 }
 
 //------------------------------------------------------------------------------

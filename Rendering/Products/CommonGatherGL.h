@@ -46,6 +46,7 @@ private:
 
   void Upload(const HierarchyLayout& tables, const ProductGL::Pause& pause);
   Outcome Hear(const Group& sent);
+  Outcome Use(vtkShaderProgram*& program, int texelsOfKernel);
   void SetConstants(vtkShaderProgram* program, int round);
   void LetGoOfConstants();
 

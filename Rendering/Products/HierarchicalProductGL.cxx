@@ -33,6 +33,7 @@ Outcome HierarchicalProductGL::Initialize(vtkExchangeHierarchy* hierarchy, const
       std::to_string(this->Vectors.MaximumSize) + " texels a side");
   }
   this->Levels = tables.GetLevels();
+  this->Receivers = tables.HaveNodesRows() ? this->Levels : std::vector<Range>();
   this->Patches = tables.GetPatches();
   this->Tiles = tables.GetTiles();
   this->PieceLines = tables.GetNumberOfPieceLines();
@@ -230,7 +231,7 @@ Outcome HierarchicalProductGL::GatherLinks()
 Outcome HierarchicalProductGL::SweepDown(const Group& target)
 {
   vtkShaderProgram* program = nullptr;
-  for (const Range& level : this->Levels)
+  for (const Range& level : this->Receivers)
   {
     if (Outcome used = this->UseSums(program, false); !used)
     {
@@ -254,6 +255,7 @@ Outcome HierarchicalProductGL::UseSums(vtkShaderProgram*& program, bool ofPatche
   const Outcome used = this->Use(program, ofPatches ? "SumPiecesOfPatches" : "SumPieces",
     vtkLightTransportProductsHierarchySumPiecesFS,
     std::string(ofPatches ? "#define PATCHES 1\n" : "#define PATCHES 0\n") +
+      (this->Receivers.empty() ? "#define PARENTS 0\n" : "#define PARENTS 1\n") +
       (this->Codes ? "#define CODED 1\n" : "#define CODED 0\n") +
       (this->Common && ofPatches ? "#define COMMON 1\n" : "#define COMMON 0\n"));
   if (used)

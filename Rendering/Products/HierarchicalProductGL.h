@@ -48,7 +48,8 @@ private:
   Outcome UseSums(vtkShaderProgram*& program, bool ofPatches);
   void DrawBeside(const Range& range, const Group& target, int line);
 
-  std::vector<Range> Levels; ///< of nodes
+  std::vector<Range> Levels;    ///< of nodes
+  std::vector<Range> Receivers; ///< likewise, none where no node receives anything
   Range Patches{};
   int PieceLines = 0;
   int LinksPerTexel = 0;

@@ -81,6 +81,17 @@ bool HierarchyLayout::Fits() const
 }
 
 //------------------------------------------------------------------------------
+bool HierarchyLayout::HaveNodesRows() const
+{
+  const int nodes = this->Hierarchy.GetNumberOfNodes();
+  const auto counts = this->PieceCounts.begin();
+  const auto& tiles = this->Hierarchy.GetCodedRows().Tiles;
+  return std::any_of(counts, counts + nodes, [](int count) { return count > 0; }) ||
+    std::any_of(tiles.begin(), tiles.end(),
+      [&](const auto& tile) { return tile.FirstRow < nodes; });
+}
+
+//------------------------------------------------------------------------------
 void HierarchyLayout::PlaceSlots()
 {
   this->SlotTexels.reserve(static_cast<std::size_t>(this->Hierarchy.GetNumberOfSlots()));

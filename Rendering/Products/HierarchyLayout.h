@@ -63,6 +63,9 @@ public:
   /// False when some texture would be too large.
   bool Fits() const;
 
+  /// Whether nodes receive anything, which their patches get from them.
+  bool HaveNodesRows() const;
+
   const std::vector<Range>& GetLevels() const { return this->Levels; }
   const Range& GetPatches() const { return this->Patches; }
   const CommonLinks& GetCommon() const { return this->Common; }

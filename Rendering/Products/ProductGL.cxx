@@ -59,8 +59,9 @@ Outcome ProductGL::RefuseMemory() const
 }
 
 //------------------------------------------------------------------------------
-Outcome ProductGL::CheckMemory(double bytes) const
+Outcome ProductGL::CheckMemory(double bytes)
 {
+  this->LinkBytes = bytes;
   const double available = GetAvailableDeviceBytes(this->Engine.GetWindow());
   return available >= 0.0 && bytes > available ? this->RefuseMemory() : Outcome::Done();
 }

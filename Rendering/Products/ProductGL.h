@@ -42,15 +42,21 @@ public:
   /// Textures that hold the links.
   virtual int GetNumberOfLinkTextures() const = 0;
 
+  /// Bytes that they take.
+  double GetNumberOfLinkBytes() const { return this->LinkBytes; }
+
 protected:
   ProductGL(FloatTextures& engine, const Layout& layout);
 
-  /// A failure where the device has less than `bytes` for the links.
-  Outcome CheckMemory(double bytes) const;
+  /// Links will take `bytes`. A failure where the device has less.
+  Outcome CheckMemory(double bytes);
   Outcome RefuseMemory() const;
 
   FloatTextures& Engine;
   const Layout Vectors;
+
+private:
+  double LinkBytes = 0.0;
 };
 } // namespace LightTransport
 

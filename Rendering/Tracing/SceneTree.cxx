@@ -4,10 +4,15 @@
 
 #include "Context/OpenGLContextGuard.h"
 #include "Device/DeviceSession.h"
+#include "Maps/SceneUniforms.h"
 #include "Tracing/TriangleTree.h"
 
+#include "vtkActor.h"
 #include "vtkBoundingBox.h"
+#include "vtkCamera.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
@@ -23,6 +28,8 @@ namespace
 {
 // From the origin: the square of a distance is a number in single precision.
 constexpr double Farthest = 1e18;
+/// Of the scene: nothing nearer is met by a ray.
+constexpr double Bias = 1e-5;
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -40,6 +47,16 @@ void SceneTree::Clear()
 
 //------------------------------------------------------------------------------
 Outcome SceneTree::Update(vtkRenderer* renderer)
+{
+  const Outcome done = this->Refresh(renderer);
+  vtkNew<vtkMatrix4x4> back;
+  vtkMatrix4x4::Invert(renderer->GetActiveCamera()->GetModelViewTransformMatrix(), back);
+  this->FromView = SceneUniforms::MakeMove(back->GetData(), { 0.0, 0.0, 0.0 }, this->Origin);
+  return done;
+}
+
+//------------------------------------------------------------------------------
+Outcome SceneTree::Refresh(vtkRenderer* renderer)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   this->Casters.Find(renderer);
@@ -69,13 +86,14 @@ Outcome SceneTree::Update(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 // Triangles with a corner that is nowhere, or so far away that shaders cannot square the distance,
 // cast no shadows.
-void SceneTree::VisitTriangles(const std::function<void(const Corners&)>& visit) const
+void SceneTree::VisitTriangles(const std::function<void(const Corners&, int)>& visit) const
 {
   const auto isUsable = [](const Vector3& corner)
   {
     return std::all_of(corner.begin(), corner.end(),
       [](double coordinate) { return std::abs(coordinate) < Farthest; });
   };
+  int body = 0;
   for (const ShadowCasters::Caster& caster : this->Casters.Get())
   {
     caster.VisitTriangles(
@@ -89,9 +107,10 @@ void SceneTree::VisitTriangles(const std::function<void(const Corners&)>& visit)
         }
         if (std::all_of(corners.begin(), corners.end(), isUsable))
         {
-          visit(corners);
+          visit(corners, body);
         }
       });
+    ++body;
   }
 }
 
@@ -100,7 +119,7 @@ Outcome SceneTree::Upload()
 {
   vtkBoundingBox bounds;
   this->VisitTriangles(
-    [&](const Corners& corners)
+    [&](const Corners& corners, int)
     {
       for (const Vector3& corner : corners)
       {
@@ -116,14 +135,15 @@ Outcome SceneTree::Upload()
   }
   std::vector<TriangleTree::Triangle> triangles;
   this->VisitTriangles(
-    [&](const Corners& corners)
+    [&](const Corners& corners, int body)
     {
       triangles.emplace_back();
+      triangles.back().Body = body;
       for (std::size_t corner = 0; corner < corners.size(); ++corner)
       {
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          triangles.back()[corner][axis] =
+          triangles.back().Corners[corner][axis] =
             static_cast<float>(corners[corner][axis] - this->Origin[axis]);
         }
       }
@@ -143,6 +163,18 @@ void SceneTree::Activate(vtkShaderProgram* program)
   program->SetUniformi("lightTransportTree", this->Table.Get()->GetTextureUnit());
   program->SetUniformi("lightTransportTreeWidthBits", TupleTable::WidthBits);
   program->SetUniformi("lightTransportTreeBoxes", this->NumberOfBoxes);
+  program->SetUniformMatrix4x4("lightTransportToScene", this->FromView.data());
+  program->SetUniformf("lightTransportRayBias", static_cast<float>(Bias * this->Size));
+}
+
+//------------------------------------------------------------------------------
+int SceneTree::FindBody(vtkActor* actor, vtkPolyData* surface) const
+{
+  const auto& casters = this->Casters.Get();
+  const auto found = std::find_if(casters.begin(), casters.end(),
+    [actor, surface](const ShadowCasters::Caster& caster)
+    { return caster.Actor == actor && caster.Surface == surface; });
+  return found != casters.end() ? static_cast<int>(found - casters.begin()) : -1;
 }
 
 //------------------------------------------------------------------------------

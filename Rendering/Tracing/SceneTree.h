@@ -14,7 +14,9 @@
 #include <functional>
 #include <memory>
 
+class vtkActor;
 class vtkOpenGLRenderWindow;
+class vtkPolyData;
 class vtkRenderer;
 class vtkShaderProgram;
 
@@ -43,7 +45,11 @@ public:
   /// The diagonal of its bounds.
   double GetSize() const { return this->Size; }
 
-  ///@{ Let a program that is in use look into it, until it is let go.
+  /// The number of what casts shadows of an actor with a surface; -1 where it casts none.
+  int FindBody(vtkActor* actor, vtkPolyData* surface) const;
+
+  ///@{ Let a program that is in use look into it until it is let go: fragments are those of the
+  /// renderer that it was brought up to date for.
   void Activate(vtkShaderProgram* program);
   void Deactivate();
   ///@}
@@ -51,7 +57,8 @@ public:
 private:
   bool IsOpen() const { return this->Engine && this->Engine->IsAlive(); }
   using Corners = std::array<Vector3, 3>;
-  void VisitTriangles(const std::function<void(const Corners&)>& visit) const;
+  void VisitTriangles(const std::function<void(const Corners&, int)>& visit) const;
+  Outcome Refresh(vtkRenderer* renderer);
   Outcome Upload();
 
   std::unique_ptr<FloatTextures> Engine;
@@ -62,6 +69,7 @@ private:
   int NumberOfBoxes = 0;
   vtkIdType NumberOfRuns = 0;
   Vector3 Origin = {};
+  std::array<float, 16> FromView = {};
   double Size = 0.0;
 };
 } // namespace LightTransport

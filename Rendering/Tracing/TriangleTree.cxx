@@ -43,7 +43,8 @@ void TriangleTree::Box::Add(const Corner& corner)
 //------------------------------------------------------------------------------
 void TriangleTree::Box::Add(const Triangle& triangle)
 {
-  std::for_each(triangle.begin(), triangle.end(), [this](const Corner& at) { this->Add(at); });
+  std::for_each(triangle.Corners.begin(), triangle.Corners.end(),
+    [this](const Corner& at) { this->Add(at); });
 }
 
 //------------------------------------------------------------------------------
@@ -83,7 +84,8 @@ TriangleTree::Corner TriangleTree::GetMiddle(const Triangle& triangle)
   Corner middle;
   for (std::size_t axis = 0; axis < middle.size(); ++axis)
   {
-    middle[axis] = (triangle[0][axis] + triangle[1][axis] + triangle[2][axis]) / 3.0f;
+    middle[axis] =
+      (triangle.Corners[0][axis] + triangle.Corners[1][axis] + triangle.Corners[2][axis]) / 3.0f;
   }
   return middle;
 }
@@ -105,7 +107,7 @@ TriangleTree::TriangleTree(std::vector<Triangle> triangles) : Triangles(std::mov
   }
   for (const Triangle& triangle : this->Triangles)
   {
-    for (const Corner& corner : triangle)
+    for (const Corner& corner : triangle.Corners)
     {
       for (const float coordinate : corner)
       {
@@ -118,9 +120,11 @@ TriangleTree::TriangleTree(std::vector<Triangle> triangles) : Triangles(std::mov
   const std::size_t begin = this->Texels.size();
   for (const Triangle& triangle : this->Triangles)
   {
-    for (const Corner& corner : triangle)
+    for (std::size_t k = 0; k < triangle.Corners.size(); ++k)
     {
-      this->Texels.insert(this->Texels.end(), { corner[0], corner[1], corner[2], 0.0f });
+      const Corner& corner = triangle.Corners[k];
+      this->Texels.insert(this->Texels.end(),
+        { corner[0], corner[1], corner[2], k == 1 ? static_cast<float>(triangle.Body) : 0.0f });
     }
   }
   // The last triangle of a box is before the first of the next.

@@ -9,7 +9,8 @@
  *   upper corner, first triangle (-1 where children follow)
  *
  * so that a ray needs no stack (B. Smits, Efficiency issues for ray tracing, 1998). Then the
- * triangles, three texels each: a corner, and 1 at the first corner of the last triangle of a box.
+ * triangles, three texels each: a corner, and 1 at the first corner of the last triangle of a box,
+ * the number of the body at the second one.
  */
 #ifndef TriangleTree_h
 #define TriangleTree_h
@@ -23,7 +24,11 @@ class TriangleTree
 {
 public:
   using Corner = std::array<float, 3>;
-  using Triangle = std::array<Corner, 3>;
+  struct Triangle
+  {
+    std::array<Corner, 3> Corners = {};
+    int Body = 0; ///< that it is of
+  };
 
   explicit TriangleTree(std::vector<Triangle> triangles);
 

@@ -4,7 +4,7 @@
 // Two texels of each point: its place in the atlas, and the block of its chart.
 uniform sampler2D lightTransportPoints;
 uniform int lightTransportPointWidthBits;
-#else
+#elif !LIGHT_TRANSPORT_IS_EMPTY
 in vec3 lightTransportMC;
 #endif
 #if LIGHT_TRANSPORT_IS_GROUPED

@@ -11,6 +11,9 @@
   ivec2 lightTransportAt = ivec2(lightTransportGroup & ((1 << lightTransportGroupWidthBits) - 1), lightTransportGroup >> lightTransportGroupWidthBits);
   lightTransportVSOutput = lightTransportGroup < 0 ? vec3(0.0) : texelFetch(lightTransportGroups, lightTransportAt, 0).xyz;
   lightTransportBlockVSOutput = vec3(0.0);
+#elif LIGHT_TRANSPORT_IS_EMPTY
+  lightTransportVSOutput = vec3(0.0);
+  lightTransportBlockVSOutput = vec3(0.0);
 #else
   lightTransportVSOutput = lightTransportMC;
   lightTransportBlockVSOutput = vec3(0.0);

@@ -9,4 +9,8 @@
   vec3 lightTransportToEye = lightTransportParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-lightTransportPositionVSOutput);
   float lightTransportCosine = clamp(abs(dot(lightTransportNormal, lightTransportToEye)), 0.0, 1.0);
   float lightTransportWeight = (1.0 - LightTransportFresnel(lightTransportCosine, lightTransportRefractiveIndex)) / lightTransportTransmittance;
-  gl_FragData[0] = vec4(LightTransportEncode(lightTransportDirect + lightTransportWeight * LightTransportRadiance()), gl_FragData[0].a);
+  vec3 lightTransportSum = lightTransportDirect + lightTransportWeight * LightTransportRadiance();
+#ifdef LIGHT_TRANSPORT_MARCHED_LIGHTS
+  lightTransportSum += LightTransportMarch(lightTransportPositionVSOutput, lightTransportNormal, lightTransportToEye);
+#endif
+  gl_FragData[0] = vec4(LightTransportEncode(lightTransportSum), gl_FragData[0].a);

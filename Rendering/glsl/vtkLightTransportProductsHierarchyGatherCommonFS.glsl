@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sum over the links of a patch with what most patches are linked with (CommonLinks.h): what that sends is constant, the values of
 // the KERNELS kernels are texels below each other, of four links each. Band b uses kernel b % KERNELS. Lines begin at firstLine of what
-// is drawn into.
+// is drawn into. TEXELS, those of a kernel, is a constant so that compilers unroll the loop where it is short: software renderers then
+// read what is sent once for all fragments.
 uniform sampler2D values[1];
 uniform int firstLine;
-uniform int numberOfTexels; // of one kernel
 
 layout(std140) uniform Common
 {
@@ -18,17 +18,17 @@ const int BLOCK = 8;
 void main()
 {
   ivec2 place = ivec2(gl_FragCoord.xy) - ivec2(0, firstLine);
-  int line = place.y * numberOfTexels * KERNELS;
+  int line = place.y * TEXELS * KERNELS;
   vec4 sum[GROUPS];
   vec4 lost[GROUPS];
   vec4 part[GROUPS];
 #define CLEAR(g) sum[g] = vec4(0.0); lost[g] = vec4(0.0);
   FOR_ALL_GROUPS(CLEAR)
-  for (int block = 0; block < numberOfTexels; block += BLOCK)
+  for (int block = 0; block < TEXELS; block += BLOCK)
   {
 #define CLEAR_PART(g) part[g] = vec4(0.0);
     FOR_ALL_GROUPS(CLEAR_PART)
-    int last = min(block + BLOCK, numberOfTexels);
+    int last = min(block + BLOCK, TEXELS);
     for (int texel = block; texel < last; ++texel)
     {
       vec4 value[KERNELS];

@@ -1,9 +1,34 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What rays meet of the triangles of a scene (TriangleTree.h).
+#ifndef LIGHT_TRANSPORT_TRACING
+#define LIGHT_TRANSPORT_TRACING
 uniform sampler2D lightTransportTree;
 uniform int lightTransportTreeWidthBits;
 uniform int lightTransportTreeBoxes;
+uniform mat4 lightTransportToScene; // from view coordinates
+uniform float lightTransportRayBias;
+
+// How far off coordinates of a fragment may be, of its distance from the eye.
+const float LIGHT_TRANSPORT_ROUNDING = 4e-7;
+
+// How far from a fragment rays begin.
+float LightTransportGetBias(vec3 positionVC)
+{
+  return lightTransportRayBias + LIGHT_TRANSPORT_ROUNDING * length(positionVC);
+}
+
+// That of the facet, of length 1, towards the eye. Lines and points have none: across them their place is the same but for rounding,
+// which is no normal.
+vec3 LightTransportGetFacetNormal(vec3 positionVC)
+{
+  vec3 right = dFdx(positionVC);
+  vec3 up = dFdy(positionVC);
+  vec3 facet = mat3(lightTransportToScene) * cross(right, up);
+  float size = length(facet);
+  float rounding = LIGHT_TRANSPORT_ROUNDING * length(positionVC) * (length(right) + length(up));
+  return size > rounding ? facet / size : vec3(0.0);
+}
 
 vec4 LightTransportGetTexel(int texel)
 {
@@ -39,9 +64,10 @@ float LightTransportMeet(int triangle, vec3 origin, mat3 axes, out bool isLast)
   return isMet ? dot(parts, vec3(a.z, b.z, c.z)) / whole : -1.0;
 }
 
-// Whether anything is in the way, up to a distance.
-bool LightTransportIsBlocked(vec3 origin, vec3 direction, float reach)
+// How far the triangle is that is met first, up to a distance; or any, where that is enough. Its number; -1 for none.
+float LightTransportTrace(vec3 origin, vec3 direction, float reach, bool isAnyEnough, out int met)
 {
+  met = -1;
   mat3 axes = LightTransportGetAxes(direction);
   vec3 inverse = 1.0 / mix(direction, vec3(1e-18), lessThan(abs(direction), vec3(1e-18)));
   for (int box = 0; box < lightTransportTreeBoxes;)
@@ -65,10 +91,37 @@ bool LightTransportIsBlocked(vec3 origin, vec3 direction, float reach)
       float distance = LightTransportMeet(triangle, origin, axes, isLast);
       if (distance > 0.0 && distance < reach)
       {
-        return true;
+        reach = distance;
+        met = triangle;
+        if (isAnyEnough)
+        {
+          return reach;
+        }
       }
     }
     ++box;
   }
-  return false;
+  return reach;
 }
+
+// Whether anything is in the way, up to a distance.
+bool LightTransportIsBlocked(vec3 origin, vec3 direction, float reach)
+{
+  int met;
+  LightTransportTrace(origin, direction, reach, true, met);
+  return met >= 0;
+}
+
+vec3 LightTransportGetNormal(int triangle)
+{
+  int texel = 2 * lightTransportTreeBoxes + 3 * triangle;
+  vec3 corner = LightTransportGetTexel(texel).xyz;
+  return normalize(cross(LightTransportGetTexel(texel + 1).xyz - corner, LightTransportGetTexel(texel + 2).xyz - corner));
+}
+
+// The number of what a triangle is of.
+int LightTransportGetBody(int triangle)
+{
+  return int(LightTransportGetTexel(2 * lightTransportTreeBoxes + 3 * triangle + 1).w);
+}
+#endif

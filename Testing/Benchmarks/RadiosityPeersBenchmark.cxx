@@ -192,7 +192,8 @@ Data MakeScene(const std::string& name)
     { "room-8000", [] { return MakeRoomScene(0.12, 0.7); } },
     { "white-room-2000", [] { return MakeRoomScene(0.28, 0.95); } },
     { "city-6000", [] { return MakeCity(4); } }, { "city-24000", [] { return MakeCity(8); } },
-    { "city-96000", [] { return MakeCity(16); } }, { "crater-3200", [] { return MakeCrater(); } }
+    { "city-96000", [] { return MakeCity(16); } }, { "city-1000000", [] { return MakeCity(52); } },
+    { "crater-3200", [] { return MakeCrater(); } }
   };
   const auto maker = makers.find(name);
   return maker != makers.end() ? maker->second() : MakeSphereScene(name);

@@ -36,7 +36,9 @@
 namespace
 {
 constexpr const char* Usage = "usage: ScatteringProductBenchmark [TEXELS_A_SIDE ...]\n"
-                              "  receivers are all texels of a square of that size (512)\n";
+                              "  receivers are all texels of a square of that size (512)\n"
+                              "or ScatteringProductBenchmark --plain TEXELS_A_SIDE BYTES\n"
+                              "  CPU seconds of the plain shader alone that reads so many bytes\n";
 
 constexpr int Samples = 5;
 constexpr int Width = 1024;
@@ -356,10 +358,17 @@ bool Run(vtkOffScreenOpenGLRenderWindow* window, int side, const Setting& settin
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
-  std::vector<int> sides;
-  for (int arg = 1; arg < argc; ++arg)
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  double plainBytes = 0.0;
+  if (arguments.size() == 3 && arguments[0] == "--plain")
   {
-    sides.push_back(std::atoi(argv[arg]));
+    plainBytes = std::atof(arguments[2].c_str());
+    arguments = { arguments[1] };
+  }
+  std::vector<int> sides;
+  for (const std::string& argument : arguments)
+  {
+    sides.push_back(std::atoi(argument.c_str()));
     // A quadtree, and whole lines of texels.
     if (sides.back() < 32 || (sides.back() & (sides.back() - 1)) != 0)
     {
@@ -371,6 +380,11 @@ int main(int argc, char* argv[])
   vtkNew<vtkOffScreenOpenGLRenderWindow> window;
   window->SetSize(16, 16);
   window->Initialize();
+  if (plainBytes > 0.0)
+  {
+    std::cout << TimePlainShader(window, sides[0] * sides[0], plainBytes) << std::endl;
+    return EXIT_SUCCESS;
+  }
   std::cout << "texels      form          links kernels lights      MB  MB all    CPU s    plain"
                "      all  times  times difference\n";
   bool done = true;

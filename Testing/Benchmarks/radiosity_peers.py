@@ -43,14 +43,14 @@ SCENES = {"spheres-640": ("lamp", "even"), "spheres-2560": ("lamp", "even"),
           "room-3200": ("lamp", "even"), "room-8000": ("lamp", "even"),
           "white-room-2000": ("lamp", "even"), "crater-3200": ("sun", "sky"),
           "city-6000": ("lamp", "even", "sky"), "city-24000": ("lamp", "even", "sky"),
-          "city-96000": ("lamp", "even", "sky")}
+          "city-96000": ("lamp", "even", "sky"), "city-1000000": ("sky",)}
 CLOSED = ("spheres", "room", "white-room")
-ON_REQUEST = ("city-96000",)
-SETTINGS = {"auto": ("1e-1", "3e-2", "1e-2", "3e-3", "1e-3"),
+ON_REQUEST = ("city-96000", "city-1000000")
+SETTINGS = {"auto": ("1e-1", "5e-2", "3e-2", "1e-2", "3e-3", "1e-3"),
             "dense": ("1e-1", "1e-2", "1e-3"),
             "hierarchical": ("1e-1", "3e-2", "1e-2"),
-            "sampled": ("1e-1", "3e-2", "1e-2", "3e-3", "1e-3"),
-            "rays": ("64", "256", "1024", "4096", "16384"),
+            "sampled": ("1e-1", "5e-2", "3e-2", "1e-2", "3e-3", "1e-3"),
+            "rays": ("16", "64", "256", "1024", "4096", "16384"),
             "view3d": ("1e-3",), "pyviewfactor": ("once",)}
 # Which property of vtkRadiosity a setting is.
 TOLERANCES = {"dense": "ViewFactorTolerance", "hierarchical": "LinkTolerance", "auto": "Accuracy",
@@ -60,6 +60,8 @@ DENSE_PATCHES = 10500
 PEER_PATCHES = 2800
 REFERENCE_RAYS = 65536
 SOLVER_TOLERANCE = 1e-6
+# Seconds below which one run tells little.
+LITTLE = 1.0
 
 # In a process of its own, which may have another VTK. Compilation is start-up.
 PYVIEWFACTOR = """
@@ -202,7 +204,7 @@ def run_pyviewfactor(scene, light, options):
                solve(scene, light, factors), "")
 
 
-def run(scene, light, method, setting, options):
+def run_once(scene, light, method, setting, options):
     """None where it cannot be."""
     if method in TOLERANCES:
         is_too_large = method == "dense" and len(scene.areas) > DENSE_PATCHES
@@ -212,6 +214,15 @@ def run(scene, light, method, setting, options):
     if method == "view3d":
         return run_view3d(scene, light, setting)
     return run_pyviewfactor(scene, light, options)
+
+
+def run(scene, light, method, setting, options):
+    """What takes little time is run three times: the one with the median of the seconds."""
+    rows = [run_once(scene, light, method, setting, options)]
+    if rows[0] and rows[0].seconds < LITTLE:
+        rows += [run_once(scene, light, method, setting, options) for _ in range(2)]
+        rows.sort(key=lambda row: row.seconds)
+    return rows[len(rows) // 2]
 
 
 def find_reference(scene, light, options):

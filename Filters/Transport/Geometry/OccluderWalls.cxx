@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/OccluderWalls.h"
 
+#include "Geometry/PatchEdges.h"
 #include "Scene/PatchScene.h"
 #include "Scene/SceneFaces.h"
 #include "Shared/Pulse.h"
@@ -31,36 +32,17 @@ constexpr std::size_t MostCorners = 16;
 constexpr double BorderRounding = 1e-13;
 
 //------------------------------------------------------------------------------
-// The patches on both sides of each edge.
-std::vector<std::array<vtkIdType, 3>> FindEdges(const PatchScene& scene)
-{
-  std::vector<std::array<vtkIdType, 3>> edges;
-  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
-  {
-    const int count = scene.GetNumberOfCorners(patch);
-    for (int corner = 0; corner < count; ++corner)
-    {
-      const vtkIdType begin = scene.GetCorners(patch)[corner];
-      const vtkIdType end = scene.GetCorners(patch)[(corner + 1) % count];
-      edges.push_back({ std::min(begin, end), std::max(begin, end), patch });
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-//------------------------------------------------------------------------------
 // Lists of what is beside each patch.
 std::vector<std::vector<vtkIdType>> FindNeighbours(const PatchScene& scene)
 {
   std::vector<std::vector<vtkIdType>> neighbours(scene.GetNumberOfPatches());
-  const auto edges = FindEdges(scene);
+  const std::vector<PatchEdge> edges = FindPatchEdges(scene);
   for (std::size_t k = 0; k + 1 < edges.size(); ++k)
   {
-    if (edges[k][0] == edges[k + 1][0] && edges[k][1] == edges[k + 1][1])
+    if (edges[k].IsAt(edges[k + 1]))
     {
-      neighbours[edges[k][2]].push_back(edges[k + 1][2]);
-      neighbours[edges[k + 1][2]].push_back(edges[k][2]);
+      neighbours[edges[k].Patch].push_back(edges[k + 1].Patch);
+      neighbours[edges[k + 1].Patch].push_back(edges[k].Patch);
     }
   }
   return neighbours;
@@ -338,6 +320,7 @@ OccluderWalls::OccluderWalls(const PatchScene& scene)
     [&](vtkIdType first) { return numbers[first]; });
   this->FindNodes(scene);
   this->FindBorders();
+  this->Bodies.Find(scene, *this, this->WallOf);
 }
 
 //------------------------------------------------------------------------------
@@ -399,9 +382,10 @@ bool OccluderWalls::IsInside(vtkIdType wall, const Vector& place) const
 }
 
 //------------------------------------------------------------------------------
-void OccluderWalls::End::Set(std::vector<Vector> points)
+void OccluderWalls::End::Set(std::vector<Vector> points, bool isOutside)
 {
   this->Points = std::move(points);
+  this->IsOutside = isOutside;
   this->Middle = std::accumulate(this->Points.begin(), this->Points.end(), Vector(Vector::Zero())) /
     static_cast<double>(this->Points.size());
   this->SquaredReach = (this->Points[0] - this->Points[this->Points.size() / 2]).squaredNorm();

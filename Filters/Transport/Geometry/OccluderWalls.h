@@ -8,6 +8,7 @@
 #ifndef OccluderWalls_h
 #define OccluderWalls_h
 
+#include "Geometry/ConvexBodies.h"
 #include "Scene/PatchGeometry.h"
 #include "vtkType.h"
 
@@ -29,14 +30,18 @@ public:
   /// A node of the scene's tree that holds all patches of a wall, and no child of it does.
   int GetNode(vtkIdType wall) const { return this->Nodes[wall]; }
 
+  /// Convex bodies that walls bound.
+  const ConvexBodies& GetBodies() const { return this->Bodies; }
+
   /// A convex hull of points, from which others are looked at.
   struct End
   {
     std::vector<Vector> Points;
     Vector Middle;
     double SquaredReach; ///< of two of the points that are far apart
+    bool IsOutside;      ///< all of it is outside all bodies
 
-    void Set(std::vector<Vector> points);
+    void Set(std::vector<Vector> points, bool isOutside);
   };
 
   /**
@@ -45,6 +50,28 @@ public:
    * of each side, what touches the plane from one side being no more than a border.
    */
   bool HidesAll(vtkIdType wall, const End& from, const End& to, bool strictly) const;
+
+  /// The first of some walls that does so, or whose body does; -1 where there is none. getWall
+  /// gives the wall of an item.
+  template <typename Items, typename GetWall>
+  vtkIdType FindHiding(const Items& items, const GetWall& getWall, const End& from, const End& to,
+    bool strictly) const
+  {
+    int latest = -1;
+    for (const auto& item : items)
+    {
+      const vtkIdType wall = getWall(item);
+      const int body = this->Bodies.GetBody(wall);
+      if (this->HidesAll(wall, from, to, strictly) ||
+        (body >= 0 && body != latest && (from.IsOutside || to.IsOutside) &&
+          this->Bodies.IsBetween(body, from.Points, to.Points)))
+      {
+        return wall;
+      }
+      latest = body;
+    }
+    return -1;
+  }
 
 private:
   class Builder;
@@ -60,6 +87,7 @@ private:
   std::vector<Vector> Inwards;
   std::vector<double> Heights;
   ///@}
+  ConvexBodies Bodies;
 };
 } // namespace LightTransport
 

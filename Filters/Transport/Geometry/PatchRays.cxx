@@ -229,6 +229,7 @@ struct PatchRays::Internals
   SceneRayCaster Caster;
   std::vector<Facet> Facets;
   std::vector<char> IsNarrow; ///< patches that have others right before them
+  bool IsWhole = false;       ///< after Build
 
   void AddPatches();
   std::vector<Hit> FindTwins() const;
@@ -569,6 +570,7 @@ Outcome PatchRays::Build(const PatchScene& scene)
 {
   Internals& self = *this->Internal;
   self.Scene = &scene;
+  self.IsWhole = false;
   self.Facets.clear();
   Outcome built = self.Caster.Build(scene);
   if (!built)
@@ -583,8 +585,15 @@ Outcome PatchRays::Build(const PatchScene& scene)
   if (built)
   {
     self.FindNarrow();
+    self.IsWhole = true;
   }
   return built;
+}
+
+//------------------------------------------------------------------------------
+bool PatchRays::IsBuilt() const
+{
+  return this->Internal->IsWhole;
 }
 
 //------------------------------------------------------------------------------

@@ -38,6 +38,7 @@ public:
 
   /// The scene must outlive this. Fails when Embree cannot build (no memory, no device).
   Outcome Build(const PatchScene& scene);
+  bool IsBuilt() const;
 
   /// One ray for each point of the pattern: `hits` in the order of the points.
   void Cast(vtkIdType patch, const RayPattern& pattern, Hit* hits) const;

@@ -143,23 +143,16 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene), Walls(scene)
   }
   this->NodeBounds.resize(nodes.size());
   this->OccluderBounds.resize(nodes.size());
+  this->NodesOutside.assign(nodes.size(), true);
+  this->NodeBodies.resize(nodes.size());
   // Children stand behind their parents.
   for (std::size_t k = nodes.size(); k-- > 0;)
   {
-    const PatchTree::Node& node = nodes[k];
-    for (vtkIdType patch = node.First; node.IsLeaf() && patch < node.Last; ++patch)
-    {
-      this->NodeBounds[k].Add(this->PatchBounds[patch]);
-    }
     for (const vtkIdType wall : occluders[k])
     {
       this->OccluderBounds[k].Add(this->WallBounds[wall]);
     }
-    for (int child = 0; !node.IsLeaf() && child < 2; ++child)
-    {
-      this->NodeBounds[k].Add(this->NodeBounds[node.Left + child]);
-      this->OccluderBounds[k].Add(this->OccluderBounds[node.Left + child]);
-    }
+    nodes[k].IsLeaf() ? this->SetLeaf(static_cast<int>(k)) : this->SetNode(static_cast<int>(k));
   }
   this->OccluderBegins.assign(1, 0);
   for (const std::vector<vtkIdType>& own : occluders)
@@ -168,6 +161,35 @@ ShaftCuller::ShaftCuller(const PatchScene& scene) : Scene(scene), Walls(scene)
     this->OccluderBegins.push_back(static_cast<vtkIdType>(this->Occluders.size()));
   }
   this->NumberOfOccluders = static_cast<vtkIdType>(this->Occluders.size());
+}
+
+//------------------------------------------------------------------------------
+void ShaftCuller::SetLeaf(int node)
+{
+  const PatchTree::Node& leaf = this->Scene.GetTree().GetNode(node);
+  const ConvexBodies& bodies = this->Walls.GetBodies();
+  const auto getBody = [&](vtkIdType patch) { return bodies.GetBody(this->Walls.GetWall(patch)); };
+  this->NodeBodies[node] = getBody(leaf.First);
+  for (vtkIdType patch = leaf.First; patch < leaf.Last; ++patch)
+  {
+    this->NodeBounds[node].Add(this->PatchBounds[patch]);
+    this->NodesOutside[node] = this->NodesOutside[node] && bodies.IsOutside(patch);
+    this->NodeBodies[node] = getBody(patch) == this->NodeBodies[node] ? this->NodeBodies[node] : -1;
+  }
+}
+
+//------------------------------------------------------------------------------
+void ShaftCuller::SetNode(int node)
+{
+  const int left = this->Scene.GetTree().GetNode(node).Left;
+  for (const int child : { left, left + 1 })
+  {
+    this->NodeBounds[node].Add(this->NodeBounds[child]);
+    this->OccluderBounds[node].Add(this->OccluderBounds[child]);
+    this->NodesOutside[node] = this->NodesOutside[node] && this->NodesOutside[child];
+  }
+  this->NodeBodies[node] =
+    this->NodeBodies[left] == this->NodeBodies[left + 1] ? this->NodeBodies[left] : -1;
 }
 
 //------------------------------------------------------------------------------
@@ -238,22 +260,52 @@ void ShaftCuller::Search(const Shaft& shaft, const Visit& visit) const
 }
 
 //------------------------------------------------------------------------------
-// Whether the boxes of two nodes are not certainly on the same side of a wall.
+// Whether the boxes of two nodes are not certainly on the same side of a wall, or the second one on
+// that which alone hides anything.
 bool ShaftCuller::MayPart(vtkIdType wall, int nodeI, int nodeJ) const
 {
+  const int body = this->Walls.GetBodies().GetBody(wall);
+  if (body >= 0 && (this->NodeBodies[nodeI] == body || this->NodeBodies[nodeJ] == body))
+  {
+    return false; // a convex body is behind its own patches
+  }
   const PatchPlane plane = this->Walls.GetPlane(wall);
   const Vector size = plane.Normal.cwiseAbs();
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (const int index : { nodeI, nodeJ })
+  const auto getReach = [&](int index)
   {
     const PatchTree::Node& node = this->Scene.GetTree().GetNode(index);
     const double middle = plane.GetHeight(0.5 * (node.Lower + node.Upper));
     const double reach = 0.5 * size.dot(node.Upper - node.Lower);
-    lowest = std::min(lowest, middle - reach);
-    highest = std::max(highest, middle + reach);
+    return std::array<double, 2>{ middle - reach, middle + reach };
+  };
+  const auto i = getReach(nodeI);
+  const auto j = getReach(nodeJ);
+  const bool isFrontAlone = this->NodesOutside[nodeI] && body >= 0;
+  return (i[1] > plane.Rounding && j[0] < -plane.Rounding) ||
+    (!isFrontAlone && i[0] < -plane.Rounding && j[1] > plane.Rounding);
+}
+
+//------------------------------------------------------------------------------
+// What a body hides from patches outside it, the sides hide that face them.
+SideMasks ShaftCuller::LeaveOutBacks(vtkIdType wall, unsigned int outside, SideMasks sides) const
+{
+  if (this->Walls.GetBodies().GetBody(wall) >= 0)
+  {
+    sides.Below = static_cast<std::uint16_t>(sides.Below & ~outside);
   }
-  return lowest < -plane.Rounding && highest > plane.Rounding;
+  return sides;
+}
+
+//------------------------------------------------------------------------------
+// The bits of those of a few patches that are outside all bodies.
+unsigned int ShaftCuller::GetOutside(vtkIdType first, vtkIdType last) const
+{
+  unsigned int bits = 0;
+  for (vtkIdType patch = first; patch < last; ++patch)
+  {
+    bits |= this->Walls.GetBodies().IsOutside(patch) ? 1u << (patch - first) : 0u;
+  }
+  return bits;
 }
 
 //------------------------------------------------------------------------------
@@ -283,7 +335,6 @@ void ShaftCuller::Find(int nodeI, int nodeJ, Candidates& found) const
       }
       return true;
     });
-  this->FindSidesOf(nodeI, nodeJ, found);
   this->SetBounds(found);
 }
 
@@ -330,12 +381,11 @@ void ShaftCuller::Order(const Vector& from, const Vector& to, std::vector<Item>&
 }
 
 //------------------------------------------------------------------------------
-// Of walls without bounds yet: where the nodes have few patches, keep those that part any of them.
-void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
+void ShaftCuller::KeepParting(int nodeI, int nodeJ, SideCache& sides, Candidates& found) const
 {
   const PatchTree::Node& i = this->Scene.GetTree().GetNode(nodeI);
   const PatchTree::Node& j = this->Scene.GetTree().GetNode(nodeJ);
-  if (std::max(i.GetSize(), j.GetSize()) > SideFinder::MaximumPatches)
+  if (found.HasSides || std::max(i.GetSize(), j.GetSize()) > SideFinder::MaximumPatches)
   {
     return;
   }
@@ -344,6 +394,13 @@ void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
   SideFinder finderI(this->Walls, this->Scene), finderJ(this->Walls, this->Scene);
   finderI.SetPatches(i.First, i.Last);
   finderJ.SetPatches(j.First, j.Last);
+  const auto find = [&](int end, int node, const SideFinder& finder,
+                      vtkIdType wall) -> const SideMasks&
+  {
+    return sides.Get(end, node, this->Scene.GetTree().GetNode(node).First, wall,
+      this->Walls.GetNumberOfPatches(), [&](vtkIdType other) { return finder.Find(other); });
+  };
+  const unsigned int outside = this->GetOutside(i.First, i.Last);
   found.HasSides = true;
   found.FirstI = i.First;
   found.FirstJ = j.First;
@@ -352,8 +409,12 @@ void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
   std::size_t kept = 0;
   for (const vtkIdType wall : found.Walls)
   {
-    const SideMasks sidesI = finderI.Find(wall);
-    const SideMasks sidesJ = sidesI.Front != 0 ? finderJ.Find(wall) : SideMasks();
+    const SideMasks sidesI = this->LeaveOutBacks(wall, outside, find(0, nodeI, finderI, wall));
+    if (sidesI.Front == 0 || (sidesI.Above | sidesI.Below) == 0)
+    {
+      continue;
+    }
+    const SideMasks sidesJ = find(1, nodeJ, finderJ, wall);
     if (ArePartedBy(sidesI, GetBits(i, i.First), sidesJ, GetBits(j, j.First)))
     {
       found.Walls[kept++] = wall;
@@ -362,6 +423,7 @@ void ShaftCuller::FindSidesOf(int nodeI, int nodeJ, Candidates& found) const
     }
   }
   found.Walls.resize(kept);
+  this->SetBounds(found);
 }
 
 //------------------------------------------------------------------------------
@@ -395,7 +457,6 @@ void ShaftCuller::Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidate
       found.Walls.push_back(candidates.Walls[c]);
     }
   }
-  this->FindSidesOf(nodeI, nodeJ, found);
   this->SetBounds(found);
 }
 
@@ -431,10 +492,12 @@ void ShaftCuller::Keep(const Candidates& candidates, Candidates& found)
 void ShaftCuller::FindBetween(vtkIdType i, vtkIdType j, std::vector<Occluder>& found) const
 {
   found.clear();
+  const unsigned int outside = this->GetOutside(i, i + 1);
   this->Search(Shaft(this->PatchBounds[i], this->PatchBounds[j]),
     [&](vtkIdType wall)
     {
-      const SideMasks sidesI = FindSides(this->Walls, wall, this->Scene, i);
+      const SideMasks sidesI =
+        this->LeaveOutBacks(wall, outside, FindSides(this->Walls, wall, this->Scene, i));
       const SideMasks sidesJ =
         sidesI.Front ? FindSides(this->Walls, wall, this->Scene, j) : SideMasks();
       if (ArePartedBy(sidesI, 1, sidesJ, 1) && !this->IsOf(wall, i, j))
@@ -491,14 +554,14 @@ vtkIdType ShaftCuller::FindHiding(int nodeI, int nodeJ, const Candidates& candid
     return -1;
   }
   OccluderWalls::End from, to;
-  from.Set(this->GetBox(nodeI));
-  to.Set(this->GetBox(nodeJ));
-  if (guess >= 0 && this->Walls.HidesAll(guess, from, to, true))
+  from.Set(this->GetBox(nodeI), this->NodesOutside[nodeI]);
+  to.Set(this->GetBox(nodeJ), this->NodesOutside[nodeJ]);
+  const auto find = [&](const std::vector<vtkIdType>& walls)
   {
-    return guess;
-  }
-  const auto found = std::find_if(candidates.Walls.begin(), candidates.Walls.end(),
-    [&](vtkIdType wall) { return this->Walls.HidesAll(wall, from, to, true); });
-  return found != candidates.Walls.end() ? *found : -1;
+    return this->Walls.FindHiding(
+      walls, [](vtkIdType wall) { return wall; }, from, to, true);
+  };
+  const vtkIdType latest = guess >= 0 ? find({ guess }) : -1;
+  return latest >= 0 ? latest : find(candidates.Walls);
 }
 } // namespace LightTransport

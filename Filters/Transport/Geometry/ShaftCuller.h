@@ -9,7 +9,9 @@
  * A shaft is tested as the family of its cross-sections: bounds along a few fixed directions, which
  * go linearly from those of the one end to those of the other. Sides are those of boxes as long as
  * nodes are large, then of patches: once for each wall and patch of two nodes, not for each pair
- * (SideFinder). From there on what is found is in order: first what is likely to hide much.
+ * (SideFinder). Of the walls of a convex body those are enough that face the first of two patches,
+ * where that is outside. From there on what is found is in order: first what is likely to hide
+ * much.
  */
 #ifndef ShaftCuller_h
 #define ShaftCuller_h
@@ -48,7 +50,7 @@ public:
     ///@{ Sides of the patches of two nodes with few of them, from FirstI and FirstJ on; while nodes
     /// are larger there are none.
     bool HasSides = false;
-    std::vector<SideMasks> SidesI;
+    std::vector<SideMasks> SidesI; ///< without those of the back of what only the front hides
     std::vector<SideMasks> SidesJ;
     vtkIdType FirstI = 0;
     vtkIdType FirstJ = 0;
@@ -82,6 +84,34 @@ public:
     bool Meets(const Bounds& other) const;
   };
 
+  /// Sides of the nodes that were asked about last: most are asked about again beside another one.
+  class SideCache
+  {
+  public:
+    template <typename FindSides>
+    const SideMasks& Get(int end, int node, vtkIdType first, vtkIdType wall, vtkIdType walls,
+      const FindSides& find)
+    {
+      auto& entries = this->Entries[end][first / SideFinder::MaximumPatches % Nodes];
+      entries.resize(walls);
+      Entry& entry = entries[wall];
+      if (entry.Node != node)
+      {
+        entry = { node, find(wall) };
+      }
+      return entry.Sides;
+    }
+
+  private:
+    static constexpr vtkIdType Nodes = 4;
+    struct Entry
+    {
+      int Node = -1;
+      SideMasks Sides;
+    };
+    std::array<std::vector<Entry>, Nodes> Entries[2]; ///< of the first nodes, and of the second
+  };
+
   explicit ShaftCuller(const PatchScene& scene);
 
   const OccluderWalls& GetWalls() const { return this->Walls; }
@@ -94,11 +124,14 @@ public:
   bool MayBlock(int nodeI, int nodeJ) const;
 
   ///@{ Replace `found` by what may be between two nodes: of the whole scene, or of `candidates`
-  /// that
-  /// were found for nodes above them.
+  /// that were found for nodes above them.
   void Find(int nodeI, int nodeJ, Candidates& found) const;
   void Narrow(int nodeI, int nodeJ, Candidates& candidates, Candidates& found) const;
   ///@}
+  /// Of what was found for two nodes with few patches, keep what parts any two of them. To be
+  /// called before Narrow and NarrowBetween take the list further: it takes longer than a look for
+  /// what hides all.
+  void KeepParting(int nodeI, int nodeJ, SideCache& sides, Candidates& found) const;
   ///@{ The same for two patches; candidates are those of two leaves.
   void FindBetween(vtkIdType i, vtkIdType j, std::vector<Occluder>& found) const;
   void NarrowBetween(vtkIdType i, vtkIdType j, Candidates& candidates,
@@ -111,10 +144,13 @@ public:
 
 private:
   using Vector = PatchScene::Vector;
+  void SetLeaf(int node);
+  void SetNode(int node);
   template <typename Visit>
   void Search(const Shaft& shaft, const Visit& visit) const;
   bool MayPart(vtkIdType wall, int nodeI, int nodeJ) const;
-  void FindSidesOf(int nodeI, int nodeJ, Candidates& found) const;
+  SideMasks LeaveOutBacks(vtkIdType wall, unsigned int outside, SideMasks sides) const;
+  unsigned int GetOutside(vtkIdType first, vtkIdType last) const;
   template <typename Item, typename GetWall>
   void Order(const Vector& from, const Vector& to, std::vector<Item>& items,
     const GetWall& getWall) const;
@@ -131,6 +167,8 @@ private:
   std::vector<Bounds> PatchBounds;
   std::vector<Bounds> WallBounds;
   std::vector<Bounds> NodeBounds;     ///< of all patches
+  std::vector<bool> NodesOutside;     ///< all patches are outside all bodies
+  std::vector<int> NodeBodies;        ///< that all patches bound, -1 where there is none
   std::vector<Bounds> OccluderBounds; ///< of the occluders of each node; empty where it has none
   ///@{ The occluders that belong to node k and to none of its children: from OccluderBegins[k] to
   /// OccluderBegins[k + 1].

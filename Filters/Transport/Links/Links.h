@@ -7,6 +7,7 @@
 
 #include "Links/LinkChoice.h"
 #include "Links/LinksThroughAir.h"
+#include "Links/RayNumbers.h"
 #include "Shared/Outcome.h"
 #include "vtkExchangeHierarchy.h"
 #include "vtkExchangeMatrix.h"
@@ -85,13 +86,15 @@ struct Links
 
   ///@{ Where the hierarchy joins patches alone, by what rays have met: how many of each patch, and
   /// which patches have exact links (empty: none).
-  int RaysPerPatch = 0;
+  RayNumbers Rays;
   std::vector<bool> ExactPatches;
-  bool IsSampled() const { return this->RaysPerPatch > 0; }
+  bool IsSampled() const { return this->Rays.Each > 0; }
   bool IsExact(vtkIdType patch) const
   {
     return !this->ExactPatches.empty() && this->ExactPatches[patch];
   }
+  /// Whether the links of a patch are exact or by many rays: closing the others leaves them alone.
+  bool IsApart(vtkIdType patch) const { return this->IsExact(patch) || this->Rays.IsBright(patch); }
   ///@}
 
   /// Not empty where users should doubt the links: why, and the remedy.

@@ -22,10 +22,10 @@ constexpr double SecondsPerFacingPair = 1e-6;
 constexpr double SecondsPerFreePair = 1e-7;
 constexpr double FreeShare = 0.02;
 constexpr double PairPower = 0.3;
-constexpr double SecondsPerPatch = 2e-4;
+constexpr double SecondsPerPatch = 1e-4;
 constexpr double PatchPower = 0.95;
 // A matrix is more exact than asked for, by far, and the same for each light: so long one waits.
-constexpr double LittleTime = 2.0;
+constexpr double LittleTime = 0.5;
 // So few patches take little time whatever they are, and the matrix of so many is too large.
 constexpr vtkIdType FewPatches = 1000;
 constexpr vtkIdType ManyPatches = 8192;

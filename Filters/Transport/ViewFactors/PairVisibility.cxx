@@ -122,7 +122,7 @@ bool PairVisibility::SetPair(const PatchScene& scene, vtkIdType i, vtkIdType j,
     HeightRounding + std::max(scene.GetEdgeRounding(i), scene.GetEdgeRounding(j));
   this->NumberOfPoints = 0;
   this->Walls = &walls;
-  this->WalledOff = this->IsHiddenByOne(occluders);
+  this->WalledOff = this->IsHiddenByOne(occluders, i, j);
   if (this->WalledOff)
   {
     return true;
@@ -161,17 +161,18 @@ void PairVisibility::SelectOccluders(const std::vector<Occluder>& occluders)
 }
 
 //------------------------------------------------------------------------------
-bool PairVisibility::IsHiddenByOne(const std::vector<Occluder>& occluders)
+bool PairVisibility::IsHiddenByOne(const std::vector<Occluder>& occluders, vtkIdType i, vtkIdType j)
 {
-  const Polygon* const polygons[2] = { &this->Outer, &this->Inner };
-  for (int end = 0; end < 2; ++end)
+  const auto set = [this](OccluderWalls::End& end, const Polygon& polygon, vtkIdType patch)
   {
-    const auto first = polygons[end]->Corners.begin();
-    this->Ends[end].Set({ first, first + polygons[end]->Count });
-  }
-  return std::any_of(occluders.begin(), occluders.end(),
-    [this](const Occluder& occluder)
-    { return this->Walls->HidesAll(occluder.Wall, this->Ends[0], this->Ends[1], false); });
+    const auto first = polygon.Corners.begin();
+    end.Set({ first, first + polygon.Count }, this->Walls->GetBodies().IsOutside(patch));
+  };
+  set(this->Ends[0], this->Outer, i);
+  set(this->Ends[1], this->Inner, j);
+  return this->Walls->FindHiding(
+           occluders, [](const Occluder& occluder) { return occluder.Wall; }, this->Ends[0],
+           this->Ends[1], false) >= 0;
 }
 
 //------------------------------------------------------------------------------

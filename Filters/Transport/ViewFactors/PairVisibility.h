@@ -75,7 +75,7 @@ private:
   using Occluder = ShaftCuller::Occluder;
 
   void SelectOccluders(const std::vector<Occluder>& occluders);
-  bool IsHiddenByOne(const std::vector<Occluder>& occluders);
+  bool IsHiddenByOne(const std::vector<Occluder>& occluders, vtkIdType i, vtkIdType j);
   void ChooseOuter();
   void SetFrame();
   void AddTarget();

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -81,11 +82,12 @@ struct RayCounts::Counter
     tally.SetNumberOfPatches(this->NumberOfPatches);
     Rows& rows = this->Turns[(begin - this->Hits.GetFirst()) / RowsPerTurn];
     rows.Offsets.push_back(0);
-    const double rays = this->AllLinks.RaysPerPatch;
     for (vtkIdType patch = begin; patch < end; ++patch)
     {
       Pulse::Beat(patch);
-      this->Hits.Visit(patch, 0, this->AllLinks.RaysPerPatch, tally);
+      const int cast = this->AllLinks.Rays.Get(patch);
+      const double rays = cast;
+      this->Hits.Visit(patch, 0, cast, tally);
       const double sky = tally.Sky / rays;
       const double back = static_cast<double>(tally.Behind.size()) / rays;
       this->AllLinks.SkyFractions[patch] = sky;
@@ -96,7 +98,7 @@ struct RayCounts::Counter
       tally.Finish(
         [&](int other, int met)
         {
-          this->SampledShares[patch] += this->AllLinks.IsExact(other) ? 0.0 : met / rays;
+          this->SampledShares[patch] += this->AllLinks.IsApart(other) ? 0.0 : met / rays;
           rows.Columns.push_back(other);
           rows.Counts.push_back(met);
         });
@@ -106,10 +108,11 @@ struct RayCounts::Counter
 };
 
 //------------------------------------------------------------------------------
-void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
+void RayCounts::Count(const RayHits& hits, const BrightRows& exact, const Ranks& ranks,
+  Links& links)
 {
   const vtkIdType patches = this->Scene.GetNumberOfPatches();
-  this->RaysPerPatch = links.RaysPerPatch;
+  this->Rays = links.Rays;
   const auto results = { &this->SampledShares, &links.SkyFractions, &links.BackFaceFractions,
     &links.OpeningErrors, &links.FrontHits, &links.BackHits };
   for (auto* values : results)
@@ -144,6 +147,40 @@ void RayCounts::Count(const RayHits& hits, const Ranks& ranks, Links& links)
   {
     ranks.Sum(*values);
   }
+  this->SumApart(exact, ranks);
+}
+
+//------------------------------------------------------------------------------
+void RayCounts::SumApart(const BrightRows& exact, const Ranks& ranks)
+{
+  const std::vector<double>& areas = this->Scene.GetAreas();
+  this->SumsApart.clear();
+  if (!this->Rays.Doublings.empty())
+  {
+    this->SumsApart.assign(areas.size(), 0.0);
+    for (vtkIdType patch = 0; patch < static_cast<vtkIdType>(areas.size()); ++patch)
+    {
+      Pulse::Beat(patch);
+      for (std::int64_t k = this->Met.Offsets[patch]; k < this->Met.Offsets[patch + 1]; ++k)
+      {
+        const vtkIdType other = this->Met.Columns[k];
+        const bool isBright = this->Rays.IsBright(patch) || this->Rays.IsBright(other);
+        if (isBright && !exact.Has(patch) && !exact.Has(other))
+        {
+          const double exchange = this->Met.Counts[k] / this->Rays.GetDensity(patch, other, areas);
+          this->SumsApart[patch] += exchange * areas[other];
+          this->SumsApart[other] += exchange * areas[patch];
+        }
+      }
+    }
+    ranks.Sum(this->SumsApart);
+  }
+  if (!exact.IsEmpty())
+  {
+    this->SumsApart.resize(areas.size(), 0.0);
+    std::transform(this->SumsApart.begin(), this->SumsApart.end(), exact.GetSums().begin(),
+      this->SumsApart.begin(), std::plus<double>());
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -153,7 +190,7 @@ struct RayCounts::Merger
   const std::vector<double>& Areas;
   const std::vector<double>& Weights;
   const BrightRows& Exact;
-  double Rays;
+  const RayNumbers& Rays;
   int FirstSlot;
   const Rows& Met;
   const Rows& Meeting;
@@ -183,7 +220,7 @@ struct RayCounts::Merger
     }
   }
 
-  // link(other patch, exchange relative to the areas of both, whether that is exact).
+  // link(other patch, exchange, whether it stands apart: else it is relative to both areas).
   template <typename Link>
   void Visit(vtkIdType patch, Link&& link) const
   {
@@ -204,14 +241,16 @@ struct RayCounts::Merger
           if (!this->Exact.Has(other))
           {
             passExact(other);
-            link(other, count / (this->Rays * (this->Areas[patch] + this->Areas[other])), false);
+            const bool isBright = this->Rays.IsBright(patch) || this->Rays.IsBright(other);
+            const double whole = isBright ? this->Areas[patch] * this->Areas[other] : 1.0;
+            link(other, whole * count / this->Rays.GetDensity(patch, other, this->Areas), isBright);
           }
         });
     }
     passExact(std::numeric_limits<int>::max());
   }
 
-  double GetExactValue(vtkIdType patch, int other, double exchange) const
+  double GetValueApart(vtkIdType patch, int other, double exchange) const
   {
     return this->Weights.empty() ? 0.0 : exchange / (this->Weights[patch] * this->Weights[other]);
   }
@@ -237,11 +276,11 @@ struct RayCounts::Merger
       {
         std::int64_t place = this->Offsets[this->FirstSlot + patch];
         this->Visit(patch,
-          [&](int other, double value, bool isExact)
+          [&](int other, double value, bool isApart)
           {
             this->Columns[place] = this->FirstSlot + other;
             this->Values[place++] =
-              static_cast<float>(isExact ? this->GetExactValue(patch, other, value) : value);
+              static_cast<float>(isApart ? this->GetValueApart(patch, other, value) : value);
           });
       }
     };
@@ -262,9 +301,8 @@ Outcome RayCounts::Store(const BrightRows& exact, const std::vector<double>& wei
     return fits;
   }
   const Rows meeting = this->Met.Transpose();
-  Merger merger{ this->Scene.GetAreas(), weights, exact, static_cast<double>(this->RaysPerPatch),
-    slots.GetNumberOfNodes(), this->Met, meeting,
-    std::vector<std::int64_t>(slots.GetNumberOfSlots() + 1, 0), {}, {} };
+  Merger merger{ this->Scene.GetAreas(), weights, exact, this->Rays, slots.GetNumberOfNodes(),
+    this->Met, meeting, std::vector<std::int64_t>(slots.GetNumberOfSlots() + 1, 0), {}, {} };
   merger.Run();
   const bool stored = hierarchy->SetTree(this->Scene.GetAreas(), slots.GetNodes(), ranks.GetMine(),
                         ranks.GetNumber()) &&

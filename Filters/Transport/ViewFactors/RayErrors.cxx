@@ -39,6 +39,7 @@ struct RayErrors::Sums
   std::vector<double> Sky;      ///< that leave
   std::vector<double> Open;     ///< and that leave or meet back faces
   std::vector<double> Received; ///< of the radiosity
+  std::vector<double> Apart;    ///< of it by links of patches that cast more rays
 };
 
 //------------------------------------------------------------------------------
@@ -55,13 +56,15 @@ class RayErrors::GroupSums
 public:
   GroupSums(const RayErrors& errors, const std::vector<double>& radiosity, int numberOfBands)
     : Owner(errors), Radiosity(radiosity), Bands(numberOfBands),
-      RaysPerGroup(errors.AllLinks.RaysPerPatch / Groups), Partners(errors.Scene.GetAreas().size())
+      Partners(errors.Scene.GetAreas().size())
   {
     const std::vector<double>& weights = errors.AllLinks.Hierarchy->GetWeights();
-    for (std::size_t patch = 0; patch < this->Partners.size(); ++patch)
+    const Links& links = errors.AllLinks;
+    for (vtkIdType patch = 0; patch < static_cast<vtkIdType>(this->Partners.size()); ++patch)
     {
-      const bool isExact = errors.AllLinks.IsExact(static_cast<vtkIdType>(patch));
-      this->Partners[patch] = { isExact ? 0.0 : weights[patch], errors.Scene.GetAreas()[patch] };
+      const double area = errors.Scene.GetAreas()[patch];
+      this->Partners[patch] = { links.IsExact(patch) ? 0.0 : weights[patch], area,
+        links.Rays.GetTimes(patch) };
     }
   }
 
@@ -69,6 +72,7 @@ public:
   {
     this->Rows.assign(this->Partners.size(), 0.0);
     this->Received.assign(this->Radiosity.size(), 0.0);
+    this->Apart.assign(this->Radiosity.size(), 0.0);
     const RayHits& hits = this->Owner.Hits;
     for (vtkIdType patch = hits.GetFirst(); patch < hits.GetLast(); ++patch)
     {
@@ -85,6 +89,7 @@ public:
       for (int band = 0; band < this->Bands; ++band)
       {
         sums.Received[here * this->Bands + band] = this->Received[patch * this->Bands + band];
+        sums.Apart[here * this->Bands + band] = this->Apart[patch * this->Bands + band];
       }
     }
   }
@@ -95,14 +100,16 @@ private:
   {
     double Weight;
     double Area;
+    int Times; ///< by which it casts more rays than others
   };
 
   void AddPatch(vtkIdType patch, int group, Sums& sums)
   {
     const Partner here = this->Partners[patch];
-    const double scale = here.Weight / this->RaysPerGroup;
+    const double each = this->Owner.AllLinks.Rays.Each / Groups;
+    const int rays = here.Times * this->Owner.AllLinks.Rays.Each / Groups;
     int sampled = 0, sky = 0, open = 0;
-    this->Owner.Hits.Visit(patch, group * this->RaysPerGroup, (group + 1) * this->RaysPerGroup,
+    this->Owner.Hits.Visit(patch, group * rays, (group + 1) * rays,
       [&](RayHits::Hit hit)
       {
         if (hit < 0)
@@ -112,31 +119,39 @@ private:
           return;
         }
         const Partner there = this->Partners[hit];
-        const double exchange = scale * there.Weight / (here.Area + there.Area);
-        sampled += exchange > 0.0 ? 1 : 0;
-        this->Rows[patch] += exchange;
-        this->Rows[hit] += exchange;
+        const bool isApart = here.Times > 1 || there.Times > 1;
+        const double known = isApart ? here.Area * there.Area : here.Weight * there.Weight;
+        const double exchange = there.Weight > 0.0
+          ? known / (each * (here.Times * there.Area + there.Times * here.Area))
+          : 0.0;
+        if (!isApart)
+        {
+          sampled += exchange > 0.0 ? 1 : 0;
+          this->Rows[patch] += exchange;
+          this->Rows[hit] += exchange;
+        }
+        std::vector<double>& received = isApart ? this->Apart : this->Received;
         for (int band = 0; band < this->Bands; ++band)
         {
           const std::size_t mine = patch * this->Bands + band;
           const std::size_t other = static_cast<std::size_t>(hit) * this->Bands + band;
-          this->Received[mine] += exchange * this->Radiosity[other];
-          this->Received[other] += exchange * this->Radiosity[mine];
+          received[mine] += exchange * this->Radiosity[other];
+          received[other] += exchange * this->Radiosity[mine];
         }
       });
     const std::size_t place = patch * Groups + group;
-    sums.Sampled[place] = static_cast<double>(sampled) / this->RaysPerGroup;
-    sums.Sky[place] = static_cast<double>(sky) / this->RaysPerGroup;
-    sums.Open[place] = static_cast<double>(open) / this->RaysPerGroup;
+    sums.Sampled[place] = static_cast<double>(sampled) / rays;
+    sums.Sky[place] = static_cast<double>(sky) / rays;
+    sums.Open[place] = static_cast<double>(open) / rays;
   }
 
   const RayErrors& Owner;
   const std::vector<double>& Radiosity;
   int Bands;
-  int RaysPerGroup;
   std::vector<Partner> Partners;
   std::vector<double> Rows;
   std::vector<double> Received;
+  std::vector<double> Apart;
 };
 
 //------------------------------------------------------------------------------
@@ -149,6 +164,7 @@ void RayErrors::SumHits(const std::vector<double>& radiosity, int numberOfBands,
     values->assign(patches * Groups, 0.0);
   }
   sums.Received.assign(patches * Groups * numberOfBands, 0.0);
+  sums.Apart = sums.Received;
   const auto add = [&](vtkIdType begin, vtkIdType end)
   {
     GroupSums sum(*this, radiosity, numberOfBands);
@@ -158,7 +174,8 @@ void RayErrors::SumHits(const std::vector<double>& radiosity, int numberOfBands,
     }
   };
   Threads::For(0, Groups, 1, add);
-  for (auto* values : { &sums.Rows, &sums.Sampled, &sums.Sky, &sums.Open, &sums.Received })
+  for (auto* values :
+    { &sums.Rows, &sums.Sampled, &sums.Sky, &sums.Open, &sums.Received, &sums.Apart })
   {
     this->AllRanks.Sum(*values);
   }
@@ -173,7 +190,7 @@ double RayErrors::GetWhole(std::size_t patch, const Sums& sums)
 }
 
 //------------------------------------------------------------------------------
-// What exact links leave of a row.
+// What links that stand apart leave of a row.
 double RayErrors::GetRest(std::size_t patch, const Sums& sums) const
 {
   return GetWhole(patch, sums) / this->Scene.GetAreas()[patch] +
@@ -198,7 +215,8 @@ std::vector<double> RayErrors::FindMeans(const std::vector<double>& radiosity,
 //------------------------------------------------------------------------------
 // What is the same everywhere closed rows carry without error, but for what they take for open.
 Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
-  const std::vector<double>& background, std::vector<double>& differences) const
+  const std::vector<double>& background, std::vector<double>& differences,
+  std::vector<double>&) const
 {
   const std::vector<double>& areas = this->Scene.GetAreas();
   const std::size_t patches = areas.size();
@@ -224,16 +242,19 @@ Outcome RayErrors::FindDifferences(const std::vector<double>& radiosity, int num
     for (int band = 0; band < numberOfBands; ++band)
     {
       const auto at = [&](int group) { return (patch * Groups + group) * numberOfBands + band; };
-      double mean = 0.0;
+      double mean = 0.0, meanApart = 0.0;
       for (int group = 0; group < Groups; ++group)
       {
         mean += sums.Received[at(group)] / Groups;
+        meanApart += sums.Apart[at(group)] / Groups;
       }
       for (int group = 0; group < Groups && !this->AllLinks.IsExact(patch); ++group)
       {
         const std::size_t here = patch * Groups + group;
-        const double received =
-          sums.Received[at(group)] - mean + changes[here] * mean + fromOthers[at(group)];
+        const double scaled = this->AllLinks.IsApart(patch)
+          ? 0.0
+          : sums.Received[at(group)] - mean + changes[here] * mean + fromOthers[at(group)];
+        const double received = scaled + sums.Apart[at(group)] - meanApart;
         const double own = sums.Sampled[here] + sums.Open[here];
         const double moreSky = own > 0.0 ? rest * sums.Sky[here] / own - sky : 0.0;
         const double moreOpen = own > 0.0 ? rest * sums.Open[here] / own - open : 0.0;
@@ -317,7 +338,7 @@ std::vector<double> RayErrors::GetDeviations(const std::vector<double>& differen
          other <= std::min(patch + PooledPatches, patches - 1); ++other)
     {
       if (this->Scene.GetNormal(patch).dot(this->Scene.GetNormal(other)) > FacingAlike &&
-        this->AllLinks.IsExact(patch) == this->AllLinks.IsExact(other))
+        this->AllLinks.IsApart(patch) == this->AllLinks.IsApart(other))
       {
         sum += variances[other * bands + k % bands];
         ++count;

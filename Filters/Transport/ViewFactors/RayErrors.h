@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * How wrong sampled links are, from eight groups of their rays: what the links of each group alone,
- * closed like those of all, would change of the irradiance. Errors of patches are not independent
- * (what one patch sends all others receive), so groups are kept apart until the equation has been
- * solved for each of them; the spread over the groups is then the error.
+ * closed like those of all, would change of the irradiance.
  *
  * The groups are parts of one sequence, which is evener than each of them: their spread says more
  * than the error is. GetDeviation takes that into account, by what was measured.
@@ -13,6 +11,7 @@
 #define RayErrors_h
 
 #include "Shared/Outcome.h"
+#include "ViewFactors/LinkDoubts.h"
 
 #include <cstddef>
 #include <vector>
@@ -24,26 +23,21 @@ class Ranks;
 class RayHits;
 struct Links;
 
-class RayErrors
+class RayErrors : public LinkDoubts
 {
 public:
-  static constexpr int Groups = 8;
-
   /// The hits that the links come from. All must outlive this.
   RayErrors(const PatchScene& scene, const RayHits& hits, const Links& links, const Ranks& ranks);
 
-  /**
-   * For a radiosity (patches x bands), and the irradiance that enters through openings where there
-   * is nothing else (one per band; empty: none): the differences of the irradiance, patches x
-   * groups x bands. Collective.
-   */
+  /// Nothing is known of these with its sign.
   Outcome FindDifferences(const std::vector<double>& radiosity, int numberOfBands,
-    const std::vector<double>& background, std::vector<double>& differences) const;
+    const std::vector<double>& background, std::vector<double>& differences,
+    std::vector<double>& known) const override;
 
   /// Standard errors, patches x bands, from differences like those above: the variance of a patch
   /// is the mean of its own and that of its neighbours in the tree that face alike, so that some
   /// thirty differences tell it.
-  std::vector<double> GetDeviations(const std::vector<double>& differences) const;
+  std::vector<double> GetDeviations(const std::vector<double>& differences) const override;
 
 private:
   struct Sums;

@@ -97,7 +97,7 @@ Outcome CheckSizes(const Reader& file, const Header& header, const Ranks& ranks)
   }
   Outcome good = file.ExpectLast(patches * rays * sizeof(Hit));
   return good ? Reader::CheckMemory(RayHits::GetEstimatedBytes(static_cast<vtkIdType>(patches),
-                  static_cast<int>(rays), ranks))
+                  { static_cast<int>(rays), {} }, ranks))
               : good;
 }
 

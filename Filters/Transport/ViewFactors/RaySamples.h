@@ -8,12 +8,15 @@
 #include "ViewFactors/BrightRows.h"
 #include "ViewFactors/RayHits.h"
 
+#include <memory>
+
 namespace LightTransport
 {
 struct RaySamples
 {
   RayHits Hits;
   BrightRows Exact;
+  std::weak_ptr<PatchRays> Rays; ///< of a scene that is there for several looks; else empty
 };
 } // namespace LightTransport
 

@@ -27,33 +27,37 @@ constexpr double OpenPower = 0.1;
 // What is left of gaps before exact links are there, and of closed rows.
 constexpr double RoughGap = 1e-5;
 constexpr double Rounding = 1e-11;
-// What is left of a row beside what is exact is at least this much.
+// What is left of a row beside what is exact is at least this much; beside what many rays tell, of
+// which there may seem to be too much, this part of what its own rays say.
 constexpr double SmallestRest = 1e-6;
+constexpr double SmallestPart = 0.5;
 // Rays of which a tolerance is the error of the irradiance: (share / tolerance)^power.
 constexpr double ErrorOfOneRay = 0.5;
 constexpr double RayPower = 1.6;
+constexpr int FewestForTolerance = 64;
 
 //------------------------------------------------------------------------------
-// What exact links leave of a row its own rays divide between openings and what they sample there;
-// nothing that others have met is nothing. Returns what both are to sum to.
-std::vector<double> DivideRests(const BrightRows& exact, const RayCounts& counts, Links& links)
+// What links that stand apart leave of a row its own rays divide between openings and what they
+// sample there; nothing that others have met is nothing. Returns what both are to sum to.
+std::vector<double> DivideRests(const RayCounts& counts, Links& links)
 {
-  const double leastShare = 0.5 / links.RaysPerPatch;
   std::vector<double> targets = counts.GetSampledShares();
   for (std::size_t row = 0; row < targets.size(); ++row)
   {
-    const bool isExact = exact.Has(static_cast<vtkIdType>(row));
-    const double rest =
-      std::max(1.0 - (exact.IsEmpty() ? 0.0 : exact.GetSums()[row]), isExact ? 0.0 : SmallestRest);
+    const bool isApart = links.IsApart(static_cast<vtkIdType>(row));
+    const double apart = counts.HaveApart() ? counts.GetSumsApart()[row] : 0.0;
+    const double leastShare = 0.5 / links.Rays.Get(static_cast<vtkIdType>(row));
     const double sampled =
-      !isExact && links.RowSums[row] > 0.0 ? std::max(targets[row], leastShare) : 0.0;
+      !isApart && links.RowSums[row] > 0.0 ? std::max(targets[row], leastShare) : 0.0;
     double& sky = links.SkyFractions[row];
     double& back = links.BackFaceFractions[row];
     const double share = sampled + sky + back;
+    const double leastRest = links.Rays.Doublings.empty() ? SmallestRest : SmallestPart * share;
+    const double rest = std::max(1.0 - apart, isApart ? 0.0 : leastRest);
     const double scale = share > 0.0 ? rest / share : 0.0;
     sky *= scale;
     back *= scale;
-    targets[row] = isExact ? 0.0 : share * scale;
+    targets[row] = isApart ? 0.0 : share * scale;
   }
   return targets;
 }
@@ -96,7 +100,7 @@ SampledViewFactors::SampledViewFactors(SamplingPlan plan, std::shared_ptr<RaySam
 int SampledViewFactors::GetRaysFor(double tolerance)
 {
   const double rays = std::pow(ErrorOfOneRay / tolerance, RayPower);
-  int count = RayHits::FewestRays;
+  int count = FewestForTolerance;
   while (count < rays && count < RayHits::MostRays)
   {
     count *= 2;
@@ -108,7 +112,9 @@ int SampledViewFactors::GetRaysFor(double tolerance)
 LinkKey SampledViewFactors::GetKey() const
 {
   LinkKey key{ "SampledViewFactors",
-    { static_cast<double>(this->Plan.RaysPerPatch), this->Plan.Tolerance }, {} };
+    { static_cast<double>(this->Plan.Rays.Each), this->Plan.Tolerance }, {} };
+  key.Parameters.insert(key.Parameters.end(), this->Plan.Rays.Doublings.begin(),
+    this->Plan.Rays.Doublings.end());
   for (std::size_t patch = 0; patch < this->Plan.Bright.size(); ++patch)
   {
     if (this->Plan.Bright[patch])
@@ -121,15 +127,15 @@ LinkKey SampledViewFactors::GetKey() const
 
 //------------------------------------------------------------------------------
 // Openings are scaled little: what the rays of each patch say is better known than what both
-// directions give others. Nor are exact links part of what is scaled: first the others are, to what
-// is left of each row, then all together by what rounding and the errors of exact rows leave.
+// directions give others. Nor are links that stand apart part of what is scaled: first the others
+// are, to what is left of each row, then all together by what the errors of those apart leave.
 Outcome SampledViewFactors::Close(const RayCounts& counts, const Ranks& ranks, Links& links) const
 {
   const BrightRows& exact = this->Samples->Exact;
   ViewFactorClosure::Scaling scaling;
   scaling.OpenPower = OpenPower;
-  scaling.Targets = DivideRests(exact, counts, links);
-  if (!exact.IsEmpty())
+  scaling.Targets = DivideRests(counts, links);
+  if (counts.HaveApart())
   {
     ViewFactorClosure::Scaling rough = scaling;
     rough.Goal = RoughGap;
@@ -158,7 +164,9 @@ Outcome SampledViewFactors::Gather(const PatchScene& scene, const Ranks& ranks,
   const Monitor& monitor) const
 {
   const bool hasBright = !this->Plan.Bright.empty();
-  Outcome outcome = this->Samples->Hits.CastTo(this->Plan.RaysPerPatch, scene, ranks,
+  auto rays = this->Samples->Rays.lock();
+  rays = rays ? rays : std::make_shared<PatchRays>();
+  Outcome outcome = this->Samples->Hits.CastTo(this->Plan.Rays, scene, *rays, ranks,
     monitor.GetStage(0.0, hasBright ? RaysDone : RowsDone));
   return outcome ? this->Samples->Exact.Fill(scene, this->Plan.Bright, this->Plan.Tolerance, ranks,
                      monitor.GetStage(RaysDone, RowsDone))
@@ -166,20 +174,20 @@ Outcome SampledViewFactors::Gather(const PatchScene& scene, const Ranks& ranks,
 }
 
 //------------------------------------------------------------------------------
-// As they are before any closure, with exact links left out.
+// As they are before any closure, without links that stand apart.
 Outcome SampledViewFactors::Count(RayCounts& counts, const Ranks& ranks, Links& links) const
 {
   const BrightRows& exact = this->Samples->Exact;
-  links.RaysPerPatch = this->Plan.RaysPerPatch;
+  links.Rays = this->Plan.Rays;
   links.ExactPatches = this->Plan.Bright;
-  counts.Count(this->Samples->Hits, ranks, links);
+  counts.Count(this->Samples->Hits, exact, ranks, links);
   links.Hierarchy = vtkSmartPointer<vtkExchangeHierarchy>::New();
   Outcome outcome = counts.Store(exact, {}, ranks, links.Hierarchy);
   outcome = outcome ? links.SumRows(ranks) : outcome;
   links.RawRowSums = links.RowSums;
-  if (outcome && !exact.IsEmpty())
+  if (outcome && counts.HaveApart())
   {
-    std::transform(links.RawRowSums.begin(), links.RawRowSums.end(), exact.GetSums().begin(),
+    std::transform(links.RawRowSums.begin(), links.RawRowSums.end(), counts.GetSumsApart().begin(),
       links.RawRowSums.begin(), std::plus<double>());
   }
   // What rays that meet nothing else tell of an opening is all that rows are not sure of.
@@ -193,10 +201,9 @@ void SampledViewFactors::Summarize(const Ranks& ranks, Links& links) const
   std::vector<double> sizes{ static_cast<double>(links.Hierarchy->GetNumberOfLinks()),
     links.Hierarchy->GetNumberOfBytes() };
   ranks.Sum(sizes);
-  const double rays = this->Plan.RaysPerPatch;
   const vtkIdType patches = links.Hierarchy->GetNumberOfPatches();
   links.Summaries.insert(links.Summaries.begin(),
-    { { "RaysPerPatch", rays }, { "RaysCast", static_cast<double>(patches) * rays },
+    { { "RaysPerPatch", this->Plan.Rays.Each }, { "RaysCast", this->Plan.Rays.Sum(patches) },
       { "ExactRows",
         static_cast<double>(std::count(this->Plan.Bright.begin(), this->Plan.Bright.end(), true)) },
       { "NumberOfLinks", sizes[0] }, { "MatrixBytes", sizes[1] },

@@ -64,6 +64,7 @@ struct ViewFactorAssembly::Looker
   vtkExchangeMatrix* Exchange;
   vtkIdType First;
   std::vector<UnitResult> Results;
+  Threads::Local<ShaftCuller::SideCache> Sides;
 
   // One unit at work: what all steps of the descent share.
   struct Work
@@ -72,6 +73,7 @@ struct ViewFactorAssembly::Looker
     vtkIdType FirstI, FirstJ;
     float* Values; ///< of the pair (FirstI, FirstJ)
     UnitResult& Result;
+    ShaftCuller::SideCache& Sides;
     std::vector<ShaftCuller::Candidates> Lists;
     std::vector<ShaftCuller::Occluder> Between;
     PairVisibility Visibility;
@@ -104,7 +106,7 @@ struct ViewFactorAssembly::Looker
       const vtkIdType firstJ = tree.GetNode(unit.J).First;
       Work work{ tree, firstI, firstJ,
         tile.Values + (firstI - tile.Row * N) * N + (firstJ - tile.Column * N),
-        this->Results[index - this->First], {}, {}, {}, -1 };
+        this->Results[index - this->First], this->Sides.Get(), {}, {}, {}, -1 };
       this->Fill(unit.I, unit.J, work);
       if (this->Outer.Culler.HasOccluders() && MayExchange(unit.I, unit.J, work))
       {
@@ -212,6 +214,10 @@ struct ViewFactorAssembly::Looker
   void Descend(int nodeI, int nodeJ, std::size_t depth, Work& work)
   {
     Pulse::Beat();
+    if (this->Outer.NodeSenders[nodeI] == 0 && this->Outer.NodeSenders[nodeJ] == 0)
+    {
+      return;
+    }
     const PatchTree::Node& i = work.Tree.GetNode(nodeI);
     const PatchTree::Node& j = work.Tree.GetNode(nodeJ);
     if (work.GetList(depth).IsEmpty())
@@ -226,6 +232,12 @@ struct ViewFactorAssembly::Looker
       work.HidingWall = wall;
       work.Result.Count.Hidden += this->CountFacing(nodeI, nodeJ, work);
       this->Hide(nodeI, nodeJ, work);
+      return;
+    }
+    this->Outer.Culler.KeepParting(nodeI, nodeJ, work.Sides, work.GetList(depth));
+    if (work.GetList(depth).IsEmpty())
+    {
+      work.Result.Count.Free += this->CountFacing(nodeI, nodeJ, work);
       return;
     }
     if (this->Outer.Rays && work.GetList(depth).HasSides && this->Judge(nodeI, nodeJ, work))
@@ -521,7 +533,7 @@ bool ViewFactorAssembly::Look(vtkExchangeMatrix* exchange, vtkIdType begin, vtkI
       return false;
     }
   }
-  Looker looker{ *this, exchange, begin, std::vector<UnitResult>(end - begin) };
+  Looker looker{ *this, exchange, begin, std::vector<UnitResult>(end - begin), {} };
   Threads::For(begin, end, 1, looker);
   // In the order of the units: sums then do not depend on the threads.
   for (vtkIdType unit = begin; unit < end; ++unit)

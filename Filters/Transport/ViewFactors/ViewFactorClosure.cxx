@@ -24,7 +24,7 @@ namespace
 {
 // How often links are scaled.
 constexpr int MaximumScalings = 30;
-// Where so many steps in a row gain less, these rows cannot all be closed.
+// Where so many steps in a row gain less on the best one, these rows cannot all be closed.
 constexpr double SlowestGain = 0.9;
 constexpr int StuckSteps = 3;
 // Of the logarithm of a scale; what a step may leave of what is missing, squared; and what it need
@@ -451,17 +451,17 @@ public:
 
   bool Run(ViewFactorClosure::Report& report)
   {
-    double last = std::numeric_limits<double>::max();
+    double least = std::numeric_limits<double>::max();
     int stuck = 0;
     for (int step = 0; step < MaximumScalings; ++step)
     {
       report.Gap = this->FindGap();
-      stuck = report.Gap > SlowestGain * last ? stuck + 1 : 0;
+      stuck = report.Gap > SlowestGain * least ? stuck + 1 : 0;
       if (!this->Good || report.Gap <= this->Asked.Goal || stuck == StuckSteps)
       {
         break;
       }
-      last = report.Gap;
+      least = std::min(least, report.Gap);
       this->ScaleWeights(this->FindStep().max(-LongestStep).min(LongestStep).exp());
     }
     if (this->Good && report.Gap > this->Asked.Goal)

@@ -53,9 +53,9 @@ Outcome ViewFactorStore::Make(const PatchScene& scene, const ViewFactorSettings&
   if (settings.Method == LinkMethod::Sampled)
   {
     SamplingPlan plan = settings.Plan;
-    if (plan.RaysPerPatch == 0)
+    if (plan.Rays.Each == 0)
     {
-      plan.RaysPerPatch = SampledViewFactors::GetRaysFor(settings.LinkTolerance);
+      plan.Rays.Each = SampledViewFactors::GetRaysFor(settings.LinkTolerance);
     }
     const SampledViewFactors builder(plan, this->Samples);
     Outcome updated = this->Cache.Update(scene, builder, ranks, monitor);
@@ -85,11 +85,11 @@ LinkMethod ViewFactorStore::GetMethod(const ViewFactorSettings& settings) const
 
 //------------------------------------------------------------------------------
 SamplingPlan ViewFactorStore::FindPlan(const PatchScene& scene, double linkTolerance,
-  const Ranks& ranks) const
+  const SamplingPlan& first, const Ranks& ranks) const
 {
   const bool serves = this->GetLinks().IsSampled() && this->PlanTolerance <= linkTolerance &&
-    this->Samples->Hits.Have(this->Plan.RaysPerPatch, scene, ranks);
-  return serves ? this->Plan : SamplingPlan::Begin();
+    this->Samples->Hits.Have(this->Plan.Rays, scene, ranks);
+  return serves ? this->Plan : first;
 }
 
 //------------------------------------------------------------------------------
@@ -98,8 +98,9 @@ Outcome ViewFactorStore::TakeLoaded(const PatchScene& scene, const Ranks& ranks,
   const Monitor& monitor)
 {
   const Links& links = this->GetLinks();
-  const bool fits = this->LoadedRays > 0 ? this->Samples->Hits.Have(this->LoadedRays, scene, ranks)
-                                         : links.Fingerprint == scene.GetFingerprint() &&
+  const bool fits = this->LoadedRays > 0
+    ? this->Samples->Hits.Have({ this->LoadedRays, {} }, scene, ranks)
+    : links.Fingerprint == scene.GetFingerprint() &&
       links.Matrix->GetNumberOfPatches() == scene.GetNumberOfPatches();
   Outcome taken = ranks.Agree(fits
       ? Outcome::Done()
@@ -109,7 +110,7 @@ Outcome ViewFactorStore::TakeLoaded(const PatchScene& scene, const Ranks& ranks,
   if (taken && this->LoadedRays > 0)
   {
     SamplingPlan plan;
-    plan.RaysPerPatch = this->LoadedRays;
+    plan.Rays.Each = this->LoadedRays;
     taken = this->Cache.Update(scene, SampledViewFactors(plan, this->Samples), ranks, monitor);
   }
   return taken;
@@ -119,6 +120,14 @@ Outcome ViewFactorStore::TakeLoaded(const PatchScene& scene, const Ranks& ranks,
 const RayHits& ViewFactorStore::GetHits() const
 {
   return this->Samples->Hits;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<PatchRays> ViewFactorStore::ShareRays()
+{
+  auto rays = std::make_shared<PatchRays>();
+  this->Samples->Rays = rays;
+  return rays;
 }
 
 //------------------------------------------------------------------------------
@@ -176,7 +185,7 @@ Outcome ViewFactorStore::Save(const std::string& fileName, const Ranks& ranks) c
   if (links.IsSampled())
   {
     return RayHitsFile::Write(fileName, this->Samples->Hits, links.Hierarchy->GetNumberOfPatches(),
-      links.RaysPerPatch, ranks);
+      links.Rays.Each, ranks);
   }
   if (ranks.AreSeveral())
   {
@@ -231,6 +240,7 @@ void ViewFactorStore::Forget()
 {
   this->Cache.Put(Links());
   *this->Samples = RaySamples();
+  this->Checked = CheckedRows();
   this->Faces = SceneFaces();
   this->LoadedFile.clear();
   this->LoadedRays = 0;

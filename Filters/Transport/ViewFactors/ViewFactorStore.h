@@ -10,6 +10,7 @@
 #include "Scene/SceneFaces.h"
 #include "Shared/Monitor.h"
 #include "Shared/Outcome.h"
+#include "ViewFactors/CheckedRows.h"
 #include "ViewFactors/SamplingPlan.h"
 #include "vtkType.h"
 
@@ -19,6 +20,7 @@
 
 namespace LightTransport
 {
+class PatchRays;
 class PatchScene;
 class Ranks;
 class RayHits;
@@ -57,8 +59,10 @@ public:
     const std::vector<bool>& senders, const Ranks& ranks, const Monitor& monitor);
 
   /// The plan to begin with: that of the links that are kept, if they are of this scene and were
-  /// made for this tolerance or a smaller one, so that they need not be made again for other light.
-  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const Ranks& ranks) const;
+  /// made for this tolerance or a smaller one, so that they need not be made again for other light;
+  /// else `first`.
+  SamplingPlan FindPlan(const PatchScene& scene, double linkTolerance, const SamplingPlan& first,
+    const Ranks& ranks) const;
 
   /// What the last update left, or nothing after a failure.
   const Links& GetLinks() const { return this->Cache.Get(); }
@@ -69,6 +73,10 @@ public:
 
   /// What the rays of sampled links have met.
   const RayHits& GetHits() const;
+  /// For as long as this is kept, and a scene is there, its trees for rays are built once.
+  std::shared_ptr<PatchRays> ShareRays();
+  /// What other links are compared with.
+  CheckedRows& GetCheckedRows() { return this->Checked; }
 
   /// F_ij of faces of the scene of the last update. 0 where out of range and, on several ranks,
   /// what other ranks hold is left out.
@@ -96,6 +104,7 @@ private:
 
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
+  CheckedRows Checked;
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;

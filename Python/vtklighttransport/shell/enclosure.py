@@ -14,7 +14,7 @@ ENCLOSURE = (
     Number("--link-tolerance", "LinkTolerance", float,
            "relative error of the irradiance that hierarchical or sampled links are allowed; 0 as "
            "the accuracy asks"),
-    Switch("--errors", "ComputeErrors", True, "arrays of standard errors, with sampled links"),
+    Switch("--errors", "ComputeErrors", True, "arrays of standard errors"),
     Switch("--by-brightness", "RefineByBrightness", True,
            "refine hierarchical links where light is"),
     Switch("--two-sided", "TwoSided", True,

@@ -390,6 +390,9 @@ bool TestBytesRead()
     good = good && device->Multiply(1, 0) && device->Scale(1, 1, 0);
   }
   good = Check(device->GetNumberOfBytesRead() == 0, "vectors travel while nobody asks") && good;
+  good = Check(device->GetNumberOfLinkBytes() > 0 && device->GetNumberOfLinkBytes() % 16 == 0,
+           "bytes of links") &&
+    good;
   good = good && device->MaxNorm(1, numbers.data());
   return Check(device->GetNumberOfBytesRead() == 16, "a number per band takes more than a texel") &&
     Check(std::isfinite(numbers[0]) && std::isnan(numbers[1]) && std::isfinite(numbers[2]),

@@ -172,6 +172,8 @@ void TestLinks()
 {
   Scene scene(16);
   scene.Material->SetScatteringCoefficient(1.0, 2.0, 3.0);
+  Check(scene.Pass->GetScatteredMap(scene.Actor)->GetNumberOfLinkBytes() == 0,
+    "links that are not there take bytes");
   const auto check = [&scene](int size, const std::string& what)
   {
     scene.Pass->SetScatteredMapSize(size);
@@ -188,8 +190,12 @@ void TestLinks()
     Check(difference.Relative < 1e-4, what + ": the map is not the filter's");
   };
   check(32, "adaptive");
+  const vtkTypeInt64 bytes = scene.Pass->GetScatteredMap(scene.Actor)->GetNumberOfLinkBytes();
   scene.Material->CompressLinksOn();
   check(32, "adaptive, compressed");
+  const vtkTypeInt64 coded = scene.Pass->GetScatteredMap(scene.Actor)->GetNumberOfLinkBytes();
+  Check(coded > 0 && 4 * coded < bytes,
+    "compressed links take " + std::to_string(coded) + " of " + std::to_string(bytes) + " bytes");
   scene.Material->SetLinkMethodToUniform();
   check(32, "uniform, compressed");
   scene.Material->CompressLinksOff();
@@ -197,6 +203,75 @@ void TestLinks()
   check(32, "uniform");
   scene.Material->SetLinkMethodToDense();
   check(16, "dense");
+}
+
+/// Relative L2 difference of `name` on a ball, averaged over pairs of triangles, and the texels of
+/// a map that these are in, `finest` texels a side where each has its own.
+double GetErrorOnTriangles(vtkPolyData* lit, const char* name, int finest,
+  const std::vector<double>& map)
+{
+  const std::vector<double> expected = AverageOverTexels(lit, name, finest);
+  const int size = static_cast<int>(std::lround(std::sqrt(map.size() / 4.0)));
+  double squares = 0.0;
+  double errors = 0.0;
+  for (vtkIdType pair = 0; pair < lit->GetNumberOfCells() / 2; ++pair)
+  {
+    const double area = GetArea(lit, 2 * pair) + GetArea(lit, 2 * pair + 1);
+    const vtkIdType place = GetTexel(pair, finest);
+    const vtkIdType line = place / finest * size / finest;
+    const vtkIdType column = place % finest * size / finest;
+    const double* texel = &map[static_cast<std::size_t>(4 * (line * size + column))];
+    for (int k = 0; k < 3; ++k)
+    {
+      const double value = expected[static_cast<std::size_t>(4 * place + k)];
+      squares += area * value * value;
+      errors += area * std::pow(texel[k] / texel[3] - value, 2);
+    }
+  }
+  return std::sqrt(errors / squares);
+}
+
+/// The filters know triangles and no atlas: both maps come to their results as they grow.
+void TestSizes()
+{
+  constexpr int Finest = 64;
+  Scene scene(Finest / ChartsPerSide);
+  scene.Pass->ShadowsOff();
+  scene.Pass->SetIrradianceSamples(1);
+  scene.Material->SetLinkMethodToDense();
+  vtkNew<vtkDirectIrradiance> direct;
+  direct->SetInputData(scene.Ball);
+  direct->AddLight(scene.Light);
+  direct->SetShadows(false);
+  direct->SetRefractiveIndex(scene.Material->GetRefractiveIndex());
+  vtkNew<vtkSubsurfaceScattering> filter;
+  filter->SetInputConnection(direct->GetOutputPort());
+  filter->SetMillimetersPerUnit(scene.Material->GetMillimetersPerUnit());
+  filter->SetLinkMethodToDense();
+  filter->SetIncidenceToTransmitted();
+  filter->SetDeviceToCPU();
+  filter->Update();
+  auto* lit = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  double before[2] = { 1.0, 1.0 };
+  for (const int level : { 1, 2, 3 })
+  {
+    scene.Pass->SetIrradianceMapSize(Finest << level);
+    scene.Pass->SetScatteredMapSize(Finest >> (3 - level));
+    scene.Window->Render();
+    const double errors[2] = { GetErrorOnTriangles(lit, "TransmittedIrradiance", Finest,
+                                 Read(scene.Pass->GetTransmittedMap(scene.Actor)->GetTexture(),
+                                   level)),
+      GetErrorOnTriangles(lit, "ScatteredIrradiance", Finest,
+        Read(scene.Pass->GetScatteredMap(scene.Actor)->GetTexture())) };
+    std::cout << "larger and larger maps: what enters is off by " << errors[0]
+              << ", what leaves by " << errors[1] << "\n";
+    for (int map = 0; map < 2; ++map)
+    {
+      Check(errors[map] < 0.6 * before[map], "a larger map is not better");
+      before[map] = errors[map];
+    }
+  }
+  Check(before[1] < 0.01, "what leaves is not that of the filter on triangles");
 }
 
 /// What enters is the integral of the first map, what leaves the links' sum of it.
@@ -291,6 +366,7 @@ int TestScatteringMaps(int, char*[])
   TestLights();
   TestShadows();
   TestLinks();
+  TestSizes();
   TestEnergy();
   TestErrors();
   return Result();

@@ -244,6 +244,64 @@ void TestEnergy()
   CheckClose(seen, area * scattered / areas, 0.01, "what is drawn from all sides");
 }
 
+/// Twice the exposure is twice each number, of what is scattered and of what is reflected.
+void TestExposure()
+{
+  Drawing scene;
+  scene.Actor->GetProperty()->SetDiffuse(0.5);
+  std::vector<float> picture = scene.Draw();
+  for (float& value : picture)
+  {
+    value *= 2.5f;
+  }
+  scene.Pass->SetExposure(2.5);
+  Check(GetDifference(picture, scene.Draw()) < 1e-6, "exposure is not linear");
+  Check(scene.GetRuns() == std::array<vtkIdType, 3>{ 1, 1, 1 }, "exposure costs something");
+}
+
+/// Body, light and camera that turn together change nothing.
+void TestTurning()
+{
+  constexpr double Degrees = 50.0;
+  Drawing scene;
+  scene.Pass->ShadowsOff();
+  const auto read = [&scene]()
+  { return Read(scene.Pass->GetScatteredMap(scene.Actor)->GetTexture()); };
+  const std::vector<float> before = scene.Draw();
+  const std::vector<double> map = read();
+  scene.Actor->RotateY(Degrees);
+  scene.Draw();
+  const std::vector<double> other = read();
+  const double angle = vtkMath::RadiansFromDegrees(Degrees);
+  double at[3];
+  scene.Light->GetPosition(at);
+  scene.Light->SetPosition(at[0] * std::cos(angle) + at[2] * std::sin(angle), at[1],
+    at[2] * std::cos(angle) - at[0] * std::sin(angle));
+  scene.Renderer->GetActiveCamera()->Azimuth(Degrees);
+  const std::vector<float> after = scene.Draw();
+  const std::vector<double> again = read();
+  double largest = 0.0;
+  double difference = 0.0;
+  double change = 0.0;
+  for (std::size_t k = 0; k < map.size(); ++k)
+  {
+    largest = std::max(largest, map[k]);
+    difference = std::max(difference, std::abs(again[k] - map[k]));
+    change = std::max(change, std::abs(other[k] - map[k]));
+  }
+  Check(change > 0.05 * largest, "a body that turns alone changes nothing");
+  Check(difference < 1e-5 * largest, "what leaves a body that turns with its light");
+  // Pixels at the rim may be those of the background.
+  std::size_t off = 0;
+  for (std::size_t k = 0; k < before.size(); k += 4)
+  {
+    off += std::abs(after[k] - before[k]) > 1e-4f ? 1 : 0;
+  }
+  Check(after.size() == before.size() && off < before.size() / 400,
+    "the picture of a body that turns with its light and camera: " + std::to_string(off) +
+      " pixels are off");
+}
+
 /// Of two balls in one atlas one is lit, and nothing goes from one to the other: the other stays
 /// dark however far away it is drawn.
 void TestSeams()
@@ -364,6 +422,8 @@ int TestScatteringPass(int, char*[])
   TestRuns();
   TestOpaqueActor();
   TestEnergy();
+  TestExposure();
+  TestTurning();
   TestSeams();
   TestRepresentations();
   TestWindows();

@@ -2,92 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkRadiosity with links from rays: the accuracy that it is asked for, and what it says of its own
 // errors, against the matrix of all pairs.
-#include "RadiosityTesting.h"
+#include "AccuracyTesting.h"
 
 #include "vtkSMPTools.h"
-
-#include <functional>
 
 using namespace LightTransportTesting;
 
 namespace
 {
-using Settings = std::function<void(vtkRadiosity*)>;
-
-//------------------------------------------------------------------------------
-/// A run of a filter of its own, on the CPU.
-struct Solved
-{
-  std::string Messages;
-  vtkNew<vtkRadiosity> Filter;
-
-  Solved(
-    vtkPolyData* data, int linkMethod, const Settings& settings = [](vtkRadiosity*) {})
-  {
-    vtkNew<MessageLog> observer;
-    this->Filter->AddObserver(vtkCommand::ErrorEvent, observer);
-    this->Filter->AddObserver(vtkCommand::WarningEvent, observer);
-    this->Filter->SetInputData(data);
-    this->Filter->SetDeviceToCPU();
-    this->Filter->SetTolerance(1e-8);
-    this->Filter->SetLinkMethod(linkMethod);
-    this->Filter->SetViewFactorTolerance(
-      linkMethod == vtkRadiosity::LINK_METHOD_DENSE ? 1e-3 : 0.0);
-    settings(this->Filter);
-    this->Filter->Update();
-    this->Messages = observer->GetAllButVerdict();
-    this->Filter->RemoveAllObservers();
-  }
-
-  Vector Get(const char* name) const
-  {
-    vtkDataArray* array = this->Filter->GetPolyDataOutput()->GetCellData()->GetArray(name);
-    Check(array != nullptr, std::string(name) + " is there: " + this->Messages);
-    return array ? ToVector(GetValues(array)) : Vector();
-  }
-  double GetNumber(const char* name) const
-  {
-    return GetSummary(this->Filter->GetPolyDataOutput(), name);
-  }
-};
-
-constexpr int Dense = vtkRadiosity::LINK_METHOD_DENSE;
-constexpr int Sampled = vtkRadiosity::LINK_METHOD_SAMPLED;
-
-//------------------------------------------------------------------------------
-/// A room with a box in it, lit by a small lamp; open at the top or not.
-vtkSmartPointer<vtkPolyData> MakeScene(double reflectance, bool open = false)
-{
-  Surface room;
-  AddBox(room, { 0, 0, 0 }, { 4, 3, 2.5 }, 0.5, true);
-  AddBox(room, { 1.0, 1.0, 0.4 }, { 2.5, 2.0, 0.9 }, 0.4, false);
-  auto data = room.Get();
-  const vtkIdType lamp = data->GetNumberOfCells();
-  room.AddPolygon({ { 2, 1.5, 2.2 }, { 2, 1.6, 2.2 }, { 2.1, 1.6, 2.2 }, { 2.1, 1.5, 2.2 } });
-  data = room.Get();
-  if (open)
-  {
-    // The ceiling comes second of the pairs of walls of the last axis.
-    Surface floor;
-    AddBox(floor, { 1.0, 1.0, 0.1 }, { 2.5, 2.0, 0.9 }, 0.4, false);
-    floor.AddGrid({ 0, 0, 0 }, { 4, 0, 0 }, { 0, 3, 0 }, 8, 6);
-    data = floor.Get();
-  }
-  AddArray(data, "Reflectance", { reflectance });
-  AddArray(data, "Emission", { 0.0 })->SetValue(open ? 3 : lamp, 1.0);
-  return data;
-}
-
-//------------------------------------------------------------------------------
-/// sqrt(sum A (B - R)^2 / sum A (R - E)^2)
-double Compare(vtkPolyData* data, const Vector& found, const Vector& right)
-{
-  const Vector areas = ToVector(GetAreas(data));
-  const Vector emission = ToVector(GetValues(data->GetCellData()->GetArray("Emission")));
-  return std::sqrt(
-    areas.dot((found - right).cwiseAbs2()) / areas.dot((right - emission).cwiseAbs2()));
-}
-
 //------------------------------------------------------------------------------
 /// The accuracy is reached, and it is true.
 void TestAccuracy()
@@ -107,8 +29,12 @@ void TestAccuracy()
       Check(reached > 0.0 && reached <= accuracy, what);
       Check(error < 2.0 * reached && error > 0.3 * reached, what);
       Check(GetText(run.Filter->GetPolyDataOutput(), "LinkMethodUsed") == "Sampled", "method");
-      Check(run.GetNumber("ExactRows") >= 1.0 && run.GetNumber("RaysPerPatch") >= 64.0,
-        "the lamp's row is exact");
+      const auto patches = static_cast<double>(right.size());
+      Check(run.GetNumber("ExactRows") >= 1.0 ||
+          run.GetNumber("RaysCast") > patches * run.GetNumber("RaysPerPatch"),
+        "the lamp's row is exact, or it casts more rays than others");
+      Check(run.GetNumber("RaysPerPatch") < (accuracy > 0.05 ? 64.0 : 1e4),
+        "few rays where little is asked for");
       Check(run.Messages.empty(), "no messages: " + run.Messages);
     }
   }
@@ -168,9 +94,6 @@ void TestErrors()
   Check(one > 0.5 * patches && one < 0.85 * patches,
     "within one: " + std::to_string(one / patches));
   Check(two > 0.85 * patches, "within two: " + std::to_string(two / patches));
-  const Solved dense(scene, Dense, [](vtkRadiosity* filter) { filter->ComputeErrorsOn(); });
-  Check(dense.Messages.find("Only sampled links know standard errors") != std::string::npos,
-    "a matrix has none: " + dense.Messages);
 }
 
 //------------------------------------------------------------------------------

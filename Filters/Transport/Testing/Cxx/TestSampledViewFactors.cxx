@@ -6,11 +6,14 @@
 #include "RanksInThreads.h"
 #include "Scene/PatchScene.h"
 #include "ViewFactorTesting.h"
+#include "ViewFactors/RaySamples.h"
+#include "ViewFactors/SampledViewFactors.h"
 #include "ViewFactors/ViewFactorStore.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <mutex>
 
 using namespace LightTransport;
@@ -253,16 +256,22 @@ void TestThreads()
 }
 
 //------------------------------------------------------------------------------
-/// Each rank casts the rays of a range of patches; their links add up to those of one.
-void TestRanks()
+/// Each rank casts the rays of a range of patches; their links add up to those of one. Where some
+/// are bright, too.
+void TestRanks(bool areBright)
 {
   auto data = MakeBoxes(false, 0.0).Get();
-  const ViewFactorSettings settings{ 1e-3, false, LinkMethod::Sampled, 5e-2 };
+  ViewFactorSettings settings{ 1e-3, false, LinkMethod::Sampled, 5e-2 };
   PatchScene scene;
   CheckDone(scene.Build(data, Ranks()), "scene");
+  const vtkIdType patches = scene.GetNumberOfPatches();
+  if (areBright)
+  {
+    settings.Plan.Rays = { 64, std::vector<unsigned char>(patches, 0) };
+    settings.Plan.Rays.Doublings[1] = 4;
+  }
   ViewFactorStore whole;
   CheckDone(whole.Update(scene, settings, {}, Ranks(), Monitor()), "links");
-  const vtkIdType patches = scene.GetNumberOfPatches();
   std::vector<double> sums(patches * patches, 0.0);
   std::mutex mutex;
   RunRanks(3,
@@ -291,6 +300,96 @@ void TestRanks()
   }
   Check(worst < 1e-7, "links of three ranks, off by " + std::to_string(worst));
 }
+
+//------------------------------------------------------------------------------
+Links LinkBy(const SamplingPlan& plan, const PatchScene& scene,
+  const std::shared_ptr<RaySamples>& samples)
+{
+  Links links;
+  CheckDone(SampledViewFactors(plan, samples).Build(scene, Ranks(), Monitor(), links), "links");
+  return links;
+}
+
+//------------------------------------------------------------------------------
+bool AreSame(const Links& a, const Links& b)
+{
+  return a.Hierarchy->GetColumns() == b.Hierarchy->GetColumns() &&
+    a.Hierarchy->GetValues() == b.Hierarchy->GetValues() &&
+    a.Hierarchy->GetWeights() == b.Hierarchy->GetWeights() && a.RowSums == b.RowSums &&
+    a.SkyFractions == b.SkyFractions;
+}
+
+//------------------------------------------------------------------------------
+/// How far the rows of some patches are from others, relative to the length of these.
+double CompareRows(const Links& a, const Links& b, const std::vector<vtkIdType>& rows)
+{
+  double squares = 0.0, whole = 0.0;
+  for (const vtkIdType row : rows)
+  {
+    for (vtkIdType other = 0; other < a.Hierarchy->GetNumberOfPatches(); ++other)
+    {
+      const double right = b.Hierarchy->GetValue(row, other);
+      squares += std::pow(a.Hierarchy->GetValue(row, other) - right, 2);
+      whole += right * right;
+    }
+  }
+  return std::sqrt(squares / whole);
+}
+
+//------------------------------------------------------------------------------
+/// Patches that cast more rays than others: rows sum to 1 and are symmetric, the links are better
+/// known and the same bits whether rays are cast at once or step by step, by any number of threads.
+void TestBrightPatches()
+{
+  Surface yard;
+  yard.AddGrid({ 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, 8, 8);
+  AddBox(yard, { 1, 1, 0.1 }, { 2, 2, 1.4 }, 0.5, false);
+  for (const auto& data : { MakeBoxes(false, 0.0).Get(), yard.Get() })
+  {
+    PatchScene scene;
+    CheckDone(scene.Build(data, Ranks()), "scene");
+    const vtkIdType patches = scene.GetNumberOfPatches();
+    SamplingPlan few, bright, more, many;
+    few.Rays = { 16, {} };
+    bright.Rays = { 16, std::vector<unsigned char>(patches, 0) };
+    const std::vector<vtkIdType> rows = { 3, patches / 2 };
+    for (const vtkIdType row : rows)
+    {
+      bright.Rays.Doublings[row] = row == 3 ? 6 : 7;
+    }
+    more.Rays = { 48, bright.Rays.Doublings };
+    many.Rays = { 16384, {} };
+
+    const auto samples = std::make_shared<RaySamples>();
+    const Links known = LinkBy(many, scene, std::make_shared<RaySamples>());
+    const Links first = LinkBy(few, scene, samples);
+    const Links second = LinkBy(bright, scene, samples);
+    const Links third = LinkBy(more, scene, samples);
+    Check(AreSame(third, LinkBy(more, scene, std::make_shared<RaySamples>())), "step by step");
+    Check(AreSame(second, LinkBy(bright, scene, samples)), "of what there is");
+    vtkSMPTools::LocalScope(vtkSMPTools::Config(5, "STDThread", false),
+      [&]()
+      {
+        Check(AreSame(third, LinkBy(more, scene, std::make_shared<RaySamples>())),
+          "any number of threads");
+      });
+
+    const double before = CompareRows(first, known, rows);
+    const double after = CompareRows(second, known, rows);
+    Check(after < 0.3 * before,
+      "more rays know more: " + std::to_string(before) + " " + std::to_string(after));
+    for (vtkIdType i = 0; i < patches; ++i)
+    {
+      CheckClose(second.RowSums[i] + second.SkyFractions[i] + second.BackFaceFractions[i], 1.0,
+        1e-11, "a row's sum");
+      for (vtkIdType j = 0; j < i; ++j)
+      {
+        const double here = second.Hierarchy->GetValue(i, j);
+        CheckClose(second.Hierarchy->GetValue(j, i), here, 1e-15, "symmetric");
+      }
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -303,6 +402,8 @@ int TestSampledViewFactors(int, char*[])
   TestSharedWall();
   TestErrors();
   TestThreads();
-  TestRanks();
+  TestRanks(false);
+  TestRanks(true);
+  TestBrightPatches();
   return Result();
 }

@@ -54,7 +54,8 @@ Vector GetPoint(const PatchScene& scene, vtkIdType patch, Random& random)
 }
 
 //------------------------------------------------------------------------------
-// The walls that some segments between two patches cross.
+// The walls that some segments between two patches cross; of bodies that the first one is outside
+// of those that face it.
 std::set<vtkIdType> GetCrossed(const PatchScene& scene, const OccluderWalls& walls, vtkIdType i,
   vtkIdType j, int count, Random& random)
 {
@@ -70,7 +71,10 @@ std::set<vtkIdType> GetCrossed(const PatchScene& scene, const OccluderWalls& wal
     }
     for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
     {
-      if (patch != i && patch != j && Crosses(scene, patch, from, to))
+      const bool isBack = walls.GetBodies().IsOutside(i) &&
+        walls.GetBodies().GetBody(walls.GetWall(patch)) >= 0 &&
+        (from - scene.GetCentroid(patch)).dot(scene.GetNormal(patch)) < 0.0;
+      if (patch != i && patch != j && !isBack && Crosses(scene, patch, from, to))
       {
         crossed.insert(walls.GetWall(patch));
       }
@@ -112,13 +116,17 @@ void CheckDescent(const PatchScene& scene, const ShaftCuller& culler, vtkIdType 
   int nodeI = 0;
   int nodeJ = 0;
   ShaftCuller::Candidates list, direct, next;
+  ShaftCuller::SideCache sides;
   culler.Find(nodeI, nodeJ, list);
+  culler.KeepParting(nodeI, nodeJ, sides, list);
   while (!scene.GetTree().GetNode(nodeI).IsLeaf() || !scene.GetTree().GetNode(nodeJ).IsLeaf())
   {
     nodeI = getChild(nodeI, i);
     nodeJ = getChild(nodeJ, j);
     culler.Narrow(nodeI, nodeJ, list, next);
+    culler.KeepParting(nodeI, nodeJ, sides, next);
     culler.Find(nodeI, nodeJ, direct);
+    culler.KeepParting(nodeI, nodeJ, sides, direct);
     Walls narrowed = next.Walls;
     std::sort(narrowed.begin(), narrowed.end());
     std::sort(direct.Walls.begin(), direct.Walls.end());
@@ -336,8 +344,8 @@ void TestHiding()
   const auto hides = [&](vtkIdType polygon, const Corners& from, const Corners& to, bool strictly)
   {
     OccluderWalls::End ends[2];
-    ends[0].Set(from);
-    ends[1].Set(to);
+    ends[0].Set(from, true);
+    ends[1].Set(to, true);
     return walls.HidesAll(getWall(polygon), ends[0], ends[1], strictly);
   };
   Check(hides(2, a, b, true), "a screen as large as the plates hides them");
@@ -351,6 +359,104 @@ void TestHiding()
   Check(!hides(2, a, touching, true), "it is on the plane in part");
   Check(hides(2, a, touching, false), "but behind it all the same");
 }
+
+//------------------------------------------------------------------------------
+// A cube from outside, without some of its faces (5 x 5 squares each, the floor first), shifted.
+std::vector<Corners> MakeCube(const std::vector<int>& without, const Vector& shift = Vector::Zero())
+{
+  const std::vector<Corners> room = Flip(GetPolygons(MakeRoom(5)));
+  std::vector<Corners> cube;
+  for (std::size_t k = 0; k < room.size(); ++k)
+  {
+    if (std::count(without.begin(), without.end(), static_cast<int>(k / 25)) == 0)
+    {
+      cube.push_back(room[k]);
+    }
+  }
+  return Transform(cube, Eigen::Matrix3d::Identity(), shift);
+}
+
+//------------------------------------------------------------------------------
+// How many convex bodies there are, and how many of the patches are not outside.
+void CheckBodies(const std::vector<Corners>& polygons, int bodies, int inside,
+  const std::string& what)
+{
+  PatchScene scene;
+  BuildScene(polygons, scene);
+  const OccluderWalls walls(scene);
+  CheckClose(walls.GetBodies().GetNumberOfBodies(), bodies, 0.0, what + ": bodies");
+  int count = 0;
+  for (vtkIdType patch = 0; patch < scene.GetNumberOfPatches(); ++patch)
+  {
+    count += walls.GetBodies().IsOutside(patch) ? 0 : 1;
+  }
+  CheckClose(count, inside, 0.0, what + ": patches that are not outside");
+}
+
+//------------------------------------------------------------------------------
+void TestBodies()
+{
+  Random random(15);
+  const std::vector<Corners> cube = MakeCube({});
+  const std::vector<Corners> house = MakeCube({ 0 });
+  const std::vector<Corners> ground = MakeCube({ 1, 2, 3, 4, 5 }, { 1, 0, 0 });
+  CheckBodies(cube, 1, 0, "a cube");
+  CheckBodies(Transform(cube, 20.0 * random.Rotation(), { 6e6, -1e6, 50 }), 1, 0,
+    "a turned cube on a map");
+  CheckBodies(MakeSphere(2.0, 2, false), 1, 0, "a sphere");
+  CheckBodies(Flip(cube), 0, 0, "a room");
+  CheckBodies(MakeCube({ 0, 1 }), 0, 0, "a cube without two faces");
+  CheckBodies(house, 1, 0, "a house");
+  CheckBodies(Join(house, Flip(ground)), 1, 0, "a house on the ground");
+  const Corners under{ { 0, 0, -1 }, { 1, 0, -1 }, { 0, 1, -1 } };
+  CheckBodies(Join(house, { under }), 0, 0, "something is under it");
+  CheckBodies(Join(house, Flip(house)), 0, 0, "both sides of a house");
+  CheckBodies({ under, Corners(under.rbegin(), under.rend()) }, 0, 0, "both sides of a sheet");
+  CheckBodies(Join(cube, MakeCube({}, { 0.5, 0.3, 0.4 })), 2, 2 * (12 + 9 + 12),
+    "two cubes that pass through each other");
+  const Corners within{ { 0.4, 0.4, 0.5 }, { 0.6, 0.4, 0.5 }, { 0.4, 0.6, 0.5 } };
+  CheckBodies(Join(cube, { within }), 1, 1, "something within");
+}
+
+//------------------------------------------------------------------------------
+// Of what is beside an edge of a cube no wall of it hides all that is beside the edge across from
+// it, but the whole cube does.
+void TestHidingBodies()
+{
+  const Corners left{ { -1, 1.9, 0.45 }, { -0.95, 2.05, 0.5 }, { -1, 1.9, 0.55 } };
+  const Corners right{ { 1.9, -1, 0.45 }, { 1.9, -1, 0.55 }, { 2.05, -0.95, 0.5 } };
+  PatchScene scene;
+  BuildScene(Join({ left, right }, MakeCube({})), scene);
+  const OccluderWalls walls(scene);
+  std::vector<vtkIdType> all(walls.GetNumberOfPatches());
+  for (std::size_t k = 0; k < all.size(); ++k)
+  {
+    all[k] = static_cast<vtkIdType>(k);
+  }
+  const auto hides = [&](const Corners& from, const Corners& to, bool isOutside)
+  {
+    OccluderWalls::End ends[2];
+    ends[0].Set(from, isOutside);
+    ends[1].Set(to, isOutside);
+    return walls.FindHiding(
+             all, [](vtkIdType wall) { return wall; }, ends[0], ends[1], false) >= 0;
+  };
+  const Corners a = GetCorners(scene, scene.GetPatch(0));
+  const Corners b = GetCorners(scene, scene.GetPatch(1));
+  Check(hides(a, b, true), "a cube hides what none of its walls hides");
+  Check(!hides(a, b, false), "but nothing where both ends may be inside");
+  Corners beside = b;
+  beside[0] += Vector(0, 0, 10);
+  Check(!hides(a, beside, true), "a corner is seen past it");
+  const ShaftCuller culler(scene);
+  std::vector<ShaftCuller::Occluder> found;
+  culler.FindBetween(scene.GetPatch(0), scene.GetPatch(1), found);
+  Check(!found.empty() &&
+      std::all_of(found.begin(), found.end(),
+        [&](const ShaftCuller::Occluder& occluder)
+        { return walls.GetPlane(occluder.Wall).GetHeight(a[0]) > 0.0; }),
+    "of a body the walls are enough that face the first patch");
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -358,6 +464,8 @@ int TestShaftCuller(int, char*[])
 {
   TestWalls();
   TestHiding();
+  TestBodies();
+  TestHidingBodies();
   TestScenes();
   TestConvexScenes();
   return Result();
