@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the vtkLightTransport authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// vtkCompositePolyDataMapper2 is deprecated in VTK 9.3, and there until then: whoever has one sees its
-// blocks as they are.
+// vtkCompositePolyDataMapper2 is deprecated in VTK 9.3, and there until then: whoever has one sees
+// its blocks as they are.
 #define VTK_DEPRECATION_LEVEL 0
 #include "Passes/BlockSurfaces.h"
 
