@@ -171,6 +171,7 @@ private:
   std::vector<double> Irradiance; // patches x bands
   std::vector<double> LastChange; // of the radiosity, after the product that gave it
   bool IsSolved = false;          // while linking
+  bool LinksAreNew = false;       // made in this run
   SolutionErrors Errors;
   std::string DeviceUsed;
   std::string DeviceExplanation;
@@ -379,7 +380,9 @@ Outcome vtkRadiosity::Run::UpdateLinks(double linkTolerance, const SamplingPlan&
   this->Links = &store.GetLinks();
   const Outcome updated = store.Update(this->Scene, given ? given->GetSettings() : own,
     needsAll ? std::vector<bool>() : this->Materials.FindSenders(), this->AllRanks, monitor);
-  this->Owner->NumberOfLinkRuns += updated && store.WereMade() ? 1 : 0;
+  const bool wereMade = updated && store.WereMade();
+  this->Owner->NumberOfLinkRuns += wereMade ? 1 : 0;
+  this->LinksAreNew = this->LinksAreNew || wereMade;
   return updated;
 }
 
@@ -524,11 +527,14 @@ Outcome vtkRadiosity::Run::Compute()
 
 //------------------------------------------------------------------------------
 // Where nobody has asked for errors no solution is given up for want of memory for them. Rows are
-// checked in the order of space.
+// checked in the order of space. Of a matrix that is kept, or given, errors take longer than the
+// solution.
 Outcome vtkRadiosity::Run::TellErrors(const Monitor& monitor)
 {
   const bool isSampled = this->Links->IsSampled();
-  if (!isSampled && this->Scene.GetOrder() != PatchScene::Order::Spatial)
+  const bool isCheap = isSampled || this->IsHierarchical() || this->LinksAreNew;
+  if ((!isSampled && this->Scene.GetOrder() != PatchScene::Order::Spatial) ||
+    (!isCheap && !this->Owner->ComputeErrors))
   {
     return Outcome::Done();
   }

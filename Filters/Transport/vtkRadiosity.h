@@ -219,9 +219,8 @@ public:
    *
    * Hierarchical links keep it for a radiosity that is the same everywhere, or with
    * RefineByBrightness for one like that of a coarse solution, lamps included. What the light that
-   * there is makes of it is LinkError in the field data: the error of B as Accuracy has it, by a
-   * check of some 96 patches (rays, and the exact exchange with the brightest). It tells the true
-   * error to a factor of 1.3 (measured), but misses it by more where a few patches of thousands
+   * there is makes of it is LinkError in the field data, the error of B as Accuracy has it (and
+   * AccuracyReached, which says how it is found); it misses it where a few patches of thousands
    * have most of it. A warning tells where it is more than 1.2 times the tolerance: for a small
    * lamp it is, by 2 to 7 times.
    */
@@ -240,7 +239,9 @@ public:
    * Sampled links get as many rays, more of bright patches, and exact rows of as many of the
    * brightest, as keep it in the least time, by one standard error of their own (a warning tells
    * where memory or the most rays did not reach it). Other links take it as their tolerance where
-   * that is 0. AccuracyReached in the field data tells what came out, whatever the links are.
+   * that is 0. AccuracyReached in the field data tells what came out, whatever the links are; of a
+   * matrix that this filter has not made in the same run (kept from the last one, or given) with
+   * ComputeErrors alone, since that takes longer than the solution.
    */
   vtkSetClampMacro(Accuracy, double, 1e-5, 1.0);
   vtkGetMacro(Accuracy, double);

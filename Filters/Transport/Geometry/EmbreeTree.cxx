@@ -14,8 +14,10 @@ namespace LightTransport
 {
 namespace
 {
-// The stack of a thread, at most.
+// The stack of a thread, at most, and what Embree and TBB take for themselves, generously: refused
+// memory in the midst of their work ends the process, or leaves it waiting for ever.
 constexpr double StackBytes = 8388608.0;
+constexpr double OwnBytes = 67108864.0;
 
 //------------------------------------------------------------------------------
 // Embree starts threads of TBB with the first tree of a process, whether it needs them or not, and
@@ -24,7 +26,8 @@ bool HasRoomForThreads()
 {
   static std::atomic<bool> areThere{ false };
   areThere = areThere ||
-    TransportMemory::IsWithinLimits(StackBytes * std::max(2u, std::thread::hardware_concurrency()));
+    TransportMemory::IsWithinLimits(
+      OwnBytes + StackBytes * std::max(2u, std::thread::hardware_concurrency()));
   return areThere;
 }
 
