@@ -60,7 +60,9 @@ void TestTruth()
         const Vector found = run.Get("Radiosity");
         const double error = Compare(scene, found, right);
         const double told = run.GetNumber("AccuracyReached");
-        Check(error < 2.0 * told && error > 0.5 * told,
+        // Less than this neither the reference tells, nor single precision.
+        const bool isNone = error < 1e-5 && told < 1e-5;
+        Check(isNone || (error < 2.0 * told && error > 0.5 * told),
           std::string(open ? "open, " : "closed, ") + (even ? "even, " : "lamp, ") +
             (links.Method == Dense ? "matrix " : "clusters ") + std::to_string(links.Tolerance) +
             ": said " + std::to_string(told) + ", is " + std::to_string(error));
