@@ -180,8 +180,8 @@ def main():
         good = ((ratio > 0.5) & (ratio < 2)).mean()
         one, two = np.mean(within[setting], axis=0)
         low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
-        print(f"| {setting} | {len(ratio)} | {100 * good:.0f} % | {low:.2f}, {middle:.2f}, {high:.2f} "
-              f"| {100 * one:.0f} %, {100 * two:.0f} % | {sum(seconds[setting]):.1f} |")
+        print(f"| {setting} | {len(ratio)} | {100 * good:.0f} % | {low:.2f}, {middle:.2f}, "
+              f"{high:.2f} | {100 * one:.0f} %, {100 * two:.0f} % | {sum(seconds[setting]):.1f} |")
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ private:
   LinkCache Cache;
   std::shared_ptr<RaySamples> Samples; ///< of sampled links, which may want more of them
   CheckedRows Checked;
-  std::shared_ptr<PairLooks> Looks;    ///< likewise of links between clusters
+  std::shared_ptr<PairLooks> Looks; ///< likewise of links between clusters
   ///@{ How they were made.
   SamplingPlan Plan;
   double PlanTolerance = 0.0;
