@@ -110,7 +110,7 @@ struct Picture
     this->Actor->GetProperty()->SetDiffuse(0.0);
     this->Actor->GetProperty()->SetAmbient(0.0);
     this->Renderer->AddActor(this->Actor);
-    this->SetSurface(this->Actor, surface);
+    Picture::SetSurface(this->Actor, surface);
     this->SetMedium(medium);
     this->Light->SetLightTypeToSceneLight();
     this->Renderer->AddLight(this->Light);
