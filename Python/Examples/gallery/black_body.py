@@ -23,7 +23,7 @@ inside.Update()
 
 # The job itself; the world outside is cold.
 result = lt.radiosity(inside.GetOutput(), temperature=TEMPERATURE, emissivity=EMISSIVITY,
-                      background_temperature=1.0)
+                      background_temperature=1.0, accuracy=1e-3)
 
 # In a sphere every patch sees every other alike: B = eps sigma T^4 / (1 - (1 - eps) F).
 black = 5.670374419e-8 * TEMPERATURE ** 4

@@ -30,7 +30,8 @@ wall = inside.GetOutput()
 spot = get_points(wall)[get_triangle_corners(wall)][:, :, 2].max(axis=1) < -0.0985
 areas = get_areas(wall)
 beam = numpy.where(spot, FLUX / areas[spot].sum(), 0.0)
-result = lt.radiosity(wall, emission=0.0, reflectance=REFLECTANCE, direct_irradiance=beam)
+result = lt.radiosity(wall, emission=0.0, reflectance=REFLECTANCE, direct_irradiance=beam,
+                      accuracy=1e-3)
 
 # Theory of the sphere (Goebel 1967): a multiplier on the first reflection, the same everywhere.
 light = get_cell_array(result, "Irradiance")
