@@ -5,32 +5,12 @@
 #include "Shared/Pulse.h"
 #include "Shared/TransportMemory.h"
 
-#include <algorithm>
-#include <atomic>
 #include <string>
-#include <thread>
 
 namespace LightTransport
 {
 namespace
 {
-// The stack of a thread, at most, and what Embree and TBB take for themselves, generously: refused
-// memory in the midst of their work ends the process, or leaves it waiting for ever.
-constexpr double StackBytes = 8388608.0;
-constexpr double OwnBytes = 67108864.0;
-
-//------------------------------------------------------------------------------
-// Embree starts threads of TBB with the first tree of a process, whether it needs them or not, and
-// they end the process where there is no room for their stacks.
-bool HasRoomForThreads()
-{
-  static std::atomic<bool> areThere{ false };
-  areThere = areThere ||
-    TransportMemory::IsWithinLimits(
-      OwnBytes + StackBytes * std::max(2u, std::thread::hardware_concurrency()));
-  return areThere;
-}
-
 //------------------------------------------------------------------------------
 // Embree asks before it takes memory, and is told at once how much it has taken or given back.
 bool HasMemory(void*, ssize_t bytes, bool isTaken)
@@ -43,10 +23,6 @@ bool HasMemory(void*, ssize_t bytes, bool isTaken)
 bool EmbreeTree::Open(bool isWatertight)
 {
   this->Close();
-  if (!HasRoomForThreads())
-  {
-    return false;
-  }
   // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree.
   this->Device = rtcNewDevice("threads=1");
   if (this->Device)
