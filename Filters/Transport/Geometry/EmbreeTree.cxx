@@ -23,8 +23,10 @@ bool HasMemory(void*, ssize_t bytes, bool isTaken)
 bool EmbreeTree::Open(bool isWatertight)
 {
   this->Close();
-  // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree.
-  this->Device = rtcNewDevice("threads=1");
+  // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree. Nothing here
+  // is tessellated: the cache for that is 128 MB at once, and where there is no room for it Embree
+  // keeps a lock, for which the next device to be released waits for ever.
+  this->Device = rtcNewDevice("threads=1,tessellation_cache_size=0");
   if (this->Device)
   {
     rtcSetDeviceMemoryMonitorFunction(this->Device, HasMemory, nullptr);
