@@ -21,7 +21,8 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource, vtkTessellatedBoxSourc
 from vtkmodules.vtkRenderingCore import vtkLight
 
 MEGABYTE = 1 << 20
-LIMITS = (0, 50, 100, 200, 500, 2000)  # megabytes beyond what is there after loading
+# Megabytes beyond what is there after loading.
+LIMITS = (0, 10, 15, 20, 30, 50, 100, 200, 500, 2000)
 CELLS = 1  # of the kinds of elements of vtkDataObject
 ZIP = lt.vtkOpenEXRWriter.COMPRESSION_ZIP
 DWAB = lt.vtkOpenEXRWriter.COMPRESSION_DWAB

@@ -5,12 +5,31 @@
 #include "Shared/Pulse.h"
 #include "Shared/TransportMemory.h"
 
+#include <algorithm>
+#include <atomic>
 #include <string>
+#include <thread>
 
 namespace LightTransport
 {
 namespace
 {
+// The stack of a thread, and what Embree takes for its device.
+constexpr double StackBytes = 8388608.0;
+constexpr double DeviceBytes = 8388608.0;
+
+//------------------------------------------------------------------------------
+// Embree starts threads of TBB with the first tree of a process, whether it needs them or not, and
+// they end the process where there is no room for their stacks.
+bool HasRoomForThreads()
+{
+  static std::atomic<bool> areThere{ false };
+  areThere = areThere ||
+    TransportMemory::IsWithinLimits(
+      DeviceBytes + StackBytes * std::max(2u, std::thread::hardware_concurrency()));
+  return areThere;
+}
+
 //------------------------------------------------------------------------------
 // Embree asks before it takes memory, and is told at once how much it has taken or given back.
 bool HasMemory(void*, ssize_t bytes, bool isTaken)
@@ -23,6 +42,10 @@ bool HasMemory(void*, ssize_t bytes, bool isTaken)
 bool EmbreeTree::Open(bool isWatertight)
 {
   this->Close();
+  if (!HasRoomForThreads())
+  {
+    return false;
+  }
   // Rays come from the threads of vtkSMPTools; Embree's own would only build the tree. Nothing here
   // is tessellated: the cache for that is 128 MB at once, and where there is no room for it Embree
   // keeps a lock, for which the next device to be released waits for ever.
